@@ -58,10 +58,10 @@ impl GrowthLaw {
     #[must_use]
     pub fn singularity(&self) -> Option<Singularity> {
         let points = &self.points[..self.count];
-        let exponents = points.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[0].0 - pair[1].0));
+        let mut exponents = points.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[0].0 - pair[1].0));
         let extremes = |(low, high): (f64, f64), q: f64| (low.min(q), high.max(q));
         let (low, high) = exponents.clone().fold((f64::INFINITY, 0.0), extremes);
-        let exponent = exponents.last()?;
+        let exponent = exponents.next_back()?;
         let t = extrapolate_to_zero(points);
         let lawful = high - low <= APART * high;
         (lawful && (0.05..20.0).contains(&exponent) && t.is_finite()).then_some(Singularity { t, exponent })

@@ -151,7 +151,7 @@ fn summary(plan: &Plan, verdict: &Verdict) -> anyhow::Result<String> {
         ("period", verdict.period, "model time"),
         ("net rotation", verdict.net_rotation, "rad per period"),
         ("drift", verdict.drift, "model length per period"),
-        ("escape", verdict.escape_time, "model time t*"),
+        ("escape", verdict.escape_time, "model time"),
     ];
     for (name, value, unit) in numbers {
         if let Some(value) = value {
