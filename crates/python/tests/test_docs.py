@@ -27,7 +27,7 @@ def test_the_python_of_a_page_runs(name: str, tmp_path: Path, monkeypatch: pytes
         pytest.importorskip(module)
     monkeypatch.chdir(tmp_path)
     found = blocks(ROOT / name)
-    assert found
+    assert len(found) >= (1 if name == "README.md" else 3)
     names: dict[str, object] = {"__name__": "__main__"}
     for line, text in found:
         exec(compile("\n" * line + text, str(ROOT / name), "exec"), names)
