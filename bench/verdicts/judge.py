@@ -113,7 +113,8 @@ def seen_after(period):
         return "at rest"
     if period["across"] < 1e-6:
         return "fixed heading"
-    if abs(period["turn"]) > TURNED:
+    # a rotation is seen up to the distance by which the shape misses its return: near a saddle the two programs' periods differ
+    if abs(period["turn"]) > max(TURNED, period["whole"] / period["diameter"]):
         return "turns"
     return "mirrored" if period["half_mirrored"] < CLOSES * period["diameter"] else "no net rotation"
 

@@ -59,7 +59,8 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
             (6, true) => Self::lift_exactly::<6, K>(u, du, eval),
             (8, true) => Self::lift_exactly::<8, K>(u, du, eval),
             (..=8, _) => self.lift_on_stack::<8, K>(u, du, eval),
-            (9..=48, _) => self.lift_on_stack::<48, K>(u, du, eval),
+            (9..=16, _) => self.lift_on_stack::<16, K>(u, du, eval),
+            (17..=48, _) => self.lift_on_stack::<48, K>(u, du, eval),
             (49..=256, _) => self.lift_on_stack::<256, K>(u, du, eval),
             (dim, _) => {
                 let mut room = vec![Dual::constant_of(0.0); 2 * dim];
@@ -98,7 +99,9 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
         du: &mut [f64],
         eval: impl Fn(&[Dual<f64, K>], &mut [Dual<f64, K>]),
     ) {
-        let (mut lifted, mut rates) = ([Dual::constant_of(0.0); N], [Dual::constant_of(0.0); N]);
+        // two statements: a pair would be built elsewhere and copied
+        let mut lifted = [Dual::constant_of(0.0); N];
+        let mut rates = [Dual::constant_of(0.0); N];
         let dim = self.field.dim();
         self.lift_in(&mut lifted[..dim], &mut rates[..dim], u, du, eval);
     }
