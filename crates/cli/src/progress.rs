@@ -1,22 +1,27 @@
-//! A progress bar with rate and remaining time for work that takes longer than two seconds, and Ctrl-C.
+//! Progress of work that takes longer than some seconds, and Ctrl-C: a bar with rate and remaining time on a terminal, else a line now and then.
 
 use crate::interrupt::interrupted;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use motiform_dynamics::Watch;
-use std::io::Write;
-use std::sync::Arc;
+use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Nothing is drawn before this: short runs show no progress bar.
 const QUIET: Duration = Duration::from_secs(2);
 
-/// Shows progress on a terminal and handles Ctrl-C.
+/// Time between two lines, where standard error is no terminal.
+const BETWEEN: Duration = Duration::from_secs(10);
+
+/// Shows progress and handles Ctrl-C.
 pub(crate) struct Progress {
     bar: ProgressBar,
     started: Instant,
     /// The total work.
     total: f64,
+    /// When the next line is due, where standard error is no terminal.
+    next: Option<Mutex<Instant>>,
     /// Whether Ctrl-C was pressed.
     stopped: Arc<AtomicBool>,
 }
@@ -37,7 +42,20 @@ impl Progress {
             };
         };
         bar.set_style(style.with_key("rate", rate));
-        Self { bar, started: Instant::now(), total, stopped: interrupted() }
+        let started = Instant::now();
+        let next = (!std::io::stderr().is_terminal()).then(|| Mutex::new(started + BETWEEN));
+        Self { bar, started, total, next, stopped: interrupted() }
+    }
+
+    /// Writes how far the work is, if a line is due.
+    fn line(&self, next: &Mutex<Instant>, done: f64) {
+        let Ok(mut next) = next.try_lock() else { return }; // another thread writes it
+        if Instant::now() < *next {
+            return;
+        }
+        *next = Instant::now() + BETWEEN;
+        // Nothing is lost if nobody listens.
+        let _ = writeln!(std::io::stderr(), "{}", spoken(done, self.started.elapsed().as_secs_f64()));
     }
 
     /// Removes the bar.
@@ -46,10 +64,19 @@ impl Progress {
     }
 }
 
+/// How far the work is after some seconds: `34.2 % done after 12 s, about 23 s left`.
+fn spoken(done: f64, spent: f64) -> String {
+    let line = format!("{:.1} % done after {spent:.0} s", 100.0 * done);
+    if done > 0.0 { format!("{line}, about {:.0} s left", spent * (1.0 / done - 1.0)) } else { line }
+}
+
 impl Watch for Progress {
     fn progress(&self, done: f64) {
         if self.bar.is_hidden() && self.started.elapsed() > QUIET {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        if let Some(next) = &self.next {
+            self.line(next, done);
         }
         // Never back: threads may report out of order.
         let done = (done * self.total) as u64;
@@ -68,5 +95,17 @@ impl Watch for Progress {
 
     fn stopped(&self) -> bool {
         self.stopped.load(Ordering::Relaxed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spoken;
+
+    #[test]
+    fn a_line_says_what_is_done_and_what_is_left() {
+        assert_eq!(spoken(0.25, 12.0), "25.0 % done after 12 s, about 36 s left");
+        assert_eq!(spoken(0.0, 12.0), "0.0 % done after 12 s");
+        assert_eq!(spoken(1.0, 12.0), "100.0 % done after 12 s, about 0 s left");
     }
 }

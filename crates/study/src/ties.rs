@@ -95,6 +95,23 @@ impl Ties {
         }
     }
 
+    /// The ties that say 0 = 0: each with its expression and the first parameter in it, all of which are 0 and none of which is varied.
+    #[must_use]
+    pub fn idle(&self, specs: &[ParameterSpec], values: &[f64], varied: &[&str]) -> Vec<[String; 3]> {
+        let names = names(specs);
+        let first = |text: &str| {
+            let formula = Formula::parse(text, &names).ok()?;
+            let is_idle = |&place: &usize| values[place] == 0.0 && !varied.contains(&specs[place].name);
+            let used = formula.uses();
+            let idle = formula.value(values) == 0.0 && used.iter().all(is_idle);
+            used.first().filter(|_| idle).map(|&place| specs[place].name.to_owned())
+        };
+        let all = self
+            .iter()
+            .filter_map(|(name, formula)| Some([name.to_owned(), formula.to_owned(), first(formula)?]));
+        all.collect()
+    }
+
     /// Rejects a tied parameter among those that are varied.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! `motiform atlas`.
 
 use crate::args::AtlasOptions;
+use crate::commands::remarks::ties;
 use crate::commands::subject;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
@@ -82,6 +83,8 @@ fn study(options: &AtlasOptions) -> Result<Study, Error> {
     study.scan.budget = options.budget.unwrap_or(study.scan.budget);
     study.random = options.random.or(study.random);
     study.run.seed = options.seed.unwrap_or(study.run.seed);
+    let plane = if study.scan.axes.is_empty() { &study.display.plane } else { &study.scan.axes };
+    ties(&study, &plane.iter().map(|axis| axis.name.as_str()).collect::<Vec<_>>())?;
     Ok(study.perturbed()?.0)
 }
 

@@ -1,6 +1,7 @@
 //! `motiform check`.
 
 use crate::args::CheckOptions;
+use crate::commands::remarks;
 use crate::output::{End, plain, print};
 use motiform_study::{Plan, ScanPlan, Study, Ties, study};
 use std::fmt::Write;
@@ -12,6 +13,7 @@ pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
     };
     let study = Study::read(path)?;
     let plan = Plan::new(&study)?;
+    remarks::remark(&study, &[remarks::of_scan(&study), remarks::of_branches(&study)].concat())?;
     let scan = if study.scan.axes.is_empty() { None } else { Some(ScanPlan::new(&study)?) };
     let text = match (options.json, &scan) {
         (false, None) => summary(&plan, &study.ties)?,

@@ -1,6 +1,7 @@
 //! `motiform continue`.
 
 use crate::args::ContinueOptions;
+use crate::commands::remarks::{of_branches, ties};
 use crate::commands::{curves, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
@@ -60,6 +61,7 @@ fn study(options: &ContinueOptions) -> Result<(Study, Option<Given>), Error> {
         warn(&format!("{perturbation}; --perturb 0 keeps the exact start"));
     }
     follow_settings(options, &mut study.follow)?;
+    ties(&study, &of_branches(&study))?;
     Ok((study, given))
 }
 

@@ -1,6 +1,7 @@
 //! `motiform lifetimes`.
 
 use crate::args::LifetimesOptions;
+use crate::commands::remarks::{of_scan, ties};
 use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
@@ -105,6 +106,7 @@ fn plan(options: &LifetimesOptions) -> Result<ScanPlan, Error> {
     study.random = Some(options.random.or(study.random).unwrap_or(Random::basins(study.info()?)));
     study.run.seed = options.seed.unwrap_or(study.run.seed);
     study.run.rtol = options.rtol.unwrap_or(study.run.rtol);
+    ties(&study, &of_scan(&study))?;
     ScanPlan::new(&study)
 }
 

@@ -21,6 +21,7 @@ pub(crate) mod new;
 pub(crate) mod observe;
 mod pages;
 pub(crate) mod population;
+mod remarks;
 pub(crate) mod reproduce;
 pub(crate) mod scan;
 pub(crate) mod section;

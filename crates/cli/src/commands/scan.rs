@@ -1,6 +1,7 @@
 //! `motiform scan`.
 
 use crate::args::ScanOptions;
+use crate::commands::remarks::{of_scan, ties};
 use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
@@ -68,6 +69,7 @@ fn study(options: &ScanOptions) -> Result<Study, Error> {
     study.random = options.random.or(study.random);
     study.run.seed = options.seed.unwrap_or(study.run.seed);
     study.perturb = options.perturb.unwrap_or(study.perturb);
+    ties(&study, &of_scan(&study))?;
     if let Some(perturbation) = ScanPlan::perturbation(&study)? {
         warn(&format!("{perturbation}; --perturb 0 keeps the exact start"));
     }

@@ -1,6 +1,7 @@
 //! `motiform simulate`.
 
 use crate::args::{SimulateOptions, TableFormat};
+use crate::commands::remarks::remark;
 use crate::commands::{figure, film, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
@@ -82,6 +83,7 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
     run.noise_velocity = options.noise_velocity.or(run.noise_velocity);
     run.max_steps = options.max_steps.unwrap_or(run.max_steps);
     figure::apply(&options.drawing, &mut study.figure);
+    remark(&study, &[])?;
     Ok(study)
 }
 

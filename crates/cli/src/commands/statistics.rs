@@ -1,6 +1,7 @@
 //! `motiform statistics`.
 
 use crate::args::{StatisticsOptions, SubjectOptions};
+use crate::commands::remarks::remark;
 use crate::commands::subject;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
@@ -131,6 +132,7 @@ fn study(options: &StatisticsOptions) -> Result<Study, Error> {
         run.dt_out = 0.0; // that of a preset is for its own time
     }
     run.noise_velocity = options.noise_velocity.or(run.noise_velocity);
+    remark(&study, &[])?;
     Ok(study)
 }
 

@@ -1,6 +1,7 @@
 //! The subject of a command: a file or a model, a preset, then the options.
 
 use crate::args::{MethodOptions, MotionOptions, ParameterOptions, SamplesOptions, SubjectOptions};
+use crate::commands::remarks::remark;
 use crate::output::warn;
 use motiform_lab::samples::Samples;
 use motiform_models::ModelInfo;
@@ -14,6 +15,7 @@ pub(crate) fn motion(options: &MotionOptions) -> Result<Study, Error> {
     let mut study = study(&options.subject)?;
     note_noise(&mut study);
     apply(&options.method, &mut study)?;
+    remark(&study, &[])?;
     Ok(study)
 }
 

@@ -146,3 +146,16 @@ fn racing_for_a_scan() {
     let done = folder.bash(&format!("{scan} --budget 300 --resume"));
     assert!(matches!(done.code, Some(0 | 1)), "{}", done.stderr);
 }
+
+/// Stiff equations with an explicit stepper are allowed, and it is said that they take long.
+#[test]
+fn an_explicit_stepper_on_stiff_equations_is_named() {
+    let folder = Folder::new();
+    let check = |preset: &str, stepper: &str| {
+        folder.write("study.toml", &format!("preset = \"{preset}\"\n[run]\nstepper = \"{stepper}\"\n"));
+        folder.run("check study.toml").expect(0).stderr
+    };
+    let says = "the equations of cell are stiff, and dop853 is an explicit method";
+    assert!(check("fig6b", "dop853").contains(says), "{}", check("fig6b", "dop853"));
+    assert_eq!((check("fig6b", "krogstad4"), check("fig4", "dop853")), (String::new(), String::new()));
+}

@@ -94,3 +94,21 @@ fn ties_that_contradict_are_refused() {
         assert_eq!(folder.names(), [""; 0]);
     }
 }
+
+/// A tie without effect is named where nothing in it is varied, and nowhere else.
+#[test]
+fn a_tie_that_says_nothing_is_named() {
+    let folder = Folder::new();
+    let says = "the tie b3 = d3 says 0 = 0 everywhere here: d3 is 0 and is not varied";
+    let classify = |set: &str| folder.run(&format!("classify {MODEL} --tie b3=d3 --set d3={set}")).stderr;
+    assert!(classify("0").contains(says), "{}", classify("0"));
+    assert!(!classify("0.05").contains("says 0 = 0"));
+    let scan = |axis: &str| {
+        let words = format!(
+            "scan {MODEL} --set d3=0 --tie b3=d3 --axis {axis} --set kappa2=0.6 --set kappa3=0.3 --out z --force --no-figures"
+        );
+        folder.run(&words).stderr
+    };
+    assert!(scan("kappa3=0.2,0.3").contains(says));
+    assert!(!scan("d3=0.05,0.06").contains("says 0 = 0"));
+}
