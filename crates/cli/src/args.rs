@@ -230,7 +230,7 @@ pub(crate) struct ReproduceOptions {
     /// fig1, fig2, ... fig6, equations (consequences of the equations as written), models (what both models have in common); all of these if none is given. Further: extensions (the presets with equations given as text)
     #[arg(value_name = "FIGURE")]
     pub(crate) figures: Vec<String>,
-    /// Coarser scans and shorter runs, in less than a minute of CPU time; claims for which this is too little evidence are not judged
+    /// Coarser scans and shorter runs, in about a minute of CPU time; claims for which this is too little evidence are not judged
     #[arg(long)]
     pub(crate) quick: bool,
     /// Output folder; an interrupted run continues there
