@@ -113,8 +113,7 @@ def seen_after(period):
         return "at rest"
     if period["across"] < 1e-6:
         return "fixed heading"
-    # a rotation is seen up to the distance by which the shape misses its return: near a saddle the two programs' periods differ
-    if abs(period["turn"]) > max(TURNED, period["whole"] / period["diameter"]):
+    if abs(period["turn"]) > TURNED:
         return "turns"
     return "mirrored" if period["half_mirrored"] < CLOSES * period["diameter"] else "no net rotation"
 
@@ -141,6 +140,9 @@ def periodic(verdict, run):
     seen = seen_after(period)
     regime, forms = PERIODIC_NAMES[seen]
     if verdict["regime"] != regime or verdict["form"] not in forms:
+        if seen == "turns" and abs(period["turn"]) <= period["whole"] / diameter:
+            # near a saddle the periods of the two programs differ
+            return "undecided", f"turns by {period['turn']:.2g} rad, and misses its return by {period['whole'] / diameter:.2g} of its diameter"
         if shrinks(run):
             return "undecided", f"still on its way: {seen} by {period['turn']:.2g} rad and ever less"
         return "contradicted", f"{seen}, not {verdict['form']} (heading across by {period['across']:.2g}, turn {period['turn']:.6g})"

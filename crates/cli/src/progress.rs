@@ -1,4 +1,4 @@
-//! Progress of work that takes longer than some seconds, and Ctrl-C: a bar with rate and remaining time on a terminal, else a line now and then.
+//! Progress of work that takes longer than some seconds, and Ctrl-C: a bar with rate and remaining time on a terminal, else a line every ten seconds.
 
 use crate::interrupt::interrupted;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -55,7 +55,7 @@ impl Progress {
         }
         *next = Instant::now() + BETWEEN;
         // Nothing is lost if nobody listens.
-        let _ = writeln!(std::io::stderr(), "{}", spoken(done, self.started.elapsed().as_secs_f64()));
+        let _ = writeln!(std::io::stderr(), "{}", sentence(done, self.started.elapsed().as_secs_f64()));
     }
 
     /// Removes the bar.
@@ -65,7 +65,7 @@ impl Progress {
 }
 
 /// How far the work is after some seconds: `34.2 % done after 12 s, about 23 s left`.
-fn spoken(done: f64, spent: f64) -> String {
+fn sentence(done: f64, spent: f64) -> String {
     let line = format!("{:.1} % done after {spent:.0} s", 100.0 * done);
     if done > 0.0 { format!("{line}, about {:.0} s left", spent * (1.0 / done - 1.0)) } else { line }
 }
@@ -100,12 +100,12 @@ impl Watch for Progress {
 
 #[cfg(test)]
 mod tests {
-    use super::spoken;
+    use super::sentence;
 
     #[test]
     fn a_line_says_what_is_done_and_what_is_left() {
-        assert_eq!(spoken(0.25, 12.0), "25.0 % done after 12 s, about 36 s left");
-        assert_eq!(spoken(0.0, 12.0), "0.0 % done after 12 s");
-        assert_eq!(spoken(1.0, 12.0), "100.0 % done after 12 s, about 0 s left");
+        assert_eq!(sentence(0.25, 12.0), "25.0 % done after 12 s, about 36 s left");
+        assert_eq!(sentence(0.0, 12.0), "0.0 % done after 12 s");
+        assert_eq!(sentence(1.0, 12.0), "100.0 % done after 12 s, about 0 s left");
     }
 }

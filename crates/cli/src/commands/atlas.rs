@@ -18,7 +18,9 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 pub(crate) fn run(options: &AtlasOptions) -> anyhow::Result<End> {
-    let plan = AtlasPlan::new(&study(options)?, &settings(options))?;
+    let study = study(options)?;
+    let plan = AtlasPlan::new(&study, &settings(options))?;
+    ties(&study, &plan.computation.scan.axes.iter().map(|axis| axis.name.as_str()).collect::<Vec<_>>())?;
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from(default_atlas_folder(&plan)));
     let files = AtlasFolder::open(&out, &plan, Opening::of(options.resume, options.force))?;
     files.notes().iter().for_each(|note| warn(note));
@@ -83,8 +85,6 @@ fn study(options: &AtlasOptions) -> Result<Study, Error> {
     study.scan.budget = options.budget.unwrap_or(study.scan.budget);
     study.random = options.random.or(study.random);
     study.run.seed = options.seed.unwrap_or(study.run.seed);
-    let plane = if study.scan.axes.is_empty() { &study.display.plane } else { &study.scan.axes };
-    ties(&study, &plane.iter().map(|axis| axis.name.as_str()).collect::<Vec<_>>())?;
     Ok(study.perturbed()?.0)
 }
 

@@ -1,16 +1,16 @@
-//! Words on a study that is allowed, and probably not what is meant.
+//! Warnings about a study that is allowed, and probably not what is meant.
 
 use crate::output::warn;
 use motiform_dynamics::steppers::Method;
 use motiform_study::{Error, Study};
 
-/// Says what is remarkable about a study that is run with its stepper and whose parameters `varied` are varied.
+/// Warnings for a study that is run with its stepper and whose parameters `varied` are varied.
 pub(crate) fn remark(study: &Study, varied: &[&str]) -> Result<(), Error> {
     ties(study, varied)?;
-    crawls(study)
+    explicit_on_stiff(study)
 }
 
-/// Says which ties have no effect where the parameters `varied` are varied.
+/// A warning for each tie that has no effect where the parameters `varied` are varied.
 pub(crate) fn ties(study: &Study, varied: &[&str]) -> Result<(), Error> {
     let specs = study.info()?.parameters();
     for [name, formula, of] in study.ties.idle(specs, &study.values()?, varied) {
@@ -21,9 +21,8 @@ pub(crate) fn ties(study: &Study, varied: &[&str]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Says that a stepper crawls: an explicit one on equations that are stiff, with steps of its own choice (a given step is the user's, and one that is
-/// unstable is refused).
-fn crawls(study: &Study) -> Result<(), Error> {
+/// A warning for an explicit method with adaptive steps on stiff equations. (A fixed step is the user's choice, and an unstable one is refused.)
+fn explicit_on_stiff(study: &Study) -> Result<(), Error> {
     let (info, stepper) = (study.info()?, study.run.stepper.as_str());
     let is_stiff = matches!(Method::find(info.stepper), Some(Method::Exponential(_)));
     let chooses = study.run.step.is_none();
