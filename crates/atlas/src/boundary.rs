@@ -161,6 +161,7 @@ pub(crate) const fn connection_words(kind: ConnectionKind) -> &'static str {
     match kind {
         ConnectionKind::Resonant => "resonant heteroclinic connection",
         ConnectionKind::SaddleNode => "saddle-node on a circle",
+        ConnectionKind::Cycle => "heteroclinic cycle",
         _ => "homoclinic connection",
     }
 }

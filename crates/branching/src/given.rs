@@ -2,6 +2,7 @@
 
 use super::family::Bodies;
 use super::settle::{Start, settle};
+use motiform_analysis::equilibrium::Units;
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{Error as Refused, PeriodicOrbit, Regime, RelativeEquilibrium, SteadyMotion};
 use motiform_continuation::{Branch, Motion, Settings};
@@ -12,7 +13,7 @@ use motiform_study::{Error, Given};
 /// A motion that is farther from the given one than this part of its size is another one.
 const CLOSE: f64 = 0.5;
 
-/// Newton's method leaves this much of a shape that vanishes.
+/// Newton's method leaves this much of a shape that vanishes, in the unit of the equations.
 const ZERO: f64 = 1e-6;
 
 /// Parts of an orbit that are tried one after the other: one that amplifies deviations needs more.
@@ -70,7 +71,8 @@ fn with_steady(error: Error, asked: Option<Regime>) -> Error {
 fn steady(model: &dyn Model, shape: &[f64]) -> Option<RelativeEquilibrium> {
     let body: &dyn Equivariant = model;
     let found = RelativeEquilibrium::find(body, shape)?;
-    (found.distance(body, shape) <= CLOSE * norm(shape) + ZERO).then_some(found)
+    let room = CLOSE * norm(shape) + ZERO * Units::of(body).length;
+    (found.distance(body, shape) <= room).then_some(found)
 }
 
 /// Whether this kind of steady motion is asked for.

@@ -2,8 +2,9 @@
 
 use super::family::Bodies;
 use super::result::{Followed, Leg, Sample};
+use motiform_analysis::equilibrium::Units;
 use motiform_continuation::{Branch, Motion, Settings, same_motion};
-use motiform_dynamics::Watch;
+use motiform_dynamics::{Equivariant, Watch};
 
 /// Two motions are one if they agree up to this part of their size: well above what Newton's method leaves, well below the distance
 /// from a special point at which a new branch is entered.
@@ -11,6 +12,30 @@ const SAME: f64 = 1e-6;
 
 /// Periods, speeds and sizes of neighbours on a branch that differ from the motion's by more than this part are of other motions.
 const NEAR: f64 = 0.1;
+
+/// Round-off, in the unit of what is compared.
+const ROUND_OFF: f64 = 1e-12;
+
+/// What round-off is small against.
+struct Scales {
+    parameter: f64,
+    period: f64,
+    size: f64,
+    speed: f64,
+}
+
+impl Scales {
+    /// The range, the units of the equations, and the speed of shapes of that size.
+    fn of(body: &dyn Equivariant, settings: &Settings) -> Self {
+        let units = Units::of(body);
+        Self {
+            parameter: settings.range.1 - settings.range.0,
+            period: 1.0 / units.rate,
+            size: units.length,
+            speed: units.speed(body),
+        }
+    }
+}
 
 /// The branch that `sample` lies on, up to rotations, the mirror and time: the neighbours about its parameter, brought to the same value
 /// of it by Newton's method, are compared.
@@ -23,6 +48,7 @@ pub(super) fn known(
 ) -> Option<usize> {
     let parameter = sample.point.parameter;
     let body = bodies.model(parameter).ok()?;
+    let scales = Scales::of(body.as_ref(), settings);
     let is_here = |pair: &[Sample], neighbour: &Sample| {
         let between = between(pair, parameter);
         let found = moved(bodies, between.as_ref().unwrap_or(neighbour), parameter, settings, watch);
@@ -37,7 +63,7 @@ pub(super) fn known(
         let is_near = |pair: &[Sample], place: usize| {
             let likes = (0..2).filter(|i| place + i < own && is_alike(&pair[*i], sample)).map(|i| &pair[i]);
             let nearest = likes.min_by(|a, b| far(a).total_cmp(&far(b)));
-            about(pair, sample) && nearest.is_some_and(|nearest| is_here(pair, nearest))
+            about(pair, sample, &scales) && nearest.is_some_and(|nearest| is_here(pair, nearest))
         };
         leg.samples.windows(2).enumerate().any(|(place, pair)| is_near(pair, place))
     };
@@ -68,18 +94,18 @@ fn is_alike(neighbour: &Sample, sample: &Sample) -> bool {
 }
 
 /// Whether the motion may lie between two neighbours.
-fn about(pair: &[Sample], sample: &Sample) -> bool {
-    let within = |read: &dyn Fn(&Sample) -> f64, part: f64| {
+fn about(pair: &[Sample], sample: &Sample, scales: &Scales) -> bool {
+    let within = |read: &dyn Fn(&Sample) -> f64, part: f64, scale: f64| {
         let (a, b, x) = (read(&pair[0]), read(&pair[1]), read(sample));
-        let room = part * x.abs() + 1e-12;
+        let room = part * x.abs() + ROUND_OFF * scale;
         a.min(b) - room <= x && x <= a.max(b) + room
     };
     let kind = |sample: &Sample| sample.point.motion.orbit().map(|orbit| orbit.mirrored);
     kind(&pair[0]) == kind(sample)
-        && within(&|sample| sample.point.parameter, 1e-12)
-        && within(&|sample| sample.reading.period.unwrap_or(0.0), NEAR)
-        && within(&|sample| sample.reading.size, NEAR)
-        && within(&|sample| sample.reading.speed[0], NEAR)
+        && within(&|sample| sample.point.parameter, ROUND_OFF, scales.parameter)
+        && within(&|sample| sample.reading.period.unwrap_or(0.0), NEAR, scales.period)
+        && within(&|sample| sample.reading.size, NEAR, scales.size)
+        && within(&|sample| sample.reading.speed[0], NEAR, scales.speed)
 }
 
 /// A motion of a neighbouring body as one of the body at `parameter`: the first point of the branch through it.

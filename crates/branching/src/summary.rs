@@ -3,8 +3,9 @@
 use super::origin::Origin;
 use super::result::{Branches, Followed, Leg, Sample};
 use super::stretches::stretches;
+use motiform_analysis::RelativeEquilibrium;
 use motiform_continuation::{
-    Broken, Certificate, Coefficient, Connection, End, NormalForm, PeriodLaw, Point, Special,
+    Broken, Certificate, Coefficient, Connection, End, NormalForm, Passed, PeriodLaw, Point, Special,
 };
 use motiform_study::BranchPlan;
 use serde::Serialize;
@@ -13,7 +14,7 @@ use serde_json::{Map, Value, json};
 /// A place where a branch changes or ends.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpecialEntry {
-    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, or the end `homoclinic`.
+    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, or the ends `homoclinic` and `heteroclinic`.
     pub kind: &'static str,
     /// The value of the parameter.
     pub parameter: f64,
@@ -33,7 +34,7 @@ pub struct SpecialEntry {
     pub undecided: Option<String>,
     /// What a pitchfork breaks: the `mirror` symmetry, or `rotations`.
     pub breaks: Option<&'static str>,
-    /// What the orbit approaches, at the end `homoclinic`.
+    /// What the orbit approaches, at the ends `homoclinic` and `heteroclinic`.
     pub connection: Option<Connection>,
     /// The branch that begins or lies there, from 0.
     pub branch: Option<usize>,
@@ -116,7 +117,7 @@ fn ending(leg: &Leg) -> String {
 }
 
 impl Branches {
-    /// The special points of a branch in its order, homoclinic ends among them.
+    /// The special points of a branch in its order, ends at connections among them.
     #[must_use]
     pub fn special(&self, number: usize) -> Vec<SpecialEntry> {
         let Some(followed) = self.branches.get(number) else { return Vec::new() };
@@ -242,6 +243,7 @@ fn is_supercritical(leg: &Leg, point: usize, first: f64) -> Option<bool> {
 fn put_connection(object: &mut Map<String, Value>, connection: &Connection) {
     let mut put = |key: &str, value: Value| object.insert(key.to_owned(), value);
     put("connection", connection.kind().name().into());
+    put("joins", connection.joins.name().into());
     let (law, numbers): (&str, &[(&str, f64)]) = match connection.law {
         PeriodLaw::Logarithmic { rate } => ("logarithmic", &[("rate", rate)]),
         PeriodLaw::Oscillating { rate, frequency } => {
@@ -264,21 +266,38 @@ fn put_connection(object: &mut Map<String, Value>, connection: &Connection) {
         put("leading_decaying", json!(decays));
     }
     if let Some(saddle) = &connection.saddle {
-        let found = json!({
-            "eigenvalues": saddle.eigenvalues,
-            "turning_rate": saddle.turning_rate,
-            "speed": saddle.speed(),
-            "shape": saddle.shape,
-        });
-        put("saddle", found);
+        put("saddle", told(saddle));
     }
+    if let Some(attraction) = connection.attraction() {
+        put("attraction", attraction.into());
+        put("saddles", connection.passed.iter().map(passed).collect());
+    }
+}
+
+fn told(saddle: &RelativeEquilibrium) -> Value {
+    json!({
+        "eigenvalues": saddle.eigenvalues,
+        "turning_rate": saddle.turning_rate,
+        "speed": saddle.speed(),
+        "shape": saddle.shape,
+    })
+}
+
+/// A saddle of a heteroclinic cycle.
+fn passed(passed: &Passed) -> Value {
+    let mut object = told(&passed.saddle);
+    object["leading_growing"] = json!(passed.sides[0]);
+    object["leading_decaying"] = json!(passed.sides[1]);
+    object["saddle_quantity"] = passed.quantity().into();
+    object["share"] = passed.share.into();
+    object
 }
 
 /// The end of a leg, where it is a place of its own.
 fn end(leg: &Leg) -> Option<SpecialEntry> {
     let End::Homoclinic(connection) = &leg.end else { return None };
     Some(SpecialEntry {
-        kind: "homoclinic",
+        kind: connection.joins.kind(),
         parameter: connection.parameter,
         error: Some(connection.error),
         certificate: None,

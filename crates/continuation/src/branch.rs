@@ -9,7 +9,7 @@ use super::problem::Failure;
 use super::settings::Settings;
 use super::shooting::shape_after;
 use super::tracer::Tracer;
-use super::units::Units;
+use motiform_analysis::equilibrium::Units;
 use motiform_analysis::linear::norm;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
@@ -141,11 +141,11 @@ fn shoot<'f>(
     if start.mirrored {
         body.rotate(-0.5 * start.angle, &mut node);
     }
-    let span = start.time / settings.parts as f64;
+    let (span, length) = (start.time / settings.parts as f64, Units::of(body.as_ref()).length);
     let mut nodes = vec![node];
     for _ in 1..settings.parts {
         let last = nodes.last().map_or(&[][..], Vec::as_slice);
-        let next = shape_after(body.as_ref(), last, span, &settings.flow, watch)?;
+        let next = shape_after(body.as_ref(), last, span, (&settings.flow, length), watch)?;
         nodes.push(next);
     }
     let mut start = start.clone();

@@ -2,11 +2,15 @@
 
 use super::point::Motion;
 use super::shooting::shape_after;
+use motiform_analysis::equilibrium::Units;
 use motiform_analysis::linear::norm;
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_dynamics::Equivariant;
+
+/// A shape smaller than this, in the unit of shapes, is as good as nothing.
+const NOTHING: f64 = 1e-12;
 
 /// Places along an orbit at which it is compared.
 const PLACES: usize = 200;
@@ -32,7 +36,8 @@ fn same_shape(
     b: &RelativeEquilibrium,
     tolerance: f64,
 ) -> bool {
-    distance(body, &a.shape, &b.shape) <= tolerance * norm(&a.shape).max(norm(&b.shape)).max(1e-12)
+    distance(body, &a.shape, &b.shape)
+        <= tolerance * norm(&a.shape).max(norm(&b.shape)).max(NOTHING * Units::of(body).length)
 }
 
 /// Distance of two shapes up to rotations and the mirror.
@@ -50,6 +55,7 @@ fn same_orbit(
     if (a.period() / b.period() - 1.0).abs() > tolerance {
         return false;
     }
+    let flow = (flow, Units::of(body).length);
     let span = b.period() / PLACES as f64;
     let mut shape = b.shape.clone();
     let mut best = (f64::INFINITY, shape.clone());
@@ -67,7 +73,7 @@ fn same_orbit(
 
 /// Distance of `shape` from the stretch of orbit of length `span` from `start` on: the smallest of a function with one minimum, by
 /// golden sections.
-fn nearest(body: &dyn Equivariant, shape: &[f64], start: &[f64], span: f64, flow: &Flow) -> f64 {
+fn nearest(body: &dyn Equivariant, shape: &[f64], start: &[f64], span: f64, flow: (&Flow, f64)) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let at = |t: f64| {
         shape_after(body, start, t, flow, &()).map_or(f64::INFINITY, |place| distance(body, shape, &place))

@@ -3,18 +3,19 @@
 use super::certificate::TestFunction;
 use super::classes::GAINED;
 use super::copies::same_motion;
-use super::homoclinic::Connection;
+use super::homoclinic::{Connection, Joins};
 use super::levels::CLEAR;
 use super::locate::Changes;
 use super::normal_form::Order;
+use super::passages::Passages;
 use super::periods::Algebraic;
 use super::place::Place;
 use super::point::End;
 use super::problem::Problem;
 use super::special::Special;
 use super::tracer::Tracer;
-use super::units::prefix;
 use motiform_analysis::Isotropy;
+use motiform_analysis::equilibrium::prefix;
 use motiform_analysis::linear::dot;
 use motiform_dynamics::Watch;
 
@@ -96,7 +97,29 @@ impl<P: Problem> Tracer<P> {
         let saddle = self.problem.saddle(&self.place.x, &self.place.local)?;
         let found = self.periods.oscillating(&saddle.rates)?.through(Some(saddle))?;
         // all solutions that are fitted may be off by the same
-        Some(Connection { error: found.error + self.problem.accuracy() * self.settings.width(), ..found })
+        let error = found.error + self.problem.accuracy() * self.settings.width();
+        let joins = match self.passages().map(|passages| passages.joins) {
+            Some(Joins::Images) => Joins::Images,
+            _ => Joins::Itself,
+        };
+        Some(Connection { error, joins, ..found })
+    }
+
+    fn passages(&self) -> Option<Passages> {
+        self.problem.passages(&self.place.x, &self.place.local)
+    }
+
+    /// The connection ahead by the logarithmic law, with the saddles that the orbit passes. `None` where the law is not theirs, or several are passed and
+    /// not all of them clearly.
+    fn certain(&self, connection: Connection) -> Option<Connection> {
+        let passages = self.passages();
+        if let Some(several) = passages.as_ref().filter(|passages| passages.joins == Joins::Different) {
+            return connection.past(several);
+        }
+        let joins = passages.as_ref().map_or(Joins::Itself, |passages| passages.joins);
+        let of_one = connection.clone().through(self.problem.saddle(&self.place.x, &self.place.local));
+        let found = of_one.or_else(|| connection.past(passages.as_ref()?))?;
+        Some(Connection { joins, ..found })
     }
 
     /// The end of the branch at the first special point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to
@@ -154,11 +177,8 @@ impl<P: Problem> Tracer<P> {
         let parameter = self.place.parameter();
         let unit = prefix(self.settings.width());
         self.periods.push(time, (parameter, self.place.slope()));
-        if let Some(connection) = self.periods.connection(unit) {
-            let saddle = self.problem.saddle(&self.place.x, &self.place.local);
-            if let Some(certain) = connection.through(saddle) {
-                return Err(End::Homoclinic(Box::new(certain)));
-            }
+        if let Some(certain) = self.periods.connection(unit).and_then(|found| self.certain(found)) {
+            return Err(End::Homoclinic(Box::new(certain)));
         }
         if self.periods.has_converged(unit)
             && let Some(certain) = self.oscillates()

@@ -1,7 +1,7 @@
 //! Bodies that depend on one parameter or two.
 
 use super::problem::Failure;
-use super::units::prefix;
+use motiform_analysis::equilibrium::prefix;
 use motiform_analysis::{Error, Result};
 use motiform_dynamics::Equivariant;
 

@@ -1,10 +1,11 @@
-//! A connection of a saddle with itself, in which a branch of orbits ends.
+//! A connection of saddles, with themselves or one with the next, in which a branch of orbits ends.
 
+use super::passages::Passages;
 use motiform_analysis::RelativeEquilibrium;
 use serde::{Deserialize, Serialize};
 
 /// Part up to which a rate of the saddle is that of the law: the fitted rate comes near to it slowly.
-const RATES: f64 = 0.3;
+pub(super) const RATES: f64 = 0.3;
 
 /// How the time `T` of an orbit grows with the parameter `p`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,6 +53,8 @@ pub enum ConnectionKind {
     Resonant,
     /// Two equilibria meet on the orbit and disappear.
     SaddleNode,
+    /// The orbit passes two saddles or more that are no images of each other (a heteroclinic cycle).
+    Cycle,
 }
 
 impl ConnectionKind {
@@ -63,7 +66,68 @@ impl ConnectionKind {
             Self::SaddleFocus => "saddle-focus",
             Self::Resonant => "resonant",
             Self::SaddleNode => "saddle-node",
+            Self::Cycle => "cycle",
         }
+    }
+}
+
+/// How the saddles that an orbit passes in its period are related.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Joins {
+    /// It is one saddle, up to rotations: a homoclinic connection.
+    #[default]
+    Itself,
+    /// They are mirror images: a heteroclinic connection of a saddle with its image.
+    Images,
+    /// They differ: a heteroclinic cycle.
+    Different,
+}
+
+impl Joins {
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Itself => "itself",
+            Self::Images => "images",
+            Self::Different => "different",
+        }
+    }
+
+    /// Whether it is a homoclinic or a heteroclinic connection.
+    #[must_use]
+    pub const fn kind(self) -> &'static str {
+        match self {
+            Self::Itself => "homoclinic",
+            Self::Images | Self::Different => "heteroclinic",
+        }
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Images => "its mirror image",
+            Self::Itself | Self::Different => "itself",
+        }
+    }
+}
+
+/// A saddle of a heteroclinic cycle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Passed {
+    /// The saddle.
+    pub saddle: RelativeEquilibrium,
+    /// Its slowest eigenvalues `(re, |im|)` that grow and that decay, in the directions that keep the symmetry of the orbit's shapes.
+    pub sides: [(f64, f64); 2],
+    /// The part of the time that passes near it.
+    pub share: f64,
+}
+
+impl Passed {
+    /// The saddle quantity: the sum of the real parts of the slowest eigenvalues.
+    #[must_use]
+    pub fn quantity(&self) -> f64 {
+        self.sides[0].0 + self.sides[1].0
     }
 }
 
@@ -84,12 +148,21 @@ pub struct Connection {
     /// The eigenvalues `(re, im)` of the saddle in the directions that keep the symmetry of the orbit's shapes; empty where these are not told from the others.
     #[serde(default)]
     pub rates: Vec<(f64, f64)>,
+    /// How the saddles that the orbit passes are related.
+    #[serde(default)]
+    pub joins: Joins,
+    /// The saddles of a heteroclinic cycle in their order; empty for other connections.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub passed: Vec<Passed>,
 }
 
 impl Connection {
     /// What the orbit approaches: from its law, and from the leading eigenvalues of the saddle.
     #[must_use]
     pub fn kind(&self) -> ConnectionKind {
+        if self.joins == Joins::Different {
+            return ConnectionKind::Cycle;
+        }
         match self.law {
             PeriodLaw::Resonant { .. } => ConnectionKind::Resonant,
             PeriodLaw::SquareRoot { .. } => ConnectionKind::SaddleNode,
@@ -107,12 +180,14 @@ impl Connection {
         leading_sides(&self.rates)
     }
 
-    /// The saddle quantity: the sum of the real parts of the slowest growing and decaying eigenvalues; `None` where they are not known, and at a saddle-node.
+    /// The saddle quantity: the sum of the real parts of the slowest growing and decaying eigenvalues; `None` where they are not known, at a saddle-node, and
+    /// for a cycle of several saddles ([`Passed::quantity`]).
     /// Where the leading eigenvalues are real and their sum is negative, one stable orbit meets the connection; where it is positive, the orbit
     /// is unstable. Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2.
     #[must_use]
     pub fn quantity(&self) -> Option<f64> {
-        let [grows, decays] = self.sides().filter(|_| self.kind() != ConnectionKind::SaddleNode)?;
+        let of_one = !matches!(self.kind(), ConnectionKind::SaddleNode | ConnectionKind::Cycle);
+        let [grows, decays] = self.sides().filter(|_| of_one)?;
         Some(grows.0 + decays.0)
     }
 
@@ -153,6 +228,52 @@ impl Connection {
         (apart < RATES).then_some(Self { saddle: Some(found), rates, error, ..self })
     }
 
+    /// The connection of the saddles that an orbit passes; `None` unless each passage is clear and the law is theirs.
+    ///
+    /// An orbit that the parameter's distance `d` from the connection keeps away from a saddle, or from the next one's stable manifold, by a distance in proportion to d stays there for
+    /// `T_i = const - ln d / |lambda_i|`, with a growing eigenvalue of the first or a decaying one of the second. Near the others `ln d` enters with factors of its own, so that `T = sum T_i` alone grows
+    /// with a rate that belongs to no eigenvalue; but with the share `T_i / T` the law's rate is `|lambda_i| T_i / T` for one of them.
+    ///
+    /// Source: the maps along a cycle: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2.
+    pub(super) fn past(self, passages: &Passages) -> Option<Self> {
+        let PeriodLaw::Logarithmic { rate } = self.law else { return None };
+        let values = |saddle: &Saddle| {
+            if saddle.rates.is_empty() { saddle.found.eigenvalues.clone() } else { saddle.rates.clone() }
+        };
+        let mut apart = f64::INFINITY;
+        for passage in &passages.all {
+            for value in values(&passage.saddle) {
+                let its = passage.share * value.0.abs();
+                apart = apart.min((its - rate).abs() / its.max(rate));
+            }
+        }
+        if apart > RATES || !passages.is_clear() {
+            return None;
+        }
+        let longest = passages.all.iter().max_by(|a, b| a.share.total_cmp(&b.share))?;
+        let passed = |passage: &super::passages::Passage| {
+            let Saddle { found, .. } = &passage.saddle;
+            let sides = leading_sides(&values(&passage.saddle))?;
+            Some(Passed { saddle: found.clone(), sides, share: passage.share })
+        };
+        let passed = match passages.joins {
+            Joins::Different => passages.all.iter().map(passed).collect::<Option<_>>()?,
+            Joins::Itself | Joins::Images => Vec::new(),
+        };
+        let error = self.error.max(apart * self.remaining); // what remains is in proportion to the rate
+        let (saddle, rates) = (Some(longest.saddle.found.clone()), longest.saddle.rates.clone());
+        Some(Self { saddle, rates, error, joins: passages.joins, passed, ..self })
+    }
+
+    /// For a cycle the product of `-decaying / growing` over its saddles: above 1 the orbits that meet it are stable.
+    ///
+    /// Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2 (planar cycles).
+    #[must_use]
+    pub fn attraction(&self) -> Option<f64> {
+        let ratio = |passed: &Passed| -passed.sides[1].0 / passed.sides[0].0;
+        (!self.passed.is_empty()).then(|| self.passed.iter().map(ratio).product())
+    }
+
     /// A saddle-node on a circle at the square-root law: beyond it, at the distances d and 4 d, `equilibrium` finds one whose slowest real
     /// eigenvalue grows as the square root, `lambda = L sqrt(d)`. In the normal form `x' = d + x^2` the orbit takes the time `pi / sqrt(d)`, and
     /// `lambda = 2 sqrt(d)`: `amplitude L` is 2 pi, or a multiple where the orbit passes several images of the place.
@@ -180,15 +301,15 @@ impl Connection {
 
 impl std::fmt::Display for Connection {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let place = stated(self.parameter, self.error);
+        let (place, with) = (stated(self.parameter, self.error), self.joins.words());
         match self.kind() {
             ConnectionKind::Saddle => {
-                write!(f, "the orbit approaches a connection of a saddle with itself at {place}")
+                write!(f, "the orbit approaches a connection of a saddle with {with} at {place}")
             }
             ConnectionKind::SaddleFocus => {
                 write!(
                     f,
-                    "the orbit approaches a connection of a saddle-focus with itself (Shilnikov) at {place}"
+                    "the orbit approaches a connection of a saddle-focus with {with} (Shilnikov) at {place}"
                 )
             }
             ConnectionKind::Resonant => {
@@ -198,6 +319,15 @@ impl std::fmt::Display for Connection {
                 write!(
                     f,
                     "the orbit approaches a saddle-node on a circle at {place}: two equilibria appear on it"
+                )
+            }
+            ConnectionKind::Cycle => {
+                let quantities: Vec<String> =
+                    self.passed.iter().map(|passed| format!("{:.4}", passed.quantity())).collect();
+                let (count, quantities) = (self.passed.len(), quantities.join(", "));
+                write!(
+                    f,
+                    "the orbit approaches a heteroclinic cycle of {count} saddles (saddle quantities {quantities}) at {place}"
                 )
             }
         }?;

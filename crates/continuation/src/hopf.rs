@@ -2,7 +2,7 @@
 
 use super::normal_form::{Coefficient, NormalForm, Undetermined};
 use super::reduction::extrapolated;
-use super::units::Units;
+use motiform_analysis::equilibrium::Units;
 use motiform_analysis::equilibrium::neutral_direction;
 use motiform_analysis::linear::{add, complement, dot, eigenvalues};
 use motiform_dynamics::{Dual, Equivariant, VectorField};

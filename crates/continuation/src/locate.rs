@@ -85,7 +85,7 @@ fn add<P: Problem>(
     let certificate = certified(problem, step, bracket.test, &at, watch)
         .map(|certificate| Certificate { normal_form: normal_form(problem, &at.x, special), ..certificate });
     let at = Place { certificate, ..at };
-    if !is_known(&changes.found, &at, special, step.length) {
+    if !is_known(problem, &changes.found, &at, special, step.length) {
         changes.found.push((at, special));
     }
     Ok(())
@@ -241,11 +241,22 @@ fn at_crossing<P: Problem>(
     between(problem, step, s, watch).ok().filter(|at| crosses(problem, at))
 }
 
-/// Whether another test has led to the same point.
-fn is_known<L>(found: &[(Place<L>, Special)], at: &Place<L>, special: Special, length: f64) -> bool {
-    found.iter().any(|(other, kind)| {
-        let same = kind.name() == special.name();
-        same && (other.arclength - at.arclength).abs() < 1e-4 * length
+/// Part of a step within which points of one kind are one.
+const ONE: f64 = 1e-4;
+
+/// Whether another test has led to the same point. (The length at which a point lies that was solved for is that of the place from which it was.)
+fn is_known<P: Problem>(
+    problem: &P,
+    found: &[(Place<P::Local>, Special)],
+    at: &Place<P::Local>,
+    special: Special,
+    length: f64,
+) -> bool {
+    let weights = problem.weights(&at.x);
+    found.iter().filter(|(_, kind)| kind.name() == special.name()).any(|(other, _)| {
+        let between: Vec<f64> = other.x.iter().zip(&at.x).map(|(a, b)| a - b).collect();
+        let apart = product(&weights, &between, &between).sqrt();
+        apart.min((other.arclength - at.arclength).abs()) < ONE * length
     })
 }
 

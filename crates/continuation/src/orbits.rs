@@ -7,6 +7,7 @@ use super::homoclinic::Saddle;
 use super::levels::Level;
 use super::normal_form::{NormalForm, Order};
 use super::normal_forms::of_orbit;
+use super::passages::Passages;
 use super::point::Motion;
 use super::problem::{Equations, Failure, Linear, Problem};
 use super::reduced_maps::reduced_maps;
@@ -82,7 +83,7 @@ impl Orbits<'_> {
     }
 
     /// The eigenvalues of a relative equilibrium in the directions that keep the mirror axis of the orbit's shapes; none where the shapes have rotations.
-    fn kept_rates(&self, body: &dyn Equivariant, at: &RelativeEquilibrium) -> Vec<(f64, f64)> {
+    pub(super) fn kept_rates(&self, body: &dyn Equivariant, at: &RelativeEquilibrium) -> Vec<(f64, f64)> {
         if self.classes.folds > 1 || self.classes.circle {
             return Vec::new();
         }
@@ -289,7 +290,7 @@ impl Problem for Orbits<'_> {
         for i in 0..self.parts {
             let node = self.node(x, i);
             out.extend_from_slice(node);
-            out.extend(shape_after(local.body.as_ref(), node, half, &self.flow, watch).ok()?);
+            out.extend(shape_after(local.body.as_ref(), node, half, (&self.flow, self.length), watch).ok()?);
         }
         out.extend_from_slice(&x[self.parts * self.dim..]);
         self.parts *= 2;
@@ -355,6 +356,10 @@ impl Problem for Orbits<'_> {
         Some(Saddle { found, rates })
     }
 
+    fn passages(&self, x: &[f64], local: &Local) -> Option<Passages> {
+        self.passed(x, local, &())
+    }
+
     fn equilibrium(&self, x: &[f64], local: &Local, parameter: f64) -> Option<RelativeEquilibrium> {
         let mut there = x.to_vec();
         *there.last_mut()? = parameter;
@@ -365,13 +370,15 @@ impl Problem for Orbits<'_> {
 
 /// The rates at the nodes without the rotation.
 fn reduced_rates(local: &Local) -> Vec<Vec<f64>> {
-    let rest = |(rate, spin): (&Vec<f64>, &Vec<f64>)| {
-        let size = dot(spin, spin);
-        let mut rest = rate.clone();
-        if size > 0.0 {
-            add(&mut rest, -dot(rate, spin) / size, spin);
-        }
-        rest
-    };
-    local.rates.iter().zip(&local.spins).map(rest).collect()
+    local.rates.iter().zip(&local.spins).map(|(rate, spin)| reduced(rate, spin)).collect()
+}
+
+/// The rate of a shape without the rotation.
+pub(super) fn reduced(rate: &[f64], spin: &[f64]) -> Vec<f64> {
+    let size = dot(spin, spin);
+    let mut rest = rate.to_vec();
+    if size > 0.0 {
+        add(&mut rest, -dot(rate, spin) / size, spin);
+    }
+    rest
 }

@@ -1,6 +1,6 @@
 //! How the parameter oscillates towards a connection of a saddle-focus with itself.
 
-use super::homoclinic::{Connection, PeriodLaw, leading_sides};
+use super::homoclinic::{Connection, Joins, PeriodLaw, leading_sides};
 use super::periods::{NEAR, Periods};
 use motiform_analysis::linear::solve;
 
@@ -41,6 +41,8 @@ impl Periods {
             law: PeriodLaw::Oscillating { rate: pair.0, frequency: pair.1 },
             saddle: None,
             rates: Vec::new(),
+            joins: Joins::Itself,
+            passed: Vec::new(),
         })
     }
 

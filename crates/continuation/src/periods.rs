@@ -1,6 +1,6 @@
 //! How the period of an orbit grows towards a connection.
 
-use super::homoclinic::{Connection, PeriodLaw};
+use super::homoclinic::{Connection, Joins, PeriodLaw};
 use motiform_analysis::linear::solve;
 
 /// Laws by which the distance to a connection falls as a power of the time: `|p - p0| ~ 1/T^k`.
@@ -71,6 +71,8 @@ impl Periods {
             law: PeriodLaw::Logarithmic { rate },
             saddle: None,
             rates: Vec::new(),
+            joins: Joins::Itself,
+            passed: Vec::new(),
         })
     }
 
@@ -118,8 +120,16 @@ impl Periods {
             Algebraic::Resonant => PeriodLaw::Resonant { amplitude: fit[1].abs() },
             Algebraic::SquareRoot => PeriodLaw::SquareRoot { amplitude: fit[1].abs().sqrt() },
         };
-        let connection =
-            Connection { parameter: fit[0], remaining, error: 0.0, law, saddle: None, rates: Vec::new() };
+        let connection = Connection {
+            parameter: fit[0],
+            remaining,
+            error: 0.0,
+            law,
+            saddle: None,
+            rates: Vec::new(),
+            joins: Joins::Itself,
+            passed: Vec::new(),
+        };
         (leads && worst < 1e-3).then_some((connection, worst))
     }
 }

@@ -117,7 +117,7 @@ pub enum End {
         /// Why it failed.
         why: Obstruction,
     },
-    /// The period grows without bound: the orbit approaches a connection of a saddle with itself.
+    /// The period grows without bound: the orbit approaches a connection of a saddle with itself, or of several saddles.
     Homoclinic(Box<Connection>),
     /// The time of the orbit passed [`super::Settings::longest_time`], and grows by no law that was recognised.
     PeriodLimit {

@@ -4,6 +4,7 @@ use super::correct::TIGHT;
 use super::homoclinic::Saddle;
 use super::levels::Level;
 use super::normal_form::{NormalForm, Order};
+use super::passages::Passages;
 use super::point::{Motion, Obstruction};
 use super::special::{Broken, Special};
 use motiform_analysis::{Error, RelativeEquilibrium};
@@ -126,6 +127,11 @@ pub(super) trait Problem: Equations {
 
     /// The relative equilibrium that an orbit passes closest by.
     fn saddle(&self, _x: &[f64], _local: &Self::Local) -> Option<Saddle> {
+        None
+    }
+
+    /// What an orbit passes on its way.
+    fn passages(&self, _x: &[f64], _local: &Self::Local) -> Option<Passages> {
         None
     }
 

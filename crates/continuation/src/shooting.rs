@@ -11,7 +11,7 @@ use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Integration, Outcome, Request, Semilinear, VectorField, Watch};
 
-/// A shape that grows by this factor has left every bound.
+/// A shape that grows by this factor, or to so many units of shapes, has left every bound.
 const UNBOUND: f64 = 1e6;
 
 /// What the flow over one part of an orbit gives.
@@ -41,7 +41,7 @@ pub(super) fn segment(
     let variation = Variation::new(neighbours);
     let mut state = Vec::new();
     variation.start(start, &mut state);
-    let end = run(&variation, &state, span, dim, flow, watch)?;
+    let end = run(&variation, &state, (span, dim), (flow, neighbours.length), watch)?;
     Ok(read(neighbours, &end, dim))
 }
 
@@ -69,7 +69,8 @@ pub(super) fn segments<'x>(
         if count > 0 {
             orbit.restart(&state);
         }
-        arrive(orbit.as_mut(), (count + 1) as f64 * span, (state.len(), node.len()), flow, watch)?;
+        let (end, sizes) = ((count + 1) as f64 * span, (state.len(), node.len()));
+        arrive(orbit.as_mut(), end, sizes, (flow, neighbours.length), watch)?;
         out.push(read(neighbours, orbit.state(), node.len()));
         going = Some(orbit);
     }
@@ -114,31 +115,30 @@ fn failure(outcome: Outcome) -> Failure {
     }
 }
 
-/// The shape after `span`.
+/// The shape after `span`; `length` is the unit of shapes.
 pub(super) fn shape_after(
     body: &dyn Equivariant,
     start: &[f64],
     span: f64,
-    flow: &Flow,
+    (flow, length): (&Flow, f64),
     watch: &dyn Watch,
 ) -> Result<Vec<f64>, Failure> {
     if matches!(flow.method, Method::Exponential(_)) {
         let flowed = implicit_flow(body, start, &[], &|_| Vec::new(), span, watch);
         return flowed.map(|flowed| flowed.end).map_err(failure);
     }
-    run(body, start, span, start.len(), flow, watch)
+    run(body, start, (span, start.len()), (flow, length), watch)
 }
 
 fn run<F: Semilinear<f64> + ?Sized>(
     field: &F,
     start: &[f64],
-    span: f64,
-    watched: usize,
-    flow: &Flow,
+    (span, watched): (f64, usize),
+    (flow, length): (&Flow, f64),
     watch: &dyn Watch,
 ) -> Result<Vec<f64>, Failure> {
     let mut orbit = begun(field, start, flow)?;
-    arrive(orbit.as_mut(), span, (start.len(), watched), flow, watch)?;
+    arrive(orbit.as_mut(), span, (start.len(), watched), (flow, length), watch)?;
     Ok(orbit.state().to_vec())
 }
 
@@ -156,10 +156,10 @@ fn arrive(
     orbit: &mut (dyn Integration + '_),
     end: f64,
     (dim, watched): (usize, usize),
-    flow: &Flow,
+    (flow, length): (&Flow, f64),
     watch: &dyn Watch,
 ) -> Result<(), Failure> {
-    let escape_norm = UNBOUND * norm(&orbit.state()[..watched]).max(1.0);
+    let escape_norm = UNBOUND * norm(&orbit.state()[..watched]).max(length);
     let request =
         Request { max_steps: flow.max_steps, watched, watch, escape_norm, ..Request::until(end, dim) };
     let outcome = drive(orbit, &request, &mut ())

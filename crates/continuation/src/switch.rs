@@ -15,7 +15,7 @@ use super::settings::Settings;
 use super::special::Special;
 use super::tangents::tangents;
 use super::tracer::Tracer;
-use super::units::Units;
+use motiform_analysis::equilibrium::Units;
 use motiform_analysis::linear::{add, norm};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};

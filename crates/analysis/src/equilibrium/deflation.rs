@@ -1,7 +1,7 @@
 //! Deflation: Newton's method that does not come back to what is known.
 
 use super::newton::equations;
-use super::{RelativeEquilibrium, neutral_direction};
+use super::{RelativeEquilibrium, Units, neutral_direction};
 use crate::linear::{add, dot, least_squares, norm, solve};
 use crate::symmetry::{Copies, turning_of_shape};
 use motiform_dynamics::tangent::jacobian;
@@ -22,6 +22,9 @@ const SINGULAR: f64 = 1e-10;
 /// Equilibria nearer to each other than this, relative to their size, are one. If eigenvalues vanish, Newton's method gives few digits.
 const SAME: f64 = 1e-6;
 
+/// Least size that differences count against, in the unit of the equations.
+const LEAST: f64 = 1e-3;
+
 /// Step of differences, in units of the size of the shape, and how well they must agree with derivatives.
 const DIFFERENCE: f64 = 1e-4;
 const RESOLVED: f64 = 0.01;
@@ -39,9 +42,11 @@ const RESOLVED: f64 = 0.01;
 /// Morrison. In random equations of 4 to 6 unknowns power 2 takes half as many starts more: it drives away from the other roots near a known one.
 ///
 /// # Checked by  tests/all/deflation.rs: all roots of known fields, rotated copies, families; lab's tests/all/equilibria/: other searches
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Deflation {
     known: Vec<Known>,
+    /// The unit of the equations' shapes.
+    unit: f64,
 }
 
 /// A known equilibrium.
@@ -55,11 +60,28 @@ struct Known {
 }
 
 impl Deflation {
+    /// Without any known equilibrium.
+    #[must_use]
+    pub fn of<B: Equivariant + ?Sized>(body: &B) -> Self {
+        Self { known: Vec::new(), unit: Units::of(body).length }
+    }
+
+    /// Whether two equilibria are one, up to rotations.
+    #[must_use]
+    pub fn is_same<B: Equivariant + ?Sized>(
+        &self,
+        body: &B,
+        one: &RelativeEquilibrium,
+        other: &RelativeEquilibrium,
+    ) -> bool {
+        one.is_same(body, other, self.unit)
+    }
+
     /// Adds an equilibrium to the known ones.
     pub fn add<B: Equivariant + ?Sized>(&mut self, body: &B, known: &RelativeEquilibrium) {
         let error = norm(&known.uncertainty(body).shape);
         let copies = Copies::of(body, &known.shape);
-        self.known.push(Known { copies, error, isolated: known.is_isolated(error) });
+        self.known.push(Known { copies, error, isolated: known.is_isolated(error, self.unit) });
     }
 
     /// An equilibrium that is none of the known ones, by the deflated method from `guess` with `L = reach`; `None` where that does not
@@ -116,9 +138,9 @@ impl Deflation {
         let apart = |known: &Known| {
             let errors = error + if known.isolated { known.error } else { 0.0 };
             let distance = found.distance(body, known.copies.shape());
-            distance > APART * errors && !near(distance, known.copies.shape())
+            distance > APART * errors && !near(distance, known.copies.shape(), self.unit)
         };
-        found.is_isolated(error) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
+        found.is_isolated(error, self.unit) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
     }
 }
 
@@ -164,21 +186,21 @@ fn step<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Option<
 
 impl RelativeEquilibrium {
     /// Whether it is isolated, as its linearisation shows: no eigenvalue is zero within its error.
-    fn is_isolated(&self, error: f64) -> bool {
+    fn is_isolated(&self, error: f64, unit: f64) -> bool {
         let rates = self.eigenvalues.iter().zip(&self.errors);
         let mut leading = rates.take_while(|(value, error)| value.0 >= -APART * **error);
-        APART * error < norm(&self.shape).max(1e-3)
+        APART * error < norm(&self.shape).max(LEAST * unit)
             && leading.all(|(value, error)| libm::hypot(value.0, value.1) > APART * *error)
     }
 
-    /// Whether these are one equilibrium, up to rotations.
+    /// Whether these are one equilibrium of equations with this unit of shapes ([`Units`]), up to rotations.
     #[must_use]
-    pub fn is_same<B: Equivariant + ?Sized>(&self, body: &B, other: &Self) -> bool {
-        near(self.distance(body, &other.shape), &other.shape)
+    pub fn is_same<B: Equivariant + ?Sized>(&self, body: &B, other: &Self, unit: f64) -> bool {
+        near(self.distance(body, &other.shape), &other.shape, unit)
     }
 }
 
 /// Whether something this far from `shape` is the same.
-fn near(distance: f64, shape: &[f64]) -> bool {
-    distance < SAME * norm(shape).max(1e-3)
+fn near(distance: f64, shape: &[f64], unit: f64) -> bool {
+    distance < SAME * norm(shape).max(LEAST * unit)
 }

@@ -4,7 +4,7 @@
 //! nothing fixes) an eigenvalue is 0 that belongs to no symmetry which is divided out. Deviations along the family neither grow nor decay; what the
 //! body does is the same on all of its members, up to that symmetry.
 
-use super::{RelativeEquilibrium, linearisation, neutral_direction};
+use super::{RelativeEquilibrium, Units, linearisation, neutral_direction};
 use crate::linear::{add, basis, dot, norm, null_space};
 use crate::lyapunov::SplitMix;
 use crate::symmetry::align;
@@ -85,9 +85,9 @@ impl RelativeEquilibrium {
             return false;
         }
         let step = STEP * norm(&self.shape).max(norm(&other.shape));
-        let (mut here, mut left) = (self.clone(), f64::INFINITY);
+        let (mut here, mut left, unit) = (self.clone(), f64::INFINITY, Units::of(body).length);
         for _ in 0..STEPS {
-            if here.is_same(body, other) {
+            if here.is_same(body, other, unit) {
                 return true;
             }
             let way = here.way(body, other);

@@ -9,6 +9,7 @@ mod saddle;
 mod silent;
 mod spectrum;
 mod uncertainty;
+mod units;
 
 use crate::linear::{add, basis, norm};
 use crate::symmetry::align;
@@ -23,6 +24,7 @@ use serde::{Deserialize, Serialize};
 pub use silent::modes;
 pub use spectrum::rounding;
 pub use uncertainty::Uncertainty;
+pub use units::{Units, prefix};
 
 /// A solution of `f(u) = omega G u`, with `G` the infinitesimal rotation: at rest or straight (`omega = 0`), or
 /// circular.

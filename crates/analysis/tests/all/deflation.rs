@@ -33,7 +33,7 @@ impl<T: Scalar> VectorField<T> for Ring {
 
 /// Everything that deflation finds from one start.
 fn all(body: &impl Equivariant, guess: &[f64], reach: f64) -> Vec<RelativeEquilibrium> {
-    let (mut known, mut found) = (Deflation::default(), Vec::new());
+    let (mut known, mut found) = (Deflation::of(body), Vec::new());
     while let Some(new) = known.find(body, guess, reach) {
         known.add(body, &new);
         found.push(new);
@@ -60,7 +60,7 @@ fn rotated_copies_are_known() {
     let (kappa2, gamma) = (-0.1, 0.1);
     let body = reduced(kappa2, gamma);
     let mut random = Random(5);
-    let mut known = Deflation::default();
+    let mut known = Deflation::of(&body);
     let mut found: Vec<RelativeEquilibrium> = Vec::new();
     for _ in 0..200 {
         let guess: Vec<f64> = (0..6).map(|_| 0.3 * random.next()).collect();

@@ -257,7 +257,7 @@ fn connection(leg: &Leg, ordinate: Ordinate) -> Option<[f64; 2]> {
     Some([connection.parameter, value.unwrap_or(last)])
 }
 
-/// The special points of a branch, and the homoclinic connections that it ends at.
+/// The special points of a branch, and the connections that it ends at.
 fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
     let mut all = Vec::new();
     for leg in &followed.legs {
@@ -270,8 +270,8 @@ fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
             let (label, glyph) = mark(special);
             all.push(BranchMark { label: label.to_owned(), glyph, at: [sample.point.parameter, y] });
         }
-        if let Some(at) = connection(leg, ordinate) {
-            all.push(BranchMark { label: "homoclinic".to_owned(), glyph: Glyph::Cross, at });
+        if let (Some(at), End::Homoclinic(end)) = (connection(leg, ordinate), &leg.end) {
+            all.push(BranchMark { label: end.joins.kind().to_owned(), glyph: Glyph::Cross, at });
         }
     }
     all

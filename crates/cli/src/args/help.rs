@@ -100,6 +100,7 @@ unstable; a state of a dataset is simulated on, but --motion motionless, straigh
   symmetry-breaking   left and right of a zigzag differ: it begins to rotate
   period-doubling     it repeats after two periods    torus               a second frequency begins
   homoclinic          the end of a motion whose period grows without bound: it passes by a steady one
+  heteroclinic        the same where it passes by several, or by one and its mirror image
 Special points are solved for. stable: ranges of the parameter where small deviations die out. subcritical: what begins is unstable.
 
 The output folder holds

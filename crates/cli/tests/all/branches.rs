@@ -86,7 +86,7 @@ fn the_reduced_model_has_one_list_from_all_starts_and_ranges() {
     };
     let base = from(0.05, "-0.1:0.11");
     let names: Vec<&str> = base.iter().map(|found| found.0.as_str()).collect();
-    assert_eq!(names, ["homoclinic", "homoclinic", "hopf", "hopf", "pitchfork", "pitchfork"], "{base:?}");
+    assert_eq!(names, ["heteroclinic", "homoclinic", "hopf", "hopf", "pitchfork", "pitchfork"], "{base:?}");
     for (gamma, along) in [(0.05, "-0.1:0.12"), (0.05, "-0.1:0.1"), (-0.08, "-0.1:0.11"), (0.1, "-0.11:0.11")]
     {
         let other = from(gamma, along);
@@ -98,6 +98,34 @@ fn the_reduced_model_has_one_list_from_all_starts_and_ranges() {
     let resonant =
         base.iter().find(|found| found.0 == "homoclinic" && found.1.abs() < 1e-3).expect("a resonance");
     assert!(resonant.1.abs() < resonant.2 && resonant.2 < 1e-3, "{resonant:?}");
+}
+
+/// Along kappa2 = -.06 pulsating straight motion ends in a cycle of the circle, whose second mode grows with -kappa2 and whose first decays with gamma, and the ellipse at rest, whose second
+/// mode decays with 2 kappa2: each is joined to the other one within the shapes with a mirror axis.
+#[test]
+fn pulsating_straight_motion_of_the_reduced_model_ends_in_a_cycle_of_circle_and_ellipse() {
+    let folder = Folder::new();
+    let plan =
+        "tensor --preset fig1 --set kappa2=-0.06 --set gamma=-0.08 --along gamma=-0.1:-0.03 --branches 5";
+    let json = follow(&folder, plan);
+    let branches = json["branches"].as_array().expect("branches");
+    let branch = branches.iter().find(|branch| branch["motion"] == "pulsating-straight").expect("it begins");
+    let end = branch["special"].as_array().and_then(|all| all.last()).expect("an end");
+    assert_eq!((&end["kind"], &end["joins"]), (&"heteroclinic".into(), &"different".into()), "{end}");
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let mut sides: Vec<[f64; 2]> = end["saddles"]
+        .as_array()
+        .expect("saddles")
+        .iter()
+        .map(|one| ["leading_growing", "leading_decaying"].map(|key| number(&one[key][0])))
+        .collect();
+    sides.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let [circle, ellipse] = sides[..] else { panic!("two saddles: {end}") };
+    let gamma = number(&end["gamma"]);
+    assert!((circle[0] - 0.06).abs() < 1e-9 && (circle[1] - gamma).abs() < 2e-7, "{circle:?} {gamma}");
+    assert!((ellipse[1] + 0.12).abs() < 1e-9 && ellipse[0] > 0.0, "{ellipse:?}");
+    let product = circle[1] / circle[0] * ellipse[1] / ellipse[0];
+    assert!((number(&end["attraction"]) - product).abs() < 1e-9, "{end}");
 }
 
 /// A rotating zigzag ends where a zigzag begins, and one of twice the period where the former begins: neither is a fold.

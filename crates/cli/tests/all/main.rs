@@ -43,4 +43,5 @@ mod statistics;
 mod steady;
 mod ties;
 mod undeclared;
+mod units;
 mod verify;

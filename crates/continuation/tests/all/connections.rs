@@ -6,7 +6,7 @@ use crate::common::near;
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::{PeriodicOrbit, Result};
 use motiform_continuation::{
-    Branch, Connection, ConnectionKind, End, Family, PeriodLaw, Point, Settings, Special,
+    Branch, Connection, ConnectionKind, End, Family, Joins, PeriodLaw, Point, Settings, Special,
 };
 use motiform_dynamics::{Equivariant, Request, Scalar, VectorField, drive::drive};
 use motiform_models::tensor::{Tensor, TensorParameters};
@@ -157,5 +157,147 @@ fn a_rotating_motion_of_the_tensor_model_ends_at_a_saddle_focus() {
         let (points, found) = connection(&family, 0.109_683_548_9, &guess, &settings);
         is_shilnikov(&points, &found, -0.018_038_352);
         near(found.parameter, -0.018_038_351_53, 1e-9 + found.error);
+    }
+}
+
+/// `x' = a (1 - x^2) + c w`, `y' = y (p - 2 a x)` with `c = y - 1 + x^2`, `a = 0.9 + 0.1 x`, `w = 1.55 + 0.05 x`.
+///
+/// At every p the line y = 0 is invariant and leads from the saddle (1, 0) to the saddle (-1, 0). At p = 0 the parabola c = 0 is invariant, too (`c' = 2 x w c`), and leads back. The
+/// eigenvalues at p = 0 are `2 (w - a) = 1.2` and `-2 a = -2` at the first, `-1.4` and `1.6` at the second: the cycle is attracting, `(2/1.2)(1.4/1.6) > 1`. For p < 0 orbits
+/// pass the first saddle at a distance d and the second one at its power 2/1.2, and come back at its power q = (2/1.2)(1.4/1.6): `T = -ln(d) (1/1.2 + 2/(1.2 1.6))` with
+/// `d = c |p| + a d^q`, so that `-dT/dln|p|` is off its limit in proportion to `|p|^(q-1)`.
+struct Parabola(f64);
+motiform_models::plain!(Parabola, 2);
+impl<T: Scalar> VectorField<T> for Parabola {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let (x, y) = (u[0], u[1]);
+        let one = x.constant(1.0);
+        let (a, w) = (x * 0.1 + x.constant(0.9), x * 0.05 + x.constant(1.55));
+        let off = y - one + x * x;
+        du[0] = a * (one - x * x) + off * w;
+        du[1] = y * (x.constant(self.0) - a * x * 2.0);
+    }
+}
+
+/// `-dT/dln|p|` between neighbours on a branch that ends at p = 0, with the geometric mean of `|p|` there.
+fn slopes(points: &[Point]) -> Vec<(f64, f64)> {
+    let read = |point: &Point| (point.parameter.abs().ln(), point.motion.orbit().unwrap().time);
+    let between = |pair: &[Point]| {
+        let (a, b) = (read(&pair[0]), read(&pair[1]));
+        ((0.5 * (a.0 + b.0)).exp(), (b.1 - a.1) / (a.0 - b.0))
+    };
+    points.windows(2).map(between).collect()
+}
+
+#[test]
+fn a_broken_cycle_of_two_saddles_is_heteroclinic_with_the_rates_of_both() {
+    let family = |p: f64| -> Body { Ok(Box::new(Parabola(p))) };
+    for (from, to, start, step) in
+        [(-0.09, 0.1, -0.05, 0.02), (-0.07, 0.02, -0.03, 0.01), (-0.2, 1.0, -0.05, 0.005)]
+    {
+        let shape = settled(&Parabola(start), &[0.0, 0.3], 200.0);
+        let guess = PeriodicGuess {
+            shape: &shape,
+            time: if start < -0.04 { 7.2 } else { 8.3 },
+            angle: 0.0,
+            mirrored: false,
+        };
+        let settings = Settings { largest_step: step, ..Settings::over(from, to) };
+        let (points, found) = connection(&family, start, &guess, &settings);
+        assert_eq!((found.kind(), found.joins), (ConnectionKind::Cycle, Joins::Different), "{found}");
+        near(found.parameter, 0.0, found.error);
+        assert!(found.error < 1e-7, "{found}");
+        let PeriodLaw::Logarithmic { rate } = found.law else { unreachable!("{found}") };
+        let (limit, q) = (1.0 / 1.2 + 2.0 / (1.2 * 1.6), 2.0 / 1.2 * 1.4 / 1.6);
+        near(found.attraction().unwrap(), q, 1e-6);
+        let slopes = slopes(&points);
+        let at = |p: f64| *slopes.iter().rfind(|slope| slope.0 > p).unwrap();
+        let (far, close) = (at(1e-4), at(1e-6));
+        let power = ((far.1 - limit) / (close.1 - limit)).ln() / (far.0 / close.0).ln();
+        near(power, q - 1.0, 0.02); // the next order is smaller by |p|^(q-1), 0.015 at 1e-4
+        // fitted over points of at least half of the last time
+        let last = points.last().unwrap().motion.orbit().unwrap().time;
+        let late = points.iter().find(|point| point.motion.orbit().unwrap().time > 0.5 * last).unwrap();
+        let (first, end) = (at(late.parameter.abs()).1, slopes.last().unwrap().1);
+        assert!(limit < end && end < 1.0 / rate && 1.0 / rate < first, "{end} {} {first}", 1.0 / rate);
+        assert_eq!(found.passed.len(), 2, "{found}");
+        for passed in &found.passed {
+            let first = passed.saddle.shape[0] > 0.0;
+            let (place, [grows, decays]) = if first { (1.0, [1.2, -2.0]) } else { (-1.0, [1.6, -1.4]) };
+            near(passed.saddle.shape[0], place, 1e-8);
+            near(passed.sides[0].0, grows, 1e-6);
+            near(passed.sides[1].0, decays, 1e-6);
+            near(passed.quantity(), grows + decays, 1e-6);
+        }
+    }
+}
+
+/// `x' = y`, `y' = x^3 - x - (h - p) y`, `h = y^2/2 + x^2/2 - x^4/4`: as `h' = -(h - p) y^2` the curve h = p is a periodic orbit, exactly, until at p = 1/4 it
+/// joins the saddles at x = +-1, whose eigenvalues are `+-sqrt 2` there. `(x, y) -> (-x, -y)` is a symmetry: the mirror, if it is declared.
+#[derive(Clone, Copy)]
+struct Duffing {
+    p: f64,
+    mirrors: bool,
+}
+impl motiform_dynamics::System for Duffing {
+    fn dim(&self) -> usize {
+        2
+    }
+}
+impl<T: Scalar> VectorField<T> for Duffing {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let (x, y) = (u[0], u[1]);
+        let energy = y * y * 0.5 + x * x * 0.5 - x * x * x * x * 0.25;
+        du[0] = y;
+        du[1] = x * x * x - x - (energy - x.constant(self.p)) * y;
+    }
+}
+impl<T: Scalar> motiform_dynamics::Semilinear<T> for Duffing {
+    fn linear(&self, lambda: &mut [T::Real]) {
+        for rate in lambda {
+            *rate = Scalar::zero(*rate);
+        }
+    }
+    fn nonlinear(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        VectorField::<T>::eval(self, t, u, du);
+    }
+}
+impl<T: Scalar> motiform_dynamics::Shape<T> for Duffing {
+    fn velocity(&self, shape: &[T]) -> [T; 2] {
+        [Scalar::zero(shape[0]); 2]
+    }
+}
+impl Equivariant for Duffing {
+    fn symmetry(&self) -> motiform_dynamics::Symmetry {
+        motiform_dynamics::Symmetry { mirror: self.mirrors, ..motiform_dynamics::Symmetry::default() }
+    }
+    fn mirror(&self, shape: &mut [f64]) {
+        if self.mirrors {
+            shape.iter_mut().for_each(|x| *x = -*x);
+        }
+    }
+}
+
+#[test]
+fn an_orbit_that_passes_a_saddle_and_its_image_ends_in_a_heteroclinic_connection() {
+    // half of the orbit up to the mirror, the whole orbit, and the whole orbit without the mirror
+    for (mirrors, half, joins) in
+        [(true, true, Joins::Images), (true, false, Joins::Images), (false, false, Joins::Different)]
+    {
+        let family = move |p: f64| -> Body { Ok(Box::new(Duffing { p, mirrors })) };
+        let shape = settled(&Duffing { p: 0.15, mirrors }, &[0.5, 0.0], 300.0);
+        let time = if half { 3.7 } else { 7.4 };
+        let guess = PeriodicGuess { shape: &shape, time, angle: 0.0, mirrored: half };
+        for settings in
+            [Settings::over(0.05, 0.4), Settings { largest_step: 0.008, ..Settings::over(0.1, 1.1) }]
+        {
+            let (_, found) = connection(&family, 0.15, &guess, &settings);
+            assert_eq!(found.joins, joins, "{found}");
+            near(found.parameter, 0.25, found.error.max(1e-9));
+            assert!(found.error < 1e-7, "{found}");
+            assert_eq!(found.passed.len(), if joins == Joins::Different { 2 } else { 0 }, "{found}");
+            let leading = found.saddle.as_ref().map(|saddle| saddle.eigenvalues[0].0).unwrap();
+            near(leading, 2.0_f64.sqrt(), 1e-5);
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::FoundBy;
 use super::families::Families;
 use motiform_analysis::RelativeEquilibrium;
-use motiform_analysis::equilibrium::{Deflation, balances};
+use motiform_analysis::equilibrium::{Deflation, Units, balances};
 use motiform_dynamics::escape::norm;
 use motiform_dynamics::{Model, Semilinear, Watch};
 use motiform_models::ModelInfo;
@@ -11,7 +11,7 @@ use motiform_study::Random;
 use motiform_study::initial::{Uniform, random_shape};
 use std::f64::consts::{PI, TAU};
 
-/// Random starts are drawn with these sizes in turn: the states of the built-in models have entries of about 1.
+/// Random starts are drawn with these sizes in turn, in the unit of the equations.
 const SIZES: [f64; 6] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0];
 
 /// Deflated searches begin with this stream of random numbers: the streams below are those of the random starts.
@@ -56,7 +56,7 @@ pub(super) struct Search<'m> {
 
 impl<'m> Search<'m> {
     pub(super) fn new(info: &'static ModelInfo, model: &'m dyn Model, seed: u64) -> Self {
-        let (known, families) = (Deflation::default(), Families::default());
+        let (known, families) = (Deflation::of(model), Families::default());
         Self { info, model, seed, known, families, found: Vec::new() }
     }
 
@@ -68,13 +68,14 @@ impl<'m> Search<'m> {
 
     /// Newton's method from the circle and from `starts` random shapes. `None` if the watch stopped it.
     pub(super) fn starts(&mut self, starts: usize, watch: &dyn Watch) -> Option<()> {
+        let unit = Units::of(self.model).length;
         for start in 0..=starts {
             if watch.stopped() {
                 return None;
             }
             let guess = match start {
                 0 => vec![0.0; self.model.dim()],
-                _ => random_shape(self.model, SIZES[start % SIZES.len()], self.seed, start as u64),
+                _ => random_shape(self.model, SIZES[start % SIZES.len()] * unit, self.seed, start as u64),
             };
             if let Some(new) = RelativeEquilibrium::find(self.model, &guess) {
                 let hit = usize::from(start > 0);
@@ -120,7 +121,8 @@ impl<'m> Search<'m> {
 
     /// The place in the list of an equilibrium that is known, or of the family that it belongs to.
     fn place_of(&mut self, new: &RelativeEquilibrium) -> Option<usize> {
-        let known = self.found.iter().position(|known| known.equilibrium.is_same(self.model, new));
+        let is_new = |known: &Found| self.known.is_same(self.model, &known.equilibrium, new);
+        let known = self.found.iter().position(is_new);
         known.or_else(|| self.families.place_of(self.model, new))
     }
 

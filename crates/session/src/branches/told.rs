@@ -69,7 +69,7 @@ fn special(branch: usize, followed: &Followed, entry: &SpecialEntry) -> Option<S
     })
 }
 
-/// A homoclinic connection is no point of the branch: the end of the branch next to it.
+/// A connection is no point of the branch: the end of the branch next to it.
 fn nearest_end(followed: &Followed, parameter: f64) -> Option<usize> {
     let samples: Vec<&Sample> = followed.samples().collect();
     let far = |place: usize| samples.get(place).map(|sample| (sample.point.parameter - parameter).abs());

@@ -1,9 +1,9 @@
 //! The units that equations have of themselves.
 
-use motiform_analysis::equilibrium::balances;
-use motiform_analysis::linear::norm;
-use motiform_analysis::periodic::Flow;
-use motiform_dynamics::{Equivariant, StepControl, VectorField};
+use super::balance::balances;
+use crate::linear::norm;
+use crate::periodic::Flow;
+use motiform_dynamics::{Equivariant, StepControl, VectorField, model};
 
 /// Rays along which sizes are looked for.
 const RAYS: usize = 2;
@@ -15,16 +15,17 @@ const NOTHING: f64 = 1e-6;
 ///
 /// Each is a power of 1000, as prefixes of units are: equations of ordinary size have the units 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Units {
+pub struct Units {
     /// The size of shapes at which terms of the equations balance.
-    pub(super) length: f64,
+    pub length: f64,
     /// The rates at which shapes of that size change, as parts of them.
-    pub(super) rate: f64,
+    pub rate: f64,
 }
 
 impl Units {
     /// The units of a field: along rays on which modes decay with the third power of their number, the median of the sizes at which terms balance, and the rate there.
-    pub(super) fn of(body: &dyn Equivariant) -> Self {
+    #[must_use]
+    pub fn of<B: Equivariant + ?Sized>(body: &B) -> Self {
         let rays = rays(body);
         let sizes = balances(body, &rays);
         let length = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
@@ -33,7 +34,8 @@ impl Units {
     }
 
     /// A flow whose absolute tolerance is that of shapes of the unit's size.
-    pub(super) fn flow(self, flow: Flow) -> Flow {
+    #[must_use]
+    pub fn flow(self, flow: Flow) -> Flow {
         let control = match flow.control {
             StepControl::Adaptive { rtol, atol } => StepControl::Adaptive { rtol, atol: atol * self.length },
             fixed => fixed,
@@ -41,19 +43,32 @@ impl Units {
         Flow { control, ..flow }
     }
 
+    /// The largest speed of the centre of mass of the shapes of the unit's size along those rays.
+    #[must_use]
+    pub fn speed<B: Equivariant + ?Sized>(self, body: &B) -> f64 {
+        let speed = |ray: Vec<f64>| {
+            let shape: Vec<f64> = ray.iter().map(|w| self.length * w).collect();
+            let velocity = model::velocity(body, &shape);
+            libm::hypot(velocity[0], velocity[1])
+        };
+        rays(body).into_iter().map(speed).fold(0.0, f64::max)
+    }
+
     /// The size of a shape, or that of the equations for one that is as good as nothing.
-    pub(super) fn size(self, shape: f64) -> f64 {
+    #[must_use]
+    pub fn size(self, shape: f64) -> f64 {
         if shape > NOTHING * self.length { shape } else { self.length }
     }
 }
 
 /// The power of 1000 closest to a number; 1 for what is none.
-pub(super) fn prefix(x: f64) -> f64 {
+#[must_use]
+pub fn prefix(x: f64) -> f64 {
     if x > 0.0 && x.is_finite() { libm::pow(1000.0, (libm::log10(x) / 3.0).round()) } else { 1.0 }
 }
 
 /// Directions of length 1 in general position.
-fn rays(body: &dyn Equivariant) -> Vec<Vec<f64>> {
+fn rays<B: Equivariant + ?Sized>(body: &B) -> Vec<Vec<f64>> {
     let dim = body.dim();
     let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);
     let mut part = |i: usize, ray: usize| {
@@ -73,7 +88,7 @@ fn rays(body: &dyn Equivariant) -> Vec<Vec<f64>> {
 }
 
 /// `sum_i |f_i w_i| / sum_i t w_i^2` at the shape `t w`.
-fn rate(body: &dyn Equivariant, ray: &[f64], t: f64) -> f64 {
+fn rate<B: Equivariant + ?Sized>(body: &B, ray: &[f64], t: f64) -> f64 {
     let shape: Vec<f64> = ray.iter().map(|w| t * w).collect();
     let mut rate = vec![0.0; shape.len()];
     VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
