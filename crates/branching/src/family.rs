@@ -1,5 +1,6 @@
 //! The bodies along a branch: one model, one of its parameters varied.
 
+use motiform_analysis::equilibrium::Units;
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::{Error as Refused, regime};
 use motiform_continuation::{Family, Settings};
@@ -17,12 +18,18 @@ pub(super) struct Bodies<'p> {
     pub(super) plan: &'p BranchPlan,
     info: &'static ModelInfo,
     method: Method,
+    /// The units of the equations at the start.
+    pub(super) units: Units,
 }
 
 impl<'p> Bodies<'p> {
     pub(super) fn new(plan: &'p BranchPlan) -> Result<Self, Error> {
         let method = motiform_study::plan::stepper(&plan.computation.start.stepper)?;
-        Ok(Self { plan, info: plan.info()?, method })
+        let mut bodies = Self { plan, info: plan.info()?, method, units: Units { length: 1.0, rate: 1.0 } };
+        if let Ok(model) = bodies.model(plan.start_value()) {
+            bodies.units = Units::of(model.as_ref());
+        }
+        Ok(bodies)
     }
 
     /// The model at a value of the parameter.
@@ -37,7 +44,7 @@ impl<'p> Bodies<'p> {
         let c = &self.plan.computation;
         let mut settings = Settings::over(c.along.from, c.along.to);
         settings.most_points = c.points;
-        settings.largest_size = c.start.escape_norm;
+        settings.largest_size = c.start.escape_norm * self.units.length;
         settings.longest_time = LOOKS * self.info.look;
         let Stride { first_step, branch_step, tolerance, .. } = c.stride;
         settings.first_step = first_step.unwrap_or(settings.first_step);

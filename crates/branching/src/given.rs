@@ -30,7 +30,7 @@ pub(super) fn first(bodies: &Bodies<'_>, watch: &dyn Watch) -> Result<Option<(St
     let model = bodies.model(bodies.plan.start_value())?;
     let mut shape = vec![0.0; model.dim()];
     model.encode(&c.start.initial.values()[..model.dim()], &mut shape);
-    let at_rest = |shape: &[f64]| steady(model.as_ref(), shape);
+    let at_rest = |shape: &[f64]| steady(model.as_ref(), shape, bodies.units);
     let found = match given {
         Given::Equilibrium => at_rest(&shape)
             .map(|found| (Start::Equilibrium(found), settings))
@@ -68,10 +68,10 @@ fn with_steady(error: Error, asked: Option<Regime>) -> Error {
 }
 
 /// The steady motion close to a shape.
-fn steady(model: &dyn Model, shape: &[f64]) -> Option<RelativeEquilibrium> {
+fn steady(model: &dyn Model, shape: &[f64], units: Units) -> Option<RelativeEquilibrium> {
     let body: &dyn Equivariant = model;
     let found = RelativeEquilibrium::find(body, shape)?;
-    let room = CLOSE * norm(shape) + ZERO * Units::of(body).length;
+    let room = CLOSE * norm(shape) + ZERO * units.length;
     (found.distance(body, shape) <= room).then_some(found)
 }
 

@@ -26,8 +26,7 @@ struct Scales {
 
 impl Scales {
     /// The range, the units of the equations, and the speed of shapes of that size.
-    fn of(body: &dyn Equivariant, settings: &Settings) -> Self {
-        let units = Units::of(body);
+    fn of(body: &dyn Equivariant, units: Units, settings: &Settings) -> Self {
         Self {
             parameter: settings.range.1 - settings.range.0,
             period: 1.0 / units.rate,
@@ -48,7 +47,7 @@ pub(super) fn known(
 ) -> Option<usize> {
     let parameter = sample.point.parameter;
     let body = bodies.model(parameter).ok()?;
-    let scales = Scales::of(body.as_ref(), settings);
+    let scales = Scales::of(body.as_ref(), bodies.units, settings);
     let is_here = |pair: &[Sample], neighbour: &Sample| {
         let between = between(pair, parameter);
         let found = moved(bodies, between.as_ref().unwrap_or(neighbour), parameter, settings, watch);

@@ -16,7 +16,11 @@ fn study(text: &str) -> Study {
 
 /// The list with the default number of starts.
 fn list(study: &Study) -> Vec<Equilibrium> {
-    equilibria(&Plan::new(study).unwrap(), 200, &()).unwrap().unwrap()
+    list_from(study, 200)
+}
+
+fn list_from(study: &Study, starts: usize) -> Vec<Equilibrium> {
+    equilibria(&Plan::new(study).unwrap(), starts, &()).unwrap().unwrap()
 }
 
 /// The real and imaginary parts of the amplitudes: the velocity is the conjugate of z1.
@@ -60,13 +64,14 @@ fn the_lorenz_equations_have_three_steady_states_in_any_unit() {
     }
 }
 
+/// In this unit of length random starts are smaller than most of the others' distances: few lead there.
 #[test]
 fn what_deflation_alone_finds_has_no_share() {
-    let found = list(&lorenz(20.0, 1.0));
+    let found = list_from(&lorenz(20.0, 0.7), 20);
     let ways: Vec<_> = found.iter().map(|one| (one.found_by, one.share)).collect();
     assert_eq!(ways.iter().filter(|way| **way == (FoundBy::Deflation, 0.0)).count(), 2, "{ways:?}");
     assert_eq!(ways.iter().filter(|way| **way == (FoundBy::Starts, 1.0)).count(), 1, "{ways:?}");
-    assert_eq!(list(&lorenz(20.0, 1.0)), found, "the same bits");
+    assert_eq!(list_from(&lorenz(20.0, 0.7), 20), found, "the same bits");
 }
 
 /// A double root at -1 beside a regular one at 2: it is not listed again and again.
