@@ -69,8 +69,14 @@ impl<'p> Bodies<'p> {
     }
 }
 
-/// An orbit whose time is longer than so many looks of the model is followed no further.
+/// An orbit whose time is longer than so many looks of the model, and than so many times that of the first one of its branch, is followed no further.
 const LOOKS: f64 = 10.0;
+const LONGER: f64 = 30.0;
+
+/// The settings for a branch that begins with an orbit of this time, whatever the unit of time.
+pub(super) fn lasting(settings: &Settings, time: f64) -> Settings {
+    Settings { longest_time: settings.longest_time.max(LONGER * time), ..*settings }
+}
 
 impl Family for Bodies<'_> {
     fn at(&self, parameter: f64) -> Result<Box<dyn Equivariant>, Refused> {

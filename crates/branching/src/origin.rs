@@ -1,6 +1,6 @@
 //! Where a branch begins.
 
-use super::family::Bodies;
+use super::family::{Bodies, lasting};
 use super::result::{Followed, Leg, Sample};
 use super::settle::Start;
 use super::single_loop::single_loop;
@@ -148,7 +148,7 @@ impl Origin {
             Self::Start => Ok(Vec::new()),
             Self::Special { branch, leg, point } => {
                 let point = &branches[branch].legs[leg].samples[point].point;
-                return switch(bodies, point, &settings, watch);
+                return switch(bodies, point, &lasting(&settings, self.cost(branches)), watch);
             }
             Self::Saddle { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -208,7 +208,9 @@ pub(super) fn sides<'f>(
             let body = bodies.model(parameter)?;
             Branch::of_equilibria(bodies, parameter, &upright(body.as_ref(), start), settings, watch)
         }
-        Start::Orbit(start) => Branch::of_orbits(bodies, parameter, start, settings, watch),
+        Start::Orbit(start) => {
+            Branch::of_orbits(bodies, parameter, start, &lasting(settings, start.time), watch)
+        }
     };
     sides.iter().filter(|(inside, _)| *inside).map(|(_, settings)| leg(settings)).collect()
 }

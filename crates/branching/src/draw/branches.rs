@@ -4,7 +4,7 @@ use crate::family::Bodies;
 use crate::result::Leg;
 use crate::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
-use motiform_continuation::{End, Special};
+use motiform_continuation::{End, Joins, Special};
 use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Glyph};
 use motiform_lab::draw::{Figures, words};
 use motiform_study::plan::Named;
@@ -271,7 +271,8 @@ fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
             all.push(BranchMark { label: label.to_owned(), glyph, at: [sample.point.parameter, y] });
         }
         if let (Some(at), End::Homoclinic(end)) = (connection(leg, ordinate), &leg.end) {
-            all.push(BranchMark { label: end.joins.kind().to_owned(), glyph: Glyph::Cross, at });
+            let glyph = if end.joins == Joins::Itself { Glyph::Cross } else { Glyph::Zigzag };
+            all.push(BranchMark { label: end.joins.kind().to_owned(), glyph, at });
         }
     }
     all
