@@ -67,7 +67,7 @@ impl Orbits<'_> {
                 continue;
             }
             let at = RelativeEquilibrium::find(way.body, &way.shapes[place]);
-            found.extend(at.and_then(|at| way.passage(self, at, place as isize)));
+            found.extend(at.and_then(|at| way.passage(self, at, place.cast_signed())));
         }
         let steps: f64 = found.iter().map(|(_, passage)| passage.share).sum();
         let mut all: Vec<Passage> = found.into_iter().map(|(_, passage)| passage).collect();
@@ -138,13 +138,13 @@ impl<'w> Way<'w> {
 
     /// Whether a shape lies in a passage, which may begin before the first shape or end after the last one.
     fn is_within(&self, place: usize, during: &RangeInclusive<isize>) -> bool {
-        let count = self.shapes.len() as isize;
-        [-count, 0, count].iter().any(|turn| during.contains(&(place as isize + turn)))
+        let count = self.shapes.len().cast_signed();
+        [-count, 0, count].iter().any(|turn| during.contains(&(place.cast_signed() + turn)))
     }
 
     /// The distance of a shape, of any whole number, from an equilibrium.
     fn distance(&self, at: &RelativeEquilibrium, place: isize) -> f64 {
-        let count = self.shapes.len() as isize;
+        let count = self.shapes.len().cast_signed();
         let mirrored = self.mirrored && place.div_euclid(count) % 2 != 0;
         align(self.body, &at.shape, &self.shapes[place.rem_euclid(count) as usize], mirrored).distance
     }
@@ -156,7 +156,7 @@ impl<'w> Way<'w> {
         at: RelativeEquilibrium,
         place: isize,
     ) -> Option<(RangeInclusive<isize>, Passage)> {
-        let count = self.shapes.len() as isize;
+        let count = self.shapes.len().cast_signed();
         let distances: Vec<f64> = (place - count..=place + count).map(|i| self.distance(&at, i)).collect();
         let extent = distances.iter().copied().fold(0.0, f64::max);
         let (middle, near) = (count as usize, NEAR * extent);
@@ -176,7 +176,7 @@ impl<'w> Way<'w> {
         let all = if rates.is_empty() { &at.eigenvalues } else { &rates };
         let has = |rate: f64| all.iter().any(|value| (value.0 / rate - 1.0).abs() < RATES);
         let is_clear = has(rate(begin, comes)) && has(rate(goes, end));
-        let during = place + begin as isize - count..=place + end as isize - count;
+        let during = place + begin.cast_signed() - count..=place + end.cast_signed() - count;
         let saddle = Saddle { found: at, rates };
         Some((during, Passage { saddle, share: (end - begin) as f64, is_clear }))
     }
