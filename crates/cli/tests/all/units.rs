@@ -97,8 +97,11 @@ fn equilibria(folder: &Folder, system: &System, rate: f64) -> Vec<Vec<f64>> {
     list.iter().map(eigenvalues).collect()
 }
 
-/// The special points of all branches that are found from the first equilibrium: branch, kind, parameter, period.
-fn special(folder: &Folder, system: &System, rate: f64) -> Vec<(usize, String, f64, f64)> {
+/// A special point: branch, kind, parameter, period.
+type Found = (usize, String, f64, f64);
+
+/// The special points of all branches that are found from the first equilibrium.
+fn special(folder: &Folder, system: &System, rate: f64) -> Vec<Found> {
     let System { along, branches, .. } = system;
     let run = format!(
         "continue --start equilibria.json:1 --along {along} --branches {branches} --points 150 --json"
@@ -130,7 +133,7 @@ fn other_units_give_the_same_equilibria_and_special_points() {
             assert_eq!(found.0.len(), steady.len(), "{label}");
             let values = found.0.iter().flatten().zip(steady.iter().flatten());
             assert!(values.clone().all(|(a, b)| near(*a, *b, 1e-6)), "{label}: {:?} {steady:?}", found.0);
-            let same = |(a, b): (&(usize, String, f64, f64), &(usize, String, f64, f64))| {
+            let same = |(a, b): (&Found, &Found)| {
                 a.0 == b.0 && a.1 == b.1 && near(a.2, b.2, 1e-6) && near(a.3, b.3, 1e-3)
             };
             assert_eq!(found.1.len(), points.len(), "{label}: {:?} {points:?}", found.1);
