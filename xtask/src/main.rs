@@ -111,9 +111,15 @@ fn root() -> Result<PathBuf> {
     Ok(PathBuf::from(package).join(".."))
 }
 
-/// Runs cargo in the workspace, showing what it does.
+/// Runs cargo in the workspace, showing what it does. Tests that wait for other processes leave a processor free: one more thread of tests uses it.
 fn cargo(name: &str, arguments: &[&str]) -> Result<()> {
-    step(name, cargo_command().args(arguments).env("RUSTDOCFLAGS", "-D warnings"))
+    let mut command = cargo_command();
+    command.args(arguments).env("RUSTDOCFLAGS", "-D warnings");
+    if std::env::var_os("RUST_TEST_THREADS").is_none() {
+        let processors = std::thread::available_parallelism().map_or(1, usize::from);
+        command.env("RUST_TEST_THREADS", (processors + 1).to_string());
+    }
+    step(name, &mut command)
 }
 
 /// The cargo that runs this.

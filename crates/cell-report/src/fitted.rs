@@ -79,12 +79,13 @@ fn stage(fitted: &Fitted, units: &Units) -> String {
 
 fn coefficients(fitted: &Fitted, units: &Units) -> Table {
     let between = fitted.between.as_ref();
-    let sound = fitted.model().converged();
+    let (sound, stated) = (fitted.model().converged(), fitted.no_intervals().is_none());
     let row = |(place, c): (usize, &Coefficient)| {
         let (name, factor) = paper(&c.term, c.imaginary);
         let part = if c.imaginary { "imaginary part of " } else { "" };
         let over = fitted.over_sets(&c.name).filter(|_| !c.imaginary);
-        let [low, high] = over.map_or(c.estimate.interval, |over| over.interval);
+        let [low, high] = over.map_or(c.estimate.interval, |over| over.interval).map(plain);
+        let interval = if sound && stated { format!("{low} to {high}") } else { String::new() };
         let mut row = vec![
             Cell::text(format!("{part}{}", typeset(&c.name))),
             Cell::number(if sound {
@@ -94,7 +95,7 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
             }),
             Cell::text(unit(&c.term, units)),
             Cell::number(if sound { plain(c.estimate.robust) } else { "not converged".to_owned() }),
-            Cell::number(if sound { format!("{} to {}", plain(low), plain(high)) } else { String::new() }),
+            Cell::number(interval),
             Cell::text(literal(&format!("{name} = {}", plain(c.estimate.value / factor)))),
         ];
         if let Some(between) = between {
@@ -117,7 +118,7 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
                 fitted.whole.coefficient(&one.name).map_or_else(String::new, |c| unit(&c.term, units)),
             ),
             Cell::number(""),
-            Cell::number(format!("{low} to {high}")),
+            Cell::number(if stated { format!("{low} to {high}") } else { String::new() }),
             Cell::text(format!(
                 "not in the file: in {:.0} % of the weight of all tied sets",
                 100.0 * one.weight
@@ -128,8 +129,14 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
         }
         rows.push(row);
     }
+    let intervals = fitted.no_intervals().map_or_else(
+        || "Intervals are those over all sets of terms that the data do not tell apart".to_owned(),
+        |reason| format!("No intervals are stated: {reason}"),
+    );
     Table {
-        caption: "Coefficients in the units of the data; a term stands in the equation of the amplitude before the colon. Intervals are those over all sets of terms that the data do not tell apart; the errors are those of the best set alone.".to_owned(),
+        caption: format!(
+            "Coefficients in the units of the data; a term stands in the equation of the amplitude before the colon. {intervals}; the errors are those of the best set alone."
+        ),
         head: head.into_iter().map(str::to_owned).collect(),
         rows,
     }

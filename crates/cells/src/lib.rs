@@ -7,6 +7,7 @@
 mod bifurcations;
 mod cell;
 mod checks;
+mod driven;
 mod error;
 mod field;
 mod fit;
@@ -32,6 +33,7 @@ mod work;
 pub use bifurcations::{NearBifurcation, near_bifurcations};
 pub use cell::{CellTrack, Sample};
 pub use checks::Checks;
+pub use driven::Driven;
 pub use error::{Error, Result};
 pub use field::{CommonDrift, Correction, FieldOfView, Jitter, StageJump};
 pub use fit::{CellFit, FitOptions, TOGETHER, fit_cell, fit_cells, fit_together};

@@ -1,5 +1,6 @@
 //! The motion of the models that the data allow.
 
+use crate::driven::{Driven, driven_share};
 use crate::{Result, start};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::{StopOnly, Watch};
@@ -16,6 +17,8 @@ pub const LEAST_SHARE: f64 = 0.9;
 const LEAST_WEIGHT: f64 = 0.05;
 /// Most steps of the integration for one model: some draws are so stiff that their motion would take minutes. They count as undetermined.
 const MOST_STEPS: u64 = 1_000_000;
+/// Models of which the share of their motion without noise is computed, at most.
+const MOST_SHARES: usize = 20;
 /// Most sets of terms that have draws.
 const MOST_SETS: usize = 20;
 
@@ -38,6 +41,9 @@ pub struct FittedRegime {
     /// See [`FittedRegime::is_carried`].
     #[serde(default)]
     pub carried: bool,
+    /// How much of the motion the equations make without their noise; `None` with few draws, or where these blow up.
+    #[serde(default)]
+    pub driven: Option<Driven>,
 }
 
 impl FittedRegime {
@@ -70,12 +76,17 @@ pub fn regime_of(
     let start = start::observed(tracks, &selection.fit.scales).unwrap_or_default();
     let best = classify(&selection.fit, (&selection.fit.natural.coefficients, &start), watch)?;
     let mut counts: Vec<(Regime, usize)> = Vec::new();
+    let mut shares = Vec::new();
     for (number, (fit, share)) in sets(tracks, whole, selection, watch)?.into_iter().enumerate() {
         let here = ((share * count as f64).round() as usize).max(1);
-        for drawn in draws(&fit, here, seed.wrapping_add(number as u64)) {
+        for (place, drawn) in draws(&fit, here, seed.wrapping_add(number as u64)).into_iter().enumerate() {
             let units = fit.coefficients.iter().map(|c| fit.scales.coefficient(&c.term));
             let values: Vec<f64> = drawn.iter().zip(units).map(|(value, unit)| value / unit).collect();
             let regime = classify(&fit, (&values, &start), watch)?;
+            // every second or later one, so that all sets have their part
+            if place % count.div_ceil(MOST_SHARES).max(1) == 0 {
+                shares.extend(driven_share(&fit, (&values, &start), seed.wrapping_add(shares.len() as u64)));
+            }
             match counts.iter_mut().find(|entry| entry.0 == regime) {
                 Some(entry) => entry.1 += 1,
                 None => counts.push((regime, 1)),
@@ -85,14 +96,23 @@ pub fn regime_of(
     counts.sort_by_key(|entry| std::cmp::Reverse(entry.1));
     let draws = counts.iter().map(|entry| entry.1).sum::<usize>();
     let (first, most) = counts.first().copied().unwrap_or((best, 0));
-    let share = if draws == 0 { 0.0 } else { most as f64 / draws as f64 };
+    let agreeing = if draws == 0 { 0.0 } else { most as f64 / draws as f64 };
     let named =
-        share >= LEAST_SHARE && first == best && !matches!(first, Regime::Undetermined | Regime::BlowUp);
+        agreeing >= LEAST_SHARE && first == best && !matches!(first, Regime::Undetermined | Regime::BlowUp);
     // the speed of a cell that rests is within its errors, and its equations are not identifiable
     let moves = selection.fit.scales.signal.first().is_some_and(|signal| *signal >= 1.0);
     let carried = named && first == Regime::Motionless && moves;
     let regime = (named && !carried).then_some(first);
-    Ok(FittedRegime { regime, best, share, counts, draws, start, carried })
+    Ok(FittedRegime {
+        regime,
+        best,
+        share: agreeing,
+        counts,
+        draws,
+        start,
+        carried,
+        driven: Driven::of(shares),
+    })
 }
 
 /// The models of the sets that the data do not tell apart, with their shares of the weight.

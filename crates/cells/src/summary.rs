@@ -111,6 +111,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
         let counts: Map<String, Value> =
             found.counts.iter().map(|(regime, count)| (regime.name().to_owned(), json!(count))).collect();
         object["draws"] = counts.into();
+        object["driven"] = json!(found.driven);
     }
     object["why"] = fitted.why().into();
     object["identifiable"] = fitted.is_identifiable().into();
@@ -135,9 +136,12 @@ fn add(object: &mut Value, fitted: &Fitted) {
         "matrix": model.covariance_of_coefficients(),
     });
     object["converged"] = fitted.model().converged().into();
+    let stated = fitted.no_intervals().is_none();
     let over_sets = fitted.averaged.iter().map(|one| {
-        json!({ "term": one.name, "value": one.value, "lower": one.interval[0], "upper": one.interval[1], "weight": one.weight })
+        let [lower, upper] = one.interval.map(|end| stated.then_some(end));
+        json!({ "term": one.name, "value": one.value, "lower": lower, "upper": upper, "weight": one.weight })
     });
+    object["no_intervals"] = json!(fitted.no_intervals());
     object["averaged"] = over_sets.collect();
     let sets = fitted.selection.subsets.ties.iter().take(MOST_SETS);
     object["sets"] = sets.map(|set| json!({ "terms": set.names, "excess": set.excess })).collect();
@@ -194,7 +198,8 @@ impl Fitted {
 fn counts(found: &FittedRegime) -> String {
     let counts: Vec<String> =
         found.counts.iter().map(|(regime, count)| format!("{regime} {count}")).collect();
-    counts.join(", ")
+    let driven = found.driven.as_ref().map_or_else(String::new, |driven| format!("; {}", driven.in_words()));
+    format!("{}{driven}", counts.join(", "))
 }
 
 /// Combinations that are free.

@@ -1,9 +1,10 @@
 //! A cell simulated from a fit, seen as the observed one was.
 
 use super::record::Record;
+use crate::driven::noise;
 use crate::start::{coordinates, pair};
 use motiform_dynamics::steppers::RK4;
-use motiform_dynamics::{InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Orbit, StepControl};
+use motiform_dynamics::{InPlane, Integration, Model, NoisyOrbit, Normal, Orbit, StepControl};
 use motiform_inference::{Fit, Observation, Scales, Track, equations};
 use motiform_models::amplitudes::info;
 
@@ -31,11 +32,7 @@ pub(super) fn simulated(
     let control = StepControl::Fixed { step };
     let body = InPlane(model.as_ref());
     let orbit = Orbit::new(&body, &RK4, control, 0.0, &state).ok()?;
-    let [_, eta_v, eta_shape, _] = fit.natural.logs.map(libm::exp);
-    let mut noise = Noise::on(model.as_ref(), eta_v, eta_shape, step);
-    for (own, variance) in noise.amplitudes.chunks_exact_mut(2).zip(fit.scales.noise_of_modes()) {
-        own.iter_mut().for_each(|amplitude| *amplitude *= variance.sqrt());
-    }
+    let noise = noise(fit, model.as_ref(), step);
     let mut orbit = NoisyOrbit::new(orbit, noise, Normal::new(seed, 2 * number + 1)).ok()?;
     let mut frames = Vec::with_capacity(observed.frames.len());
     for (place, wanted) in observed.mask().enumerate() {

@@ -6,6 +6,7 @@ mod doubts;
 mod every_format;
 mod field;
 mod format_writers;
+mod matrix;
 mod numbers;
 mod observed;
 mod population;

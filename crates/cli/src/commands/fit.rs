@@ -175,7 +175,8 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
         if let Some(error) = fitted.between.as_ref().and_then(|between| between.errors.get(place)) {
             write!(text, " ({} between cells)", four_digits(*error))?;
         }
-        if let Some(one) = fitted.over_sets(&coefficient.name).filter(|_| !coefficient.imaginary) {
+        let stated = !coefficient.imaginary && fitted.no_intervals().is_none();
+        if let Some(one) = fitted.over_sets(&coefficient.name).filter(|_| stated) {
             write!(text, " 95 %: {} to {}", four_digits(one.interval[0]), four_digits(one.interval[1]))?;
         }
         if let Some(weak) = fitted.checks.weak(place) {
@@ -184,13 +185,19 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
         text.push('\n');
     }
     for one in fitted.in_other_sets() {
-        let [value, low, high] = [one.value, one.interval[0], one.interval[1]].map(four_digits);
+        let [low, high] = one.interval.map(four_digits);
+        let interval =
+            if fitted.no_intervals().is_none() { format!(", 95 %: {low} to {high}") } else { String::new() };
         writeln!(
             text,
-            "  {:<20} not in the best set; over all tied sets {value}, 95 %: {low} to {high}, in {:.0} % of their weight",
+            "  {:<20} not in the best set; over all tied sets {}{interval}, in {:.0} % of their weight",
             one.name,
+            four_digits(one.value),
             100.0 * one.weight
         )?;
+    }
+    if let Some(reason) = fitted.no_intervals() {
+        writeln!(text, "no intervals   {reason}")?;
     }
     text += &sets(fitted)?;
     let noise = &model.noise;

@@ -68,7 +68,7 @@ fn killed_once(folder: &Folder, words: &str, written: impl Fn() -> bool) {
 fn killed_and_resumed_fits_have_the_bytes_of_uninterrupted_ones() {
     let folder = Folder::new();
     fs::write(folder.path("cells.csv"), outlines(4)).unwrap();
-    let words = "fit cells.csv --interval 1 --pixel-size 1 --draws 3 --threads 2 --json";
+    let words = "fit cells.csv --interval 1 --pixel-size 1 --draws 3 --modes 2 --threads 2 --json";
     let whole = folder.run(&format!("{words} --out whole"));
     assert!([Some(0), Some(1)].contains(&whole.code), "{}", whole.stderr);
     // killed again and again, after at least one more cell each time
@@ -125,7 +125,7 @@ fn pages_left_out_are_drawn_by_resume() {
 fn a_killed_fit_of_all_cells_together_goes_on_from_its_last_stage() {
     let folder = Folder::new();
     fs::write(folder.path("cells.csv"), outlines(2)).unwrap();
-    let words = "fit cells.csv --interval 1 --pixel-size 1 --draws 3 --together --json";
+    let words = "fit cells.csv --interval 1 --pixel-size 1 --draws 3 --modes 2 --together --json";
     let whole = folder.run(&format!("{words} --out whole"));
     assert!([Some(0), Some(1)].contains(&whole.code), "{}", whole.stderr);
     let page = fs::read_to_string(folder.path("whole/report.html")).unwrap();
@@ -139,8 +139,9 @@ fn a_killed_fit_of_all_cells_together_goes_on_from_its_last_stage() {
     let again = folder.run(&format!("{words} --out parts --resume"));
     assert_eq!((again.code, &again.stdout), (whole.code, &whole.stdout));
     assert_eq!(files(&folder, "parts"), files(&folder, "whole"));
-    let refused =
-        folder.run("fit cells.csv --interval 1 --pixel-size 1 --draws 3 --out parts --resume").expect(2);
+    let refused = folder
+        .run("fit cells.csv --interval 1 --pixel-size 1 --draws 3 --modes 2 --out parts --resume")
+        .expect(2);
     assert!(refused.stderr.contains("together: true there, false requested"), "{}", refused.stderr);
 }
 

@@ -28,6 +28,13 @@ impl Conditional {
         }
     }
 
+    /// The same with these coefficients set to 0, too.
+    pub(crate) fn without(&self, dropped: impl Iterator<Item = usize>) -> Self {
+        let mut rest = self.clone();
+        dropped.for_each(|i| rest.drop(i));
+        rest
+    }
+
     /// Sets one more coefficient to 0. One that the others determine already costs nothing.
     pub(crate) fn drop(&mut self, i: usize) {
         let variance = self.covariance[(i, i)];

@@ -11,6 +11,8 @@ const LEAST_IN_BLOCK: usize = 5;
 const MOST_ORDER: f64 = 1.0 / 3.0;
 /// Significance.
 const LEVEL: f64 = 1e-3;
+/// Significance at which a stretch is not excluded as the reason of something else.
+const SUSPICION: f64 = 0.01;
 /// Smaller shares of the elongation are no matter.
 const LEAST_SHARE: f64 = 0.05;
 
@@ -52,6 +54,12 @@ impl Stretch {
     #[must_use]
     pub fn is_clear(&self, cells: usize) -> bool {
         self.is_possible(cells) && self.order <= MOST_ORDER
+    }
+
+    /// Whether there may be one of any size: at a significance of 1 %. A stretch too small for a warning makes a circling cell look handed.
+    #[must_use]
+    pub fn is_suspected(&self, cells: usize) -> bool {
+        self.p_value * cells as f64 <= SUSPICION
     }
 
     /// Whether there is one, or the directions that the cell keeps look like one.
