@@ -2,7 +2,7 @@
 
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::{Error as Refused, regime};
-use motiform_continuation::{Family, Settings};
+use motiform_continuation::{Allowance, Family, Settings};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Model, StepControl};
 use motiform_lab::analyse::settings_of;
@@ -17,12 +17,23 @@ pub(super) struct Bodies<'p> {
     pub(super) plan: &'p BranchPlan,
     info: &'static ModelInfo,
     method: Method,
+    allowance: Option<&'p Allowance>,
 }
 
 impl<'p> Bodies<'p> {
     pub(super) fn new(plan: &'p BranchPlan) -> Result<Self, Error> {
         let method = motiform_study::plan::stepper(&plan.computation.start.stepper)?;
-        Ok(Self { plan, info: plan.info()?, method })
+        Ok(Self { plan, info: plan.info()?, method, allowance: None })
+    }
+
+    /// The same; on orbits no more is spent than this.
+    pub(super) fn within(self, allowance: Option<&'p Allowance>) -> Self {
+        Self { allowance, ..self }
+    }
+
+    /// Whether the work that is allowed is done.
+    pub(super) fn is_spent(&self) -> bool {
+        self.allowance.is_some_and(Allowance::is_spent)
     }
 
     /// The model at a value of the parameter.
@@ -69,5 +80,9 @@ impl Family for Bodies<'_> {
     fn at(&self, parameter: f64) -> Result<Box<dyn Equivariant>, Refused> {
         let model: Box<dyn Equivariant> = self.model(parameter)?;
         Ok(model)
+    }
+
+    fn allowance(&self) -> Option<&Allowance> {
+        self.allowance
     }
 }
