@@ -47,6 +47,8 @@ pub struct Line {
     pub curves: Vec<StabilityCurve>,
     /// Ends of stable motions.
     pub ends: Vec<LineEnd>,
+    /// Steps of the flow that its orbits took.
+    pub steps: u64,
     /// Why nothing could be followed, or not all.
     pub refused: Option<String>,
 }
@@ -86,7 +88,7 @@ pub(crate) fn course(
 /// Follows the curves on which motions of these branches gain or lose their stability: those that begin at a boundary of the motion, as `bounds` says of
 /// places, and are not known. `None` if the watch stopped it.
 pub(crate) fn read_line(
-    scan: &ScanPlan,
+    (scan, most): (&ScanPlan, u64),
     task: Task,
     course: Result<Ground, String>,
     (known, bounds): (&[Line], &dyn Fn([f64; 2], Regime) -> bool),
@@ -101,6 +103,7 @@ pub(crate) fn read_line(
         branches: 0,
         curves: Vec::new(),
         ends: Vec::new(),
+        steps: 0,
         refused: None,
     };
     let (plan, found, allowance) = match course {
@@ -143,6 +146,7 @@ pub(crate) fn read_line(
             Err(error) => return Err(error),
         }
     }
+    line.steps = most - allowance.left();
     line.refused = unfinished(&line, &found, allowance.is_spent());
     Ok(Some(line))
 }
@@ -153,11 +157,19 @@ fn unfinished(line: &Line, found: &Branches, spent: bool) -> Option<String> {
     let cut = legs.filter(|leg| leg.end == BranchEnd::Spent).count();
     let curves = line.curves.iter().flat_map(|one| &one.curve.legs);
     let short = curves.filter(|leg| leg.end == BranchEnd::Spent).count();
+    let count = |count: usize, one: &str, many: &str| match count {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        _ => Some(format!("{count} {many}")),
+    };
+    let parts = [
+        count(cut, "end of a branch", "ends of branches"),
+        count(short, "end of a curve", "ends of curves"),
+        (cut + short == 0).then(|| "what begins last on its branches".to_owned()),
+    ];
     (spent || cut + short > 0).then(|| {
-        format!(
-            "the steps along orbits that a line may take are spent: {cut} branches and {short} sides of curves were not followed to their ends (long periods, \
-             or orbits that amplify deviations)"
-        )
+        let left: Vec<String> = parts.into_iter().flatten().collect();
+        format!("the steps that its orbits may take were spent before {}", left.join(" and "))
     })
 }
 

@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 /// Version of the meaning of a plan; part of the hash.
 pub(crate) const ATLAS_FORMAT: u32 = 2;
 
-/// Steps of the flow along orbits that a line may take, some ten seconds of them: the lines of the planes of the paper take less than a tenth. Curves on which orbits come
-/// close to a connection, with periods tens of times those at their start, take any number.
+/// Steps of the flow along orbits that a line may take, a few seconds of them. The lines of the planes of the paper take a part of it; curves on which orbits come
+/// close to a connection, with periods ten times those at their start, take any number.
 const LINE_STEPS: u64 = 1_000_000;
 
 /// Values of an axis whose number is not given: of models that are classified in the lanes of vector registers, and of others.
