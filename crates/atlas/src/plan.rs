@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 /// Version of the meaning of a plan; part of the hash.
 pub(crate) const ATLAS_FORMAT: u32 = 2;
 
-/// Steps of the flow along orbits that a line may take, a few seconds of them. The lines of the planes of the paper take a part of it; curves on which orbits come
+/// Steps of the flow along orbits that a line may take, a few seconds of them. The lines of the plane of the paper's Fig. 4 take up to half of it; curves on which orbits come
 /// close to a connection, with periods ten times those at their start, take any number.
 const LINE_STEPS: u64 = 1_000_000;
 

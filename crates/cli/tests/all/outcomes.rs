@@ -124,7 +124,7 @@ fn a_stiff_blow_up_has_the_time_of_the_explicit_run() {
     let body = "tensor --preset fig4 --set a2=0.2 --set b3=0 --set d3=0 --set kappa2=-0.2 --set kappa3=-0.2";
     let time = |words: &str| -> f64 {
         let json = folder.run(&format!("{words} --json")).json();
-        json["outcome"]["t"].as_f64().or(json["t"].as_f64()).unwrap_or_else(|| panic!("{json:#}"))
+        json["outcome"]["t"].as_f64().or(json["escape_time"].as_f64()).unwrap_or_else(|| panic!("{json:#}"))
     };
     let run = time(&format!("simulate {body} --transient 0 --t-end 100 --no-figures --rtol 1e-10"));
     for rtol in ["1e-8", "1e-10", "1e-12"] {
