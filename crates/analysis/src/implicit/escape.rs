@@ -49,7 +49,7 @@ impl Ascent<'_> {
         let (mut t, mut law, mut slope) = (self.t, GrowthLaw::default(), vec![0.0; start.len()]);
         for _ in 0..STEPS {
             let now = flow.h.min(self.t_end - t);
-            if !(now > SHORTEST * span) || self.watch.stopped() {
+            if now.is_nan() || now <= SHORTEST * span || self.watch.stopped() {
                 return None;
             }
             if !flow.step(now, &none) {
