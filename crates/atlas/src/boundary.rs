@@ -222,10 +222,14 @@ fn why(differing: &[Regime]) -> &'static str {
     let has = |regime| differing.contains(&regime);
     if has(Regime::Undetermined) {
         "a motion is undetermined there"
-    } else if has(Regime::BlowUp) || has(Regime::Chaotic) {
-        "chaotic motion and blow-up are no branches: found by sampling; a chaotic motion may end in a crisis"
+    } else if has(Regime::BlowUp) && has(Regime::Chaotic) {
+        "kind undetermined: neither is a branch; sampling does not tell a crisis of the chaotic set from transients longer than what was looked at"
+    } else if has(Regime::BlowUp) {
+        "kind undetermined: blow-up is no branch, and no bifurcation of the motion beside it was found there: the basins may meet"
+    } else if has(Regime::Chaotic) {
+        "kind undetermined: chaotic motion is no branch, found by sampling; it may begin with a cascade, or end in a crisis"
     } else if has(Regime::Rectangular) {
-        "rectangular motion is a heteroclinic cycle, which is no branch: found by sampling"
+        "kind undetermined: rectangular motion is a heteroclinic cycle, which is no branch, found by sampling"
     } else {
         "no branch that was followed ends or loses its stability there: more lines or initial states may find it"
     }

@@ -2,8 +2,8 @@
 
 use crate::plan::AtlasPlan;
 use motiform_analysis::Regime;
-use motiform_branching::curves::{FollowedCurve, follow_curve};
-use motiform_branching::{BranchEnd, Branches, Sample, follow, is_stable};
+use motiform_branching::curves::{FollowedCurve, follow_curve_within};
+use motiform_branching::{Allowance, BranchEnd, Branches, Sample, follow_within, is_stable};
 use motiform_continuation::ConnectionKind;
 use motiform_dynamics::Watch;
 use motiform_study::curves::CurveKind;
@@ -47,7 +47,9 @@ pub struct Line {
     pub curves: Vec<StabilityCurve>,
     /// Ends of stable motions.
     pub ends: Vec<LineEnd>,
-    /// Why nothing could be followed.
+    /// Steps of the flow that its orbits took.
+    pub steps: u64,
+    /// Why nothing could be followed, or not all.
     pub refused: Option<String>,
 }
 
@@ -59,8 +61,11 @@ pub(crate) struct Task {
     pub(crate) motion: Regime,
 }
 
-/// The branches on a line, or why there are none; `None` if the watch stopped it.
-pub(crate) type Course = Option<Result<(CurvePlan, Branches), String>>;
+/// The branches on a line, and what is left for curves; or why there are none. `None` if the watch stopped it.
+pub(crate) type Course = Option<Result<Ground, String>>;
+
+/// The branches on a line, and what is left for curves.
+pub(crate) type Ground = (CurvePlan, Branches, Allowance);
 
 /// Follows the branches on a line.
 pub(crate) fn course(
@@ -70,8 +75,9 @@ pub(crate) fn course(
     watch: &dyn Watch,
 ) -> Result<Course, Error> {
     let line = plan.line(scan, task.start, task.side)?;
-    match follow(&line.branches(), None, watch) {
-        Ok(found) if found.complete => Ok(Some(Ok((line, found)))),
+    let allowance = Allowance::of(plan.computation.line_steps);
+    match follow_within(&line.branches(), &allowance, watch) {
+        Ok(found) if found.complete => Ok(Some(Ok((line, found, allowance)))),
         Ok(_) => Ok(None),
         Err(_) if watch.stopped() => Ok(None),
         Err(error @ (Error::Start { .. } | Error::Analysis(_))) => Ok(Some(Err(error.to_string()))),
@@ -82,9 +88,9 @@ pub(crate) fn course(
 /// Follows the curves on which motions of these branches gain or lose their stability: those that begin at a boundary of the motion, as `bounds` says of
 /// places, and are not known. `None` if the watch stopped it.
 pub(crate) fn read_line(
-    scan: &ScanPlan,
+    (scan, most): (&ScanPlan, u64),
     task: Task,
-    course: Result<(CurvePlan, Branches), String>,
+    course: Result<Ground, String>,
     (known, bounds): (&[Line], &dyn Fn([f64; 2], Regime) -> bool),
     watch: &dyn Watch,
 ) -> Result<Option<Line>, Error> {
@@ -97,9 +103,10 @@ pub(crate) fn read_line(
         branches: 0,
         curves: Vec::new(),
         ends: Vec::new(),
+        steps: 0,
         refused: None,
     };
-    let (plan, found) = match course {
+    let (plan, found, allowance) = match course {
         Ok(found) => found,
         Err(why) => return Ok(Some(Line { refused: Some(why), ..line })),
     };
@@ -130,13 +137,40 @@ pub(crate) fn read_line(
         if is_known {
             continue;
         }
-        match follow_curve(&plan, &found, (kind, start), watch) {
+        if allowance.is_spent() {
+            break;
+        }
+        match follow_curve_within(&plan, &found, (kind, start), &allowance, watch) {
             Ok(curve) => line.curves.push(StabilityCurve { motion, curve }),
             Err(Error::Interrupted) => return Ok(None),
             Err(error) => return Err(error),
         }
     }
+    line.steps = most - allowance.left();
+    line.refused = unfinished(&line, &found, allowance.is_spent());
     Ok(Some(line))
+}
+
+/// What was not followed to its end because the steps of the line were spent.
+fn unfinished(line: &Line, found: &Branches, spent: bool) -> Option<String> {
+    let legs = found.branches.iter().flat_map(|branch| &branch.legs);
+    let cut = legs.filter(|leg| leg.end == BranchEnd::Spent).count();
+    let curves = line.curves.iter().flat_map(|one| &one.curve.legs);
+    let short = curves.filter(|leg| leg.end == BranchEnd::Spent).count();
+    let count = |count: usize, one: &str, many: &str| match count {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        _ => Some(format!("{count} {many}")),
+    };
+    let parts = [
+        count(cut, "end of a branch", "ends of branches"),
+        count(short, "end of a curve", "ends of curves"),
+        (cut + short == 0).then(|| "what begins last on its branches".to_owned()),
+    ];
+    (spent || cut + short > 0).then(|| {
+        let left: Vec<String> = parts.into_iter().flatten().collect();
+        format!("the steps that its orbits may take were spent before {}", left.join(" and "))
+    })
 }
 
 /// A doubling of an orbit whose period is so many times longer than that of another one on the line is a later one of its cascade.

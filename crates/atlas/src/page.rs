@@ -161,7 +161,7 @@ fn line_table(folder: &AtlasFolder) -> Result<Table, Error> {
             Cell::text(symbols[line.side].clone()),
             Cell::text(line.motion.name()),
             Cell::number(line.branches.to_string()),
-            Cell::text(line.refused.clone().unwrap_or_else(|| curves.collect::<Vec<_>>().join("; "))),
+            Cell::text(curves.chain(line.refused.clone()).collect::<Vec<_>>().join("; ")),
         ]);
     }
     let head = heads(&["Begins at", "Along", "With", "Branches", "New curves"]);

@@ -11,7 +11,11 @@ use motiform_study::{BranchPlan, CurvePlan, Error, ScanPlan, Stride, Study};
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan; part of the hash.
-pub(crate) const ATLAS_FORMAT: u32 = 1;
+pub(crate) const ATLAS_FORMAT: u32 = 2;
+
+/// Steps of the flow along orbits that a line may take, a few seconds of them. The lines of the plane of the paper's Fig. 4 take up to half of it; curves on which orbits come
+/// close to a connection, with periods ten times those at their start, take any number.
+const LINE_STEPS: u64 = 1_000_000;
 
 /// Values of an axis whose number is not given: of models that are classified in the lanes of vector registers, and of others.
 const VALUES: [usize; 2] = [65, 17];
@@ -55,6 +59,8 @@ pub struct AtlasComputation {
     pub lines: usize,
     /// Most branches on a line.
     pub branches: usize,
+    /// Most steps of the flow along the orbits of a line.
+    pub line_steps: u64,
     /// How branches are followed.
     pub stride: Stride,
     /// A start in the plane: lines have its method, and their own parameters and initial states.
@@ -98,6 +104,7 @@ impl AtlasPlan {
             scan,
             lines: settings.lines,
             branches: settings.branches,
+            line_steps: LINE_STEPS,
             stride,
             start,
         };

@@ -42,6 +42,7 @@ pub fn atlas_summary(folder: &AtlasFolder) -> Value {
             "along": names[line.side],
             "motion": line.motion,
             "branches": line.branches,
+            "steps": line.steps,
             "refused": line.refused,
         })
     });

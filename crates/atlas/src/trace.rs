@@ -171,7 +171,14 @@ impl Work<'_> {
         for ((_, task), course) in tasks.iter().zip(courses) {
             let Some(course) = course else { return Ok(None) };
             let known: Vec<Line> = self.lines.iter().chain(&lines).cloned().collect();
-            let Some(line) = read_line(self.scan, *task, course, (&known, &bounds), &StopOnly(watch))? else {
+            let Some(line) = read_line(
+                (self.scan, self.plan.computation.line_steps),
+                *task,
+                course,
+                (&known, &bounds),
+                &StopOnly(watch),
+            )?
+            else {
                 return Ok(None);
             };
             lines.push(line);

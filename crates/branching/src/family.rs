@@ -3,7 +3,7 @@
 use motiform_analysis::equilibrium::Units;
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::{Error as Refused, regime};
-use motiform_continuation::{Family, Settings};
+use motiform_continuation::{Allowance, Family, Settings};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Model, StepControl};
 use motiform_lab::analyse::settings_of;
@@ -20,16 +20,28 @@ pub(super) struct Bodies<'p> {
     method: Method,
     /// The units of the equations at the start.
     pub(super) units: Units,
+    allowance: Option<&'p Allowance>,
 }
 
 impl<'p> Bodies<'p> {
     pub(super) fn new(plan: &'p BranchPlan) -> Result<Self, Error> {
         let method = motiform_study::plan::stepper(&plan.computation.start.stepper)?;
-        let mut bodies = Self { plan, info: plan.info()?, method, units: Units { length: 1.0, rate: 1.0 } };
+        let units = Units { length: 1.0, rate: 1.0 };
+        let mut bodies = Self { plan, info: plan.info()?, method, units, allowance: None };
         if let Ok(model) = bodies.model(plan.start_value()) {
             bodies.units = Units::of(model.as_ref());
         }
         Ok(bodies)
+    }
+
+    /// The same; on orbits no more is spent than this.
+    pub(super) fn within(self, allowance: Option<&'p Allowance>) -> Self {
+        Self { allowance, ..self }
+    }
+
+    /// Whether the work that is allowed is done.
+    pub(super) fn is_spent(&self) -> bool {
+        self.allowance.is_some_and(Allowance::is_spent)
     }
 
     /// The model at a value of the parameter.
@@ -82,5 +94,9 @@ impl Family for Bodies<'_> {
     fn at(&self, parameter: f64) -> Result<Box<dyn Equivariant>, Refused> {
         let model: Box<dyn Equivariant> = self.model(parameter)?;
         Ok(model)
+    }
+
+    fn allowance(&self) -> Option<&Allowance> {
+        self.allowance
     }
 }

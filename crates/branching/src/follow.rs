@@ -7,7 +7,7 @@ use super::origin::{Origin, sides};
 use super::reading::Reading;
 use super::result::{Branches, Followed, Leg, Link, Sample};
 use super::sweep::sweeps;
-use motiform_continuation::{Branch, End};
+use motiform_continuation::{Allowance, Branch, End};
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_files::Journal;
 use motiform_study::{BranchPlan, Error};
@@ -40,9 +40,26 @@ pub fn follow_kept(
     (keep, journal): (&mut Keep<'_>, &dyn Journal),
     watch: &dyn Watch,
 ) -> Result<Branches, Error> {
-    let bodies = Bodies::new(plan)?;
+    follow_bodies(&Bodies::new(plan)?, before, (keep, journal), watch)
+}
+
+/// As [`follow()`]; no more is spent on orbits than the allowance. A branch on which it is spent ends with [`End::Spent`], and what would begin after it is not followed.
+///
+/// # Errors
+/// As [`follow()`].
+pub fn follow_within(plan: &BranchPlan, allowance: &Allowance, watch: &dyn Watch) -> Result<Branches, Error> {
+    follow_bodies(&Bodies::new(plan)?.within(Some(allowance)), None, (&mut |_| Ok(()), &()), watch)
+}
+
+fn follow_bodies(
+    bodies: &Bodies<'_>,
+    before: Option<Branches>,
+    (keep, journal): (&mut Keep<'_>, &dyn Journal),
+    watch: &dyn Watch,
+) -> Result<Branches, Error> {
+    let plan = bodies.plan;
     let mut work = Work {
-        bodies: &bodies,
+        bodies,
         watch,
         stop: &StopOnly(watch),
         done: before.map_or_else(Branches::none, Branches::whole),
@@ -54,7 +71,7 @@ pub fn follow_kept(
         keep(&work.done)?;
     }
     while let Some(origin) = work.next() {
-        if work.done.branches.len() >= plan.computation.branches {
+        if work.done.branches.len() >= plan.computation.branches || bodies.is_spent() {
             work.done.left = work.open().count();
             break;
         }

@@ -30,8 +30,8 @@ mod table;
 mod verify;
 
 pub use folder::{BranchFolder, default_folder};
-pub use follow::{Keep, follow, follow_kept};
-pub use motiform_continuation::{Coefficient, End as BranchEnd, stated};
+pub use follow::{Keep, follow, follow_kept, follow_within};
+pub use motiform_continuation::{Allowance, Coefficient, End as BranchEnd, stated};
 pub use origin::Origin;
 pub use path::path;
 pub use reading::Reading;

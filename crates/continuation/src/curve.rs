@@ -140,6 +140,10 @@ impl Iterator for Curve<'_> {
             self.end = Some(End::PointLimit);
             return None;
         }
+        if self.kind.is_spent() {
+            self.end = Some(End::Spent);
+            return None;
+        }
         self.end = self.kind.advance(&mut self.queue, self.watch);
         self.next()
     }
@@ -178,6 +182,13 @@ impl<'f> Kind<'f> {
         match self {
             Self::Equilibria(tracer) => &tracer.settings,
             Self::Orbits(tracer) => &tracer.settings,
+        }
+    }
+
+    fn is_spent(&self) -> bool {
+        match self {
+            Self::Equilibria(tracer) => tracer.problem.is_spent(),
+            Self::Orbits(tracer) => tracer.problem.is_spent(),
         }
     }
 

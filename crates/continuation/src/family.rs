@@ -1,5 +1,6 @@
 //! Bodies that depend on one parameter or two.
 
+use super::allowance::Allowance;
 use super::problem::Failure;
 use motiform_analysis::equilibrium::prefix;
 use motiform_analysis::{Error, Result};
@@ -25,6 +26,11 @@ pub trait Family: Sync {
     /// # Errors
     /// [`Error::NoBody`] where there is none, with the reason.
     fn at(&self, parameter: f64) -> Result<Box<dyn Equivariant>>;
+
+    /// What may be spent on orbits of these bodies; `None`: whatever it takes.
+    fn allowance(&self) -> Option<&Allowance> {
+        None
+    }
 }
 
 impl<F: Fn(f64) -> Result<Box<dyn Equivariant>> + Sync> Family for F {
@@ -40,6 +46,11 @@ pub trait Family2: Sync {
     /// # Errors
     /// [`Error::NoBody`] where there is none, with the reason.
     fn at(&self, parameters: [f64; 2]) -> Result<Box<dyn Equivariant>>;
+
+    /// As [`Family::allowance`].
+    fn allowance(&self) -> Option<&Allowance> {
+        None
+    }
 }
 
 impl<F: Fn([f64; 2]) -> Result<Box<dyn Equivariant>> + Sync> Family2 for F {
@@ -57,7 +68,15 @@ pub(super) enum Bodies<'f> {
     Two(&'f dyn Family2),
 }
 
-impl Bodies<'_> {
+impl<'f> Bodies<'f> {
+    /// What may be spent on orbits.
+    pub(super) fn allowance(self) -> Option<&'f Allowance> {
+        match self {
+            Self::One(family) => family.allowance(),
+            Self::Two(family) => family.allowance(),
+        }
+    }
+
     /// Number of parameters.
     pub(super) const fn count(self) -> usize {
         match self {

@@ -19,6 +19,7 @@
 //! Source: pseudo-arclength: Keller (1977), in Applications of Bifurcation Theory; relative orbits: Wulff and Schebesch (2006),
 //! SIAM J. Appl. Dyn. Syst. 5, 235; normal forms: Kuznetsov (2004), Elements of Applied Bifurcation Theory.
 
+mod allowance;
 mod beginning;
 mod between;
 mod brackets;
@@ -70,6 +71,7 @@ mod vanishing;
 mod variation;
 mod whole_curve;
 
+pub use allowance::Allowance;
 pub use branch::Branch;
 pub use certificate::{Certificate, TestFunction};
 pub use copies::same_motion;

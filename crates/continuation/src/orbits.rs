@@ -1,5 +1,6 @@
 //! The equations of relative periodic orbits along a parameter.
 
+use super::allowance::Allowance;
 use super::classes::{Classes, GAINED};
 use super::equilibria::linearisation;
 use super::family::{Bodies, Neighbours};
@@ -182,6 +183,9 @@ impl Equations for Orbits<'_> {
         let span = self.span(x);
         let nodes = || (0..self.parts).map(|i| self.node(x, i));
         let segments = segments(&neighbours, nodes(), span, &self.flow, watch)?;
+        if let Some(allowance) = self.bodies.allowance() {
+            allowance.spend(segments.iter().map(|segment| segment.steps).sum());
+        }
         let body = neighbours.body;
         let mut out = vec![0.0; self.dim];
         let mut along = |write: &dyn Fn(&[f64], &mut [f64])| -> Vec<Vec<f64>> {
@@ -311,6 +315,10 @@ impl Problem for Orbits<'_> {
 
     fn size(&self, x: &[f64]) -> f64 {
         (0..self.parts).map(|i| norm(self.node(x, i))).fold(0.0, f64::max)
+    }
+
+    fn is_spent(&self) -> bool {
+        self.bodies.allowance().is_some_and(Allowance::is_spent)
     }
 
     fn time(&self) -> Option<usize> {

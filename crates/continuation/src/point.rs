@@ -103,6 +103,8 @@ pub enum End {
     },
     /// As many points as were asked for.
     PointLimit,
+    /// All steps of the flow along orbits that were allowed ([`super::Allowance`]).
+    Spent,
     /// The watch stopped it.
     Stopped,
     /// A shape grew beyond [`super::Settings::largest_size`].
@@ -187,6 +189,7 @@ impl std::fmt::Display for End {
             Self::Closed => write!(f, "the branch came back to its start"),
             Self::Degenerate { kind } => write!(f, "the curve ends: {}", kind.name()),
             Self::PointLimit => write!(f, "as many points as were asked for"),
+            Self::Spent => write!(f, "the steps along orbits that were allowed are spent"),
             Self::Stopped => write!(f, "stopped from outside"),
             Self::BlowUp { size } => write!(f, "the shape grew to {size:.3e}"),
             Self::StepUnderflow { step, why } => write!(f, "no point after a step of {step:.1e}: {why}"),

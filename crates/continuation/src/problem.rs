@@ -108,6 +108,11 @@ pub(super) trait Problem: Equations {
         1.0
     }
 
+    /// Whether the work that may be done is done.
+    fn is_spent(&self) -> bool {
+        false
+    }
+
     /// The place of the time among the unknowns, for orbits.
     fn time(&self) -> Option<usize> {
         None

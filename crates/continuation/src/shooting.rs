@@ -24,6 +24,8 @@ pub(super) struct Segment {
     pub(super) tangents: Vec<f64>,
     /// `d Phi / dp`, for every parameter.
     pub(super) by_parameter: Vec<f64>,
+    /// Steps that it took.
+    pub(super) steps: u64,
 }
 
 /// The flow from `start` over `span` with all its derivatives.
@@ -41,8 +43,9 @@ pub(super) fn segment(
     let variation = Variation::new(neighbours);
     let mut state = Vec::new();
     variation.start(start, &mut state);
-    let end = run(&variation, &state, (span, dim), (flow, neighbours.length), watch)?;
-    Ok(read(neighbours, &end, dim))
+    let mut orbit = begun(&variation, &state, flow)?;
+    arrive(orbit.as_mut(), span, (state.len(), dim), (flow, neighbours.length), watch)?;
+    Ok(read(neighbours, orbit.state(), dim, taken(orbit.as_ref())))
 }
 
 /// The flow from each of the nodes, each over `span`, with all its derivatives. The integration goes on from one to the next with the step that it has: at
@@ -58,7 +61,7 @@ pub(super) fn segments<'x>(
         return nodes.map(|node| stiff_segment(neighbours, node, span, watch)).collect();
     }
     let variation = Variation::new(neighbours);
-    let (mut state, mut going) = (Vec::new(), None);
+    let (mut state, mut going, mut before) = (Vec::new(), None, 0);
     let mut out = Vec::new();
     for (count, node) in nodes.enumerate() {
         variation.start(node, &mut state);
@@ -71,20 +74,28 @@ pub(super) fn segments<'x>(
         }
         let (end, sizes) = ((count + 1) as f64 * span, (state.len(), node.len()));
         arrive(orbit.as_mut(), end, sizes, (flow, neighbours.length), watch)?;
-        out.push(read(neighbours, orbit.state(), node.len()));
+        let steps = taken(orbit.as_ref());
+        out.push(read(neighbours, orbit.state(), node.len(), steps - before));
+        before = steps;
         going = Some(orbit);
     }
     Ok(out)
 }
 
-/// What the end of a variation says.
-fn read(neighbours: &Neighbours, end: &[f64], dim: usize) -> Segment {
+/// Steps taken so far, and those that were tried in vain.
+fn taken(orbit: &(dyn Integration + '_)) -> u64 {
+    let work = orbit.counters();
+    work.steps + work.rejected
+}
+
+/// What the end of a variation says that took so many steps.
+fn read(neighbours: &Neighbours, end: &[f64], dim: usize, steps: u64) -> Segment {
     let (shape, vectors) = end.split_at(dim);
     let (tangents, by_parameter) = vectors.split_at(dim * dim);
     let tangents = tangents.iter().map(|x| x / neighbours.length).collect();
     let mut slope = vec![0.0; dim];
     VectorField::<f64>::eval(neighbours.body.as_ref(), 0.0, shape, &mut slope);
-    Segment { end: shape.to_vec(), slope, tangents, by_parameter: by_parameter.to_vec() }
+    Segment { end: shape.to_vec(), slope, tangents, by_parameter: by_parameter.to_vec(), steps }
 }
 
 /// The same by the implicit method, whose steps do not shorten with the stiff parts of vectors.
@@ -105,7 +116,7 @@ fn stiff_segment(
     let by_parameter = flowed.vectors[dim * dim..].to_vec();
     let mut tangents = flowed.vectors;
     tangents.truncate(dim * dim);
-    Ok(Segment { end: flowed.end, slope, tangents, by_parameter })
+    Ok(Segment { end: flowed.end, slope, tangents, by_parameter, steps: flowed.steps })
 }
 
 fn failure(outcome: Outcome) -> Failure {

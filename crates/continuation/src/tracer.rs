@@ -152,6 +152,10 @@ impl<P: Problem> Tracer<P> {
             self.end = Some(End::PointLimit);
             return None;
         }
+        if self.problem.is_spent() {
+            self.end = Some(End::Spent);
+            return None;
+        }
         if let Err(end) = self.advance(watch) {
             self.end = Some(self.explained(end));
         }

@@ -125,6 +125,12 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         Ok(orbit)
     }
 
+    /// What an orbit or a lane that continues from here needs beside time and state.
+    #[must_use]
+    pub fn pace(&self) -> Pace {
+        Pace { h: self.h, previous: self.controller.previous() }
+    }
+
     fn first_step(&mut self, tolerance: Tolerance) -> f64 {
         let slope = self.slopes.get(self.tableau.stages());
         let start = (self.t, &self.u[..], slope);

@@ -7,8 +7,11 @@
 //!
 //! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, sections IV.5 and IV.8.
 
+mod escape;
 mod step;
 mod tableau;
+
+pub(crate) use escape::Ascent;
 
 use crate::linear::norm;
 use motiform_dynamics::tangent::Differentiable;
@@ -98,11 +101,11 @@ impl<F: VectorField<f64> + Differentiable + ?Sized> Progress<'_, F> {
         if rough > 3.0 {
             return false;
         }
-        if !step.carry(&mut self.vectors, forced) {
+        if self.vectors.ncols() > 0 && !step.carry(&mut self.vectors, forced) {
             self.h = 0.4 * now;
             return false;
         }
-        let end = step.stages.column(STAGES - 1).as_slice().to_vec();
+        let end = step.end();
         self.before = Some((step, std::mem::replace(&mut self.u, end), now));
         self.steps += 1;
         true

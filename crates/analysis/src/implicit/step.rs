@@ -100,6 +100,11 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
         solved
     }
 
+    /// The state at the end of the step.
+    pub(super) fn end(&self) -> Vec<f64> {
+        self.stages.column(STAGES - 1).as_slice().to_vec()
+    }
+
     /// The polynomial through `u` and the stages at `times` (in steps), column by column.
     pub(super) fn continued(&self, u: &[f64], times: impl Iterator<Item = f64>) -> DMatrix<f64> {
         let columns: Vec<_> = times.map(|c| self.combined(u, &Tableau::get().lagrange(c))).collect();

@@ -6,12 +6,14 @@
 
 use super::ask::Ask;
 use super::chaos::exponent_settings;
+use super::far::FAR;
 use super::lane_look::LaneObserver;
 use super::look::{Ends, Look, Seen, pause};
 use super::search::Search;
 use super::settings::Settings;
 use super::verdict::Verdict;
 use crate::Result;
+use crate::linear::norm;
 use crate::lyapunov::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
 use motiform_dynamics::ensemble::{
     Entry, InLanes, LaneTask, Leaving, Pace, Stepped, Then, Why, run_adaptive,
@@ -168,6 +170,8 @@ impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
         let mut ends = |seen: &Seen, shape: &[f64]| search.arrives(body, seen, shape);
         let until = (motion.span, Some(&mut ends as &mut Ends<'_>));
         let look = Look::take_until(body, &mut orbit, until, &request, self.watch)?;
+        (motion.t, motion.pace) = (orbit.t(), Some(orbit.pace()));
+        motion.u.copy_from_slice(orbit.state());
         motion.search.looked(body, look, self.watch)
     }
 }
@@ -193,7 +197,6 @@ impl<F: InLanes + Clone, const N: usize> LaneKernel for Looks<'_, '_, F, N> {
     fn run<L: Bundle>(self) {
         let StepControl::Adaptive { rtol, atol } = self.scheduler.settings.control else { return };
         let Some(first) = self.scheduler.take() else { return };
-        let norm = self.scheduler.settings.escape_norm;
         let mut lanes = SearchLanes::<L, F, N> {
             field: first.candidate.field.bundle(),
             scheduler: self.scheduler,
@@ -202,7 +205,7 @@ impl<F: InLanes + Clone, const N: usize> LaneKernel for Looks<'_, '_, F, N> {
             singles: std::array::from_fn(|_| None),
             observer: LaneObserver::new(),
             pauses: L::splat(f64::INFINITY),
-            escape: L::splat(norm * norm),
+            far: L::splat(0.0),
             steps: 0,
         };
         run_adaptive::<Dop853, L, N, _>(&mut lanes, (rtol, atol));
@@ -226,7 +229,8 @@ struct SearchLanes<'l, 'd, L: Bundle, F: InLanes, const N: usize> {
     observer: LaneObserver<L, N>,
     /// Where looks pause next.
     pauses: L,
-    escape: L,
+    /// The square of the norm beyond which a lane gives its orbit up: it may crawl there, or escape ([`Far`](super::far::Far)).
+    far: L,
     steps: u32,
 }
 
@@ -244,9 +248,7 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
         motion.candidate.field.put(lane, &mut self.field);
         self.singles[lane] = Some(motion.candidate.field.clone());
         let Classification { t, u, pace, span, .. } = motion;
-        self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
-        self.in_lanes[lane] = Some(InLane { motion, begun: (t, u, pace) });
-        self.pauses = self.pauses.with_lane(lane, pause(N, (t, t + span), t));
+        self.begin(lane, motion, (t, u, pace));
         Some(Entry { t, u, t_end: t + span, pace })
     }
 
@@ -260,7 +262,7 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
         for i in 0..N {
             norm += u[i] * u[i];
         }
-        self.escape.less(norm)
+        self.far.less(norm)
     }
 
     #[inline(always)]
@@ -281,26 +283,38 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> LaneTask<L, N> for SearchLan
         }
         let Leaving { why, t, u, pace, .. } = *leaving;
         let work = leaving.steps + leaving.rejected;
-        let ask = if !(paused || why == Why::Arrived) || work >= self.scheduler.settings.max_steps {
-            self.scheduler.alone(&mut motion, begun)
-        } else {
-            let look = seen.look((begun.0, t), Outcome::Completed { t }, u.to_vec());
-            motion.search.looked(motion.candidate.body.as_ref(), look, self.scheduler.watch)
-        };
+        if !(paused || why == Why::Arrived) || work >= self.scheduler.settings.max_steps {
+            let ask = self.scheduler.alone(&mut motion, begun);
+            let again = self.scheduler.file(motion, ask);
+            self.scheduler.ready.extend(again);
+            return Then::Leave;
+        }
+        let look = seen.look((begun.0, t), Outcome::Completed { t }, u.to_vec());
+        let ask = motion.search.looked(motion.candidate.body.as_ref(), look, self.scheduler.watch);
         (motion.t, motion.u, motion.pace) = (t, u, Some(pace));
         let Some(motion) = self.scheduler.file(motion, ask) else { return Then::Leave };
         let span = motion.span;
-        self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
-        self.in_lanes[lane] = Some(InLane { motion, begun: (t, u, Some(pace)) });
-        self.pauses = self.pauses.with_lane(lane, pause(N, (t, t + span), t));
+        self.begin(lane, motion, (t, u, Some(pace)));
         Then::Continue(t + span)
     }
 }
 
 impl<L: Bundle, F: InLanes + Clone, const N: usize> SearchLanes<'_, '_, L, F, N> {
+    /// Begins a look in a lane.
+    fn begin(&mut self, lane: usize, motion: Classification<F, N>, begun: (f64, [f64; N], Option<Pace>)) {
+        let (t, u, _) = begun;
+        self.observer.begin(lane, motion.candidate.body.as_ref(), t, &u);
+        self.pauses = self.pauses.with_lane(lane, pause(N, (t, t + motion.span), t));
+        let (escape, size) = (self.scheduler.settings.escape_norm, norm(&u));
+        // an orbit that is always far out stays in its lane
+        let bound = if size < 0.1 * FAR * escape { FAR * escape } else { escape };
+        self.far = self.far.with_lane(lane, bound * bound);
+        self.in_lanes[lane] = Some(InLane { motion, begun });
+    }
+
     /// Whether a lane has stopped for a pause of its look, within bounds.
     fn pauses(&self, lane: usize, leaving: &Leaving<N>) -> bool {
-        let bounded = leaving.u.iter().map(|x| x * x).sum::<f64>() <= self.escape.lane(lane);
+        let bounded = leaving.u.iter().map(|x| x * x).sum::<f64>() <= self.far.lane(lane);
         leaving.why != Why::Failed && bounded && self.pauses.lane(lane) <= leaving.t
     }
 

@@ -1,5 +1,6 @@
 //! A stretch of an orbit, watched: its extremes in size, its rests, its end.
 
+use super::far::Far;
 use crate::linear::norm;
 use crate::periodic::is_small;
 use crate::symmetry::{Gauge, align, reduced_speed};
@@ -107,8 +108,12 @@ impl Look {
         let mut watcher = Watcher { body, gauge: &gauge, seen: Seen::new(orbit.state()) };
         let mut run = Run::new(orbit, &request, &mut watcher)?;
         let mut next = pause(body.dim(), (start, end), start);
+        let mut far = Far::new(&request, time);
         let outcome = loop {
             if let ControlFlow::Break(outcome) = run.step(orbit, &request, &mut watcher) {
+                break outcome;
+            }
+            if let Some(outcome) = far.leaves(body, orbit, &request) {
                 break outcome;
             }
             let t = orbit.t();

@@ -5,6 +5,7 @@ mod chaos;
 mod classify;
 mod course;
 mod family;
+mod far;
 mod floquet;
 mod form;
 mod growth;

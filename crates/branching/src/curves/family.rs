@@ -2,7 +2,7 @@
 
 use crate::family::Bodies;
 use motiform_analysis::Error as Refused;
-use motiform_continuation::{Family2, Settings};
+use motiform_continuation::{Allowance, Family2, Settings};
 use motiform_dynamics::{Equivariant, Model};
 use motiform_models::ModelInfo;
 use motiform_study::{CurvePlan, Error};
@@ -11,11 +11,17 @@ use motiform_study::{CurvePlan, Error};
 pub(super) struct PlaneBodies<'p> {
     pub(super) plan: &'p CurvePlan,
     info: &'static ModelInfo,
+    allowance: Option<&'p Allowance>,
 }
 
 impl<'p> PlaneBodies<'p> {
     pub(super) fn new(plan: &'p CurvePlan) -> Result<Self, Error> {
-        Ok(Self { plan, info: plan.info()? })
+        Ok(Self { plan, info: plan.info()?, allowance: None })
+    }
+
+    /// The same; on orbits no more is spent than this.
+    pub(super) fn within(self, allowance: Option<&'p Allowance>) -> Self {
+        Self { allowance, ..self }
     }
 
     /// From the order of the numerics to that of the plane, across and upwards, and back.
@@ -43,5 +49,9 @@ impl Family2 for PlaneBodies<'_> {
     fn at(&self, parameters: [f64; 2]) -> Result<Box<dyn Equivariant>, Refused> {
         let model: Box<dyn Equivariant> = self.model(parameters)?;
         Ok(model)
+    }
+
+    fn allowance(&self) -> Option<&Allowance> {
+        self.allowance
     }
 }

@@ -5,7 +5,7 @@ use super::family::PlaneBodies;
 use crate::family::Bodies;
 use crate::follow::follow_kept;
 use crate::result::{Branches, Sample};
-use motiform_continuation::{Curve, CurvePoint, Degenerate, End, Motion, Point, Special};
+use motiform_continuation::{Allowance, Curve, CurvePoint, Degenerate, End, Motion, Point, Special};
 use motiform_dynamics::{Part, Watch};
 use motiform_lab::pool::each;
 use motiform_study::curves::CurveKind;
@@ -165,9 +165,39 @@ pub fn follow_curve(
     (kind, start): (CurveKind, [usize; 3]),
     watch: &dyn Watch,
 ) -> Result<FollowedCurve, Error> {
+    curve_within(plan, found, (kind, start), None, watch)
+}
+
+/// As [`follow_curve`]; no more is spent on orbits than the allowance, one half of it to each side: a side on which that is spent ends with [`End::Spent`].
+///
+/// # Errors
+/// As [`follow_curve`].
+pub fn follow_curve_within(
+    plan: &CurvePlan,
+    found: &Branches,
+    start: (CurveKind, [usize; 3]),
+    allowance: &Allowance,
+    watch: &dyn Watch,
+) -> Result<FollowedCurve, Error> {
+    let half = allowance.left().div_ceil(2);
+    let sides = [Allowance::of(half), Allowance::of(half)];
+    let followed = curve_within(plan, found, start, Some(&sides), watch);
+    allowance.spend(sides.iter().map(|side| half - side.left()).sum());
+    followed
+}
+
+fn curve_within(
+    plan: &CurvePlan,
+    found: &Branches,
+    (kind, start): (CurveKind, [usize; 3]),
+    sides: Option<&[Allowance; 2]>,
+    watch: &dyn Watch,
+) -> Result<FollowedCurve, Error> {
     let mut followed = FollowedCurve { kind, start, legs: Vec::new(), sought: Vec::new(), refused: None };
     let Some(Sample { point, .. }) = found.at(start) else { return Ok(followed) };
-    let legs = each(&[true, false], 2, watch, |&reversed| leg(plan, (point, reversed), watch))?;
+    let legs = each(&[true, false], 2, watch, |&reversed| {
+        leg(plan, (point, reversed), sides.map(|sides| &sides[usize::from(reversed)]), watch)
+    })?;
     for found in legs {
         match found {
             Ok((leg, sought)) => {
@@ -187,9 +217,14 @@ pub fn follow_curve(
 type Leg = Result<(CurveLeg, Vec<Degenerate>), String>;
 
 /// One direction of a curve, or why there is none.
-fn leg(plan: &CurvePlan, (point, reversed): (&Point, bool), watch: &dyn Watch) -> Result<Leg, Error> {
+fn leg(
+    plan: &CurvePlan,
+    (point, reversed): (&Point, bool),
+    allowance: Option<&Allowance>,
+    watch: &dyn Watch,
+) -> Result<Leg, Error> {
     let branches = plan.branches();
-    let (bodies, plane) = (Bodies::new(&branches)?, PlaneBodies::new(plan)?);
+    let (bodies, plane) = (Bodies::new(&branches)?, PlaneBodies::new(plan)?.within(allowance));
     let (settings, range) = plane.settings(&bodies);
     let settings = if reversed { settings.reversed() } else { settings };
     let mut curve = match Curve::of(&plane, point, plan.fixed_value(), &settings, range, watch) {

@@ -14,7 +14,8 @@ mod table;
 
 pub use folder::{CurveFolder, default_curve_folder};
 pub use follow::{
-    CurveLeg, CurveSample, Curves, FollowedCurve, follow_curve, follow_curves, follow_curves_kept,
+    CurveLeg, CurveSample, Curves, FollowedCurve, follow_curve, follow_curve_within, follow_curves,
+    follow_curves_kept,
 };
 pub use summary::{codimension_2, curve_ends, curve_summary, not_found};
 pub use table::curve_columns;

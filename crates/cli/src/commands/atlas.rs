@@ -119,6 +119,10 @@ fn text(atlas: &AtlasFolder, written: &str) -> anyhow::Result<String> {
     }
     let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
     writeln!(text, "followed   {} lines, {curves} curves", lines.len())?;
+    let short = lines.iter().filter(|line| line.refused.is_some()).count();
+    if short > 0 {
+        writeln!(text, "           {short} of them not to their ends: report.html and summary.json say why")?;
+    }
     for found in boundaries(plan, grid, lines).iter().filter(|found| found.edges >= LISTED) {
         boundary(&mut text, found)?;
     }

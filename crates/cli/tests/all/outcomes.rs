@@ -115,3 +115,20 @@ fn every_stepper_ends_a_blow_up() {
         assert_no_nan(&json, stepper);
     }
 }
+
+/// A body that grows exponentially along a slow direction, stiff far out: half a million explicit steps. The classification follows it by the implicit method; the run is the
+/// independent reference. Without singularity the time is that at which the norm passes the bound.
+#[test]
+fn a_stiff_blow_up_has_the_time_of_the_explicit_run() {
+    let folder = Folder::new();
+    let body = "tensor --preset fig4 --set a2=0.2 --set b3=0 --set d3=0 --set kappa2=-0.2 --set kappa3=-0.2";
+    let time = |words: &str| -> f64 {
+        let json = folder.run(&format!("{words} --json")).json();
+        json["outcome"]["t"].as_f64().or(json["escape_time"].as_f64()).unwrap_or_else(|| panic!("{json:#}"))
+    };
+    let run = time(&format!("simulate {body} --transient 0 --t-end 100 --no-figures --rtol 1e-10"));
+    for rtol in ["1e-8", "1e-10", "1e-12"] {
+        let found = time(&format!("classify {body} --rtol {rtol}"));
+        assert!((found - run).abs() < 1e-5, "{rtol}: {found} {run}");
+    }
+}

@@ -72,6 +72,9 @@ fn the_plane_of_the_papers_fig_4_has_its_regions_and_lines() {
     for motion in ["straight", "circular", "zigzag", "chaotic"] {
         assert!(regions.iter().any(|region| region["motions"] == serde_json::json!([motion])), "{motion}");
     }
+    let lines = summary["lines"].as_array().unwrap();
+    assert!(lines.iter().any(|line| line["steps"].as_u64() > Some(0)), "{lines:#?}");
+    assert!(lines.iter().all(|line| line["refused"].is_null()), "their steps are enough: {lines:#?}");
     let turn = between(&summary, ["straight", "circular"]);
     assert_eq!(turn["kinds"][0]["kind"], "pitchfork", "{turn}");
     assert_eq!(turn["unnamed"], 0, "{turn}");

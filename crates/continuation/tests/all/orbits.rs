@@ -8,7 +8,9 @@ use common::{full, near, reduced};
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
-use motiform_continuation::{Branch, End, Motion, PeriodLaw, Point, Settings, Special, same_motion, switch};
+use motiform_continuation::{
+    Allowance, Branch, End, Family, Motion, PeriodLaw, Point, Settings, Special, same_motion, switch,
+};
 use motiform_dynamics::{Equivariant, Request, Scalar, StopOnly, VectorField, Watch, drive::drive};
 use motiform_models::tensor::reduced::Reduced;
 use std::sync::atomic::AtomicBool;
@@ -57,6 +59,43 @@ fn the_orbits_of_a_hopf_bifurcation_have_the_size_the_multiplier_and_the_fold_of
     assert_eq!(folds.len(), 1);
     assert_eq!(folds[0].1, Some(Special::Fold));
     near(folds[0].0, -0.25, 1e-11);
+}
+
+/// [`bent`], with an allowance.
+struct Allowed(Allowance);
+impl Family for Allowed {
+    fn at(&self, p: f64) -> Body {
+        bent(p)
+    }
+
+    fn allowance(&self) -> Option<&Allowance> {
+        Some(&self.0)
+    }
+}
+
+/// The orbits of the Hopf bifurcation of [`bent`] within an allowance, the end, and what is left.
+fn within(steps: u64) -> (Vec<Point>, Option<End>, u64) {
+    let (settings, family) = (Settings::over(-0.5, 0.5), Allowed(Allowance::of(steps)));
+    let rest = RelativeEquilibrium::find(&Bent(-0.4), &[0.1, 0.0]).unwrap();
+    let mut equilibria = Branch::of_equilibria(&bent, -0.4, &rest, &settings, &()).unwrap();
+    let hopf = equilibria.find(|point| point.special.is_some()).unwrap();
+    let mut orbits = switch(&family, &hopf, &settings, &()).unwrap().pop().unwrap().pop().unwrap();
+    let points: Vec<Point> = orbits.by_ref().collect();
+    (points, orbits.end().cloned(), family.0.left())
+}
+
+/// What is found before an allowance is spent is the beginning of the whole branch, to the bit.
+#[test]
+fn a_branch_of_orbits_ends_where_its_allowance_is_spent() {
+    let enough = 1 << 40;
+    let (whole, end, left) = within(enough);
+    assert_ne!(end, Some(End::Spent));
+    let (part, cut, rest) = within((enough - left) / 2);
+    assert_eq!((cut, rest), (Some(End::Spent), 0));
+    assert!(part.len() > 3 && part.len() < whole.len(), "{} {}", part.len(), whole.len());
+    assert_eq!(part, whole[..part.len()]);
+    let (all, as_before, none) = within(enough - left + 1);
+    assert_eq!((all.len(), as_before, none), (whole.len(), end, 1));
 }
 
 #[test]
