@@ -10,9 +10,6 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Files that are tested at once: pages wait for answers and for each other most of the time, and use two processors to a third with two files.
-const AT_ONCE: usize = 3;
-
 /// Which browser, and where it is.
 pub(crate) type Environment = [(&'static str, PathBuf); 2];
 
@@ -34,7 +31,7 @@ impl<'a> Browser<'a> {
 
     /// Runs the tests of these files.
     pub(crate) fn test(&self, files: &[PathBuf]) -> Result<()> {
-        let Err(error) = step(&format!("tests in {}", self.name()), &mut self.command(files, AT_ONCE)) else {
+        let Err(error) = step(&format!("tests in {}", self.name()), &mut self.command(files, 2)) else {
             return Ok(());
         };
         let results = std::fs::read_to_string(&self.results).context("the results of the browser tests")?;

@@ -111,15 +111,9 @@ fn root() -> Result<PathBuf> {
     Ok(PathBuf::from(package).join(".."))
 }
 
-/// Runs cargo in the workspace, showing what it does. Tests that wait for other processes leave a processor free: one more thread of tests uses it.
+/// Runs cargo in the workspace, showing what it does.
 fn cargo(name: &str, arguments: &[&str]) -> Result<()> {
-    let mut command = cargo_command();
-    command.args(arguments).env("RUSTDOCFLAGS", "-D warnings");
-    if std::env::var_os("RUST_TEST_THREADS").is_none() {
-        let processors = std::thread::available_parallelism().map_or(1, usize::from);
-        command.env("RUST_TEST_THREADS", (processors + 1).to_string());
-    }
-    step(name, &mut command)
+    step(name, cargo_command().args(arguments).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 /// The cargo that runs this.
