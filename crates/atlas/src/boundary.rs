@@ -225,7 +225,7 @@ fn why(differing: &[Regime]) -> &'static str {
     } else if has(Regime::BlowUp) && has(Regime::Chaotic) {
         "kind undetermined: neither is a branch; sampling does not tell a crisis of the chaotic set from transients longer than what was looked at"
     } else if has(Regime::BlowUp) {
-        "kind undetermined: blow-up is no branch, and no bifurcation of the motion beside it was found there: the basins may meet"
+        "kind undetermined: blow-up is not a solution branch, and no bifurcation of the neighbouring motion was found here; this may be the edge of its basin of attraction"
     } else if has(Regime::Chaotic) {
         "kind undetermined: chaotic motion is no branch, found by sampling; it may begin with a cascade, or end in a crisis"
     } else if has(Regime::Rectangular) {

@@ -1,10 +1,10 @@
 //! How much of a cell's motion its equations make without their noise.
 
+use crate::natural::{model, noise};
 use motiform_dynamics::order::ascending;
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Orbit, StepControl};
-use motiform_inference::{Fit, equations};
-use motiform_models::amplitudes::info;
+use motiform_inference::Fit;
 use serde::{Deserialize, Serialize};
 
 /// Step of the noise, in natural times.
@@ -56,26 +56,13 @@ impl Driven {
 
 /// The share of one model, with these coefficients in natural units, from these coordinates; `None` where a run leaves all bounds.
 pub(crate) fn driven_share(fit: &Fit, (values, start): (&[f64], &[f64]), seed: u64) -> Option<f64> {
-    let names = info(&equations(&fit.library, fit.handed, &[])).ok()?;
-    let values = equations(&fit.library, fit.handed, values).parameters;
-    let values: Vec<f64> = values.iter().map(|parameter| parameter.default).collect();
-    let model = names.build(&values).ok()?;
+    let model = model(fit, values)?;
     let noise = noise(fit, model.as_ref(), STEP);
     let alone = Noise { amplitudes: vec![0.0; noise.amplitudes.len()], ..noise.clone() };
     let [with, without] =
         [noise, alone].map(|noise| mean_square_speed(model.as_ref(), start, noise, Normal::new(seed, 3)));
     let share = without? / with?;
     share.is_finite().then_some(share)
-}
-
-/// The fitted noise of a model in natural units.
-pub(crate) fn noise(fit: &Fit, model: &dyn Model, step: f64) -> Noise {
-    let [_, eta_v, eta_shape, _] = fit.natural.logs.map(libm::exp);
-    let mut noise = Noise::on(model, eta_v, eta_shape, step);
-    for (own, variance) in noise.amplitudes.chunks_exact_mut(2).zip(fit.scales.noise_of_modes()) {
-        own.iter_mut().for_each(|amplitude| *amplitude *= variance.sqrt());
-    }
-    noise
 }
 
 fn mean_square_speed(model: &dyn Model, start: &[f64], noise: Noise, normal: Normal) -> Option<f64> {

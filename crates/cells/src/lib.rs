@@ -14,6 +14,7 @@ mod fit;
 mod fitted;
 mod folder;
 mod names;
+mod natural;
 mod numbers;
 mod observe;
 mod outlines;

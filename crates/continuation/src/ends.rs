@@ -3,7 +3,8 @@
 use super::certificate::TestFunction;
 use super::classes::GAINED;
 use super::copies::same_motion;
-use super::homoclinic::{Connection, Joins};
+use super::homoclinic::Connection;
+use super::joins::Joins;
 use super::levels::CLEAR;
 use super::locate::Changes;
 use super::normal_form::Order;

@@ -1,6 +1,7 @@
 //! How the parameter oscillates towards a connection of a saddle-focus with itself.
 
-use super::homoclinic::{Connection, Joins, PeriodLaw, leading_sides};
+use super::homoclinic::{Connection, PeriodLaw, leading_sides};
+use super::joins::Joins;
 use super::periods::{NEAR, Periods};
 use motiform_analysis::linear::solve;
 

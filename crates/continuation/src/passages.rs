@@ -1,6 +1,7 @@
 //! The saddles that an orbit passes one after the other.
 
-use super::homoclinic::{Joins, RATES, Saddle};
+use super::homoclinic::{RATES, Saddle};
+use super::joins::Joins;
 use super::orbits::{Local, Orbits, reduced};
 use super::shooting::shape_after;
 use motiform_analysis::RelativeEquilibrium;

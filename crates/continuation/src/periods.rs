@@ -1,6 +1,7 @@
 //! How the period of an orbit grows towards a connection.
 
-use super::homoclinic::{Connection, Joins, PeriodLaw};
+use super::homoclinic::{Connection, PeriodLaw};
+use super::joins::Joins;
 use motiform_analysis::linear::solve;
 
 /// Laws by which the distance to a connection falls as a power of the time: `|p - p0| ~ 1/T^k`.

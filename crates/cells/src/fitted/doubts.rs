@@ -26,7 +26,7 @@ pub(super) fn doubts(
     let suspected = |found: &Stretch| found.is_suspected(tracks.len()) && !found.is_clear(tracks.len());
     if let Some(found) = tracks.iter().filter_map(Stretch::of).find(suspected).filter(|_| handed) {
         doubts.push(format!(
-            "it is handed, or the images are stretched: outlines are elongated by {:.1} % of the mean size of z2 along one direction whatever the heading, with p = {:.1e}",
+            "it is handed, or the images are stretched: beside what turns with the cell, outlines have a constant elongation of {:.1} % of the mean size of z2 (p = {:.1e} without a stretch)",
             100.0 * found.share, found.p_value
         ));
     }

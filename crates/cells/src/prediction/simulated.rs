@@ -1,12 +1,11 @@
 //! A cell simulated from a fit, seen as the observed one was.
 
 use super::record::Record;
-use crate::driven::noise;
+use crate::natural::{model, noise};
 use crate::start::{coordinates, pair};
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{InPlane, Integration, Model, NoisyOrbit, Normal, Orbit, StepControl};
-use motiform_inference::{Fit, Observation, Scales, Track, equations};
-use motiform_models::amplitudes::info;
+use motiform_inference::{Fit, Observation, Scales, Track};
 
 /// Longest step of the noise, in natural times.
 const STEP: f64 = 1.0 / 16.0;
@@ -22,7 +21,13 @@ pub(super) fn simulated(
     (seed, number): (u64, u64),
 ) -> Option<Record> {
     let units = Units(&fit.scales);
-    let model = model(fit, coefficients)?;
+    let natural: Vec<f64> = fit
+        .coefficients
+        .iter()
+        .zip(coefficients)
+        .map(|(c, value)| value / fit.scales.coefficient(&c.term))
+        .collect();
+    let model = model(fit, &natural)?;
     let mut normal = Normal::new(seed, 2 * number);
     let errors = Errors::of(track, observed, fit);
     let mut state = start(model.as_ref(), track, &units, &errors, &mut normal)?;
@@ -48,16 +53,6 @@ pub(super) fn simulated(
         frames.push(wanted.then_some(seen));
     }
     Some(Record { dt: observed.dt, frames })
-}
-
-/// The equations in natural units. The names of the model are kept once per set of terms: its values are given apart.
-fn model(fit: &Fit, coefficients: &[f64]) -> Option<Box<dyn Model>> {
-    let units = fit.coefficients.iter().map(|c| fit.scales.coefficient(&c.term));
-    let natural: Vec<f64> = coefficients.iter().zip(units).map(|(value, unit)| value / unit).collect();
-    let values = equations(&fit.library, fit.handed, &natural);
-    let names = info(&equations(&fit.library, fit.handed, &[])).ok()?;
-    let values: Vec<f64> = values.parameters.iter().map(|parameter| parameter.default).collect();
-    names.build(&values).ok()
 }
 
 /// The state at the first frame: its modes, and the velocity over the first frames, moved by errors of the same size as theirs.

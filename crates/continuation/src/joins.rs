@@ -1,0 +1,64 @@
+//! How the saddles of a connection are related.
+
+use motiform_analysis::RelativeEquilibrium;
+use serde::{Deserialize, Serialize};
+
+/// How the saddles that an orbit passes in its period are related.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Joins {
+    /// It is one saddle, up to rotations: a homoclinic connection.
+    #[default]
+    Itself,
+    /// They are mirror images: a heteroclinic connection of a saddle with its image.
+    Images,
+    /// They differ: a heteroclinic cycle.
+    Different,
+}
+
+impl Joins {
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Itself => "itself",
+            Self::Images => "images",
+            Self::Different => "different",
+        }
+    }
+
+    /// Whether it is a homoclinic or a heteroclinic connection.
+    #[must_use]
+    pub const fn kind(self) -> &'static str {
+        match self {
+            Self::Itself => "homoclinic",
+            Self::Images | Self::Different => "heteroclinic",
+        }
+    }
+
+    pub(super) const fn words(self) -> &'static str {
+        match self {
+            Self::Images => "its mirror image",
+            Self::Itself | Self::Different => "itself",
+        }
+    }
+}
+
+/// A saddle of a heteroclinic cycle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Passed {
+    /// The saddle.
+    pub saddle: RelativeEquilibrium,
+    /// Its slowest eigenvalues `(re, |im|)` that grow and that decay, in the directions that keep the symmetry of the orbit's shapes.
+    pub sides: [(f64, f64); 2],
+    /// The part of the time that passes near it.
+    pub share: f64,
+}
+
+impl Passed {
+    /// The saddle quantity: the sum of the real parts of the slowest eigenvalues.
+    #[must_use]
+    pub fn quantity(&self) -> f64 {
+        self.sides[0].0 + self.sides[1].0
+    }
+}
