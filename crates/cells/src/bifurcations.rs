@@ -2,7 +2,7 @@
 
 use crate::Fitted;
 use crate::regime::natural_study;
-use motiform_branching::{SpecialEntry, follow};
+use motiform_diagrams::{SpecialEntry, follow};
 use motiform_dynamics::Watch;
 use motiform_inference::{Fit, paper};
 use motiform_study::branches::{Along, BranchSettings};

@@ -35,8 +35,8 @@ pub enum Error {
 /// The result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-impl From<motiform_files::store::Error> for Error {
-    fn from(error: motiform_files::store::Error) -> Self {
+impl From<motiform_store::Error> for Error {
+    fn from(error: motiform_store::Error) -> Self {
         Self::Study(error.into())
     }
 }

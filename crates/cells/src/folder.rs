@@ -5,8 +5,8 @@ use crate::{
     CellFit, FitOptions, Observation, Result, Sample, coefficient_columns, file_names, fits_json,
     mode_columns, number_columns, observations_json,
 };
-use motiform_files::Staged;
-use motiform_files::columns::{Column, encode, to_csv};
+use motiform_store::Staged;
+use motiform_store::columns::{Column, encode, to_csv};
 use motiform_study::Error;
 use serde_json::Value;
 use std::path::{Path, PathBuf};

@@ -24,6 +24,7 @@ mod prediction;
 mod provenance;
 mod recorded;
 mod regime;
+pub mod report;
 mod stages;
 mod start;
 mod summary;

@@ -1,7 +1,7 @@
 //! Outlines -> a file for other programs.
 
 use crate::Result;
-use motiform_files::{Kind, StagedFile};
+use motiform_store::{Kind, StagedFile};
 use motiform_tracks::{Error, Format, Tracks, write_amoepy, write_csv};
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,7 @@
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
-use motiform_files::Folder;
+use motiform_store::Folder;
 use motiform_study::Error;
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -3,7 +3,7 @@
 use crate::folder::{MODES, SUMMARY};
 use crate::names::file_names;
 use crate::{Error, Result};
-use motiform_files::columns::{Column, Values, decode};
+use motiform_store::columns::{Column, Values, decode};
 use motiform_study::Error as StudyError;
 use serde_json::Value;
 use std::fs;

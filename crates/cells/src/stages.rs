@@ -3,7 +3,7 @@
 use crate::Result;
 use crate::packed::{read_packed, write_packed};
 use motiform_dynamics::{Part, Watch};
-use motiform_files::Folder;
+use motiform_store::Folder;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 

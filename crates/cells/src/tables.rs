@@ -1,7 +1,7 @@
 //! Results as tables: modes frame by frame, coefficients cell by cell.
 
 use crate::{CellFit, CellTrack};
-use motiform_files::columns::{Column, Values};
+use motiform_store::columns::{Column, Values};
 use motiform_tracks::modes::FrameModes;
 
 /// The modes of all frames: cell, frame, time, centre, mean radius, z2 to z5 with the standard errors of z2 and z3, area, and what is wrong.

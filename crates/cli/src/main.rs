@@ -64,7 +64,7 @@ fn prepare() {
     }
     let shown = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
-        if !motiform_files::decoding() {
+        if !motiform_store::decoding() {
             shown(panic);
         }
     }));

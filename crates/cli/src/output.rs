@@ -4,7 +4,7 @@ use crate::remedy::{in_place, remedy};
 use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
 use motiform_figures::Label;
-use motiform_files::store::Error as StoreError;
+use motiform_store::Error as StoreError;
 use motiform_study::Error;
 use std::io::{self, Write};
 use std::process::ExitCode;

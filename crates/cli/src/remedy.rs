@@ -1,6 +1,6 @@
 //! What to type after an error: the library speaks of values, the command line of its options.
 
-use motiform_files::store::Error as StoreError;
+use motiform_store::Error as StoreError;
 use motiform_study::Error;
 
 /// The options that mend an error, where there are some: the end of its sentence.
@@ -13,9 +13,6 @@ pub(crate) fn remedy(error: &Error) -> Option<&'static str> {
         Error::Store(error) => return in_place(error),
         Error::OtherScan { .. } | Error::OtherBranches { .. } => {
             "; choose another --out, or --force to replace it"
-        }
-        Error::Unreadable { reason, .. } if reason.ends_with("(os error 24)") => {
-            "; allow more open files (ulimit -n)"
         }
         Error::PartFailed { .. } | Error::InTheWay { .. } => "; --resume continues it",
         _ => return None,
@@ -37,6 +34,9 @@ pub(crate) fn in_place(error: &StoreError) -> Option<&'static str> {
         }
         StoreError::Unwritable { .. } => "; choose an --out in a folder that is writable",
         StoreError::Inventory { .. } => "; choose another --out",
+        StoreError::Unreadable { reason, .. } if reason.ends_with("(os error 24)") => {
+            "; allow more open files (ulimit -n)"
+        }
         _ => return None,
     })
 }

@@ -1,26 +1,39 @@
-//! `motiform explore`: the explorer in a browser.
+//! The explorer: what one page asks and is answered, over any transport, and the server of `motiform explore`.
 //!
-//! A server for one user on one machine: it listens on 127.0.0.1 only, every address contains a random token, and a page
-//! can only send the messages of the protocol: no file is read or written for it. The page is built into the program.
-//! `PROTOCOL.md` describes the messages between the two; `motiform-session` answers them, with threads for each page.
+//! A session has a body, which moves when the page requests a picture (`body`), and background computations (`task`): the
+//! classification of the motion and its exponents (`motion`), the map (`map`), branches of motions (`branches`), returns computed in
+//! advance, and the motions of a swarm. Of each kind only the latest request is computed. `PROTOCOL.md` describes the messages (`protocol`, `frames`).
+//!
+//! The same session runs in two ways. [`Session`] (feature `threads`) has threads of its own, behind the [`server`] (feature `server`). [`Local`] has none: it does a
+//! bounded piece of work for each message, and leaves the computations beside the body to other instances of this program ([`assist`]),
+//! as in the workers of a browser.
 
-mod accept;
-mod connection;
-mod error;
-mod guard;
-mod handover;
-mod http;
-mod outbox;
-mod page;
-mod pages;
-mod rate;
-mod routes;
-mod server;
-mod timed;
+mod answers;
+mod body;
+mod branches;
+mod catalogue;
+mod export;
+mod frames;
+mod greeting;
+mod local;
+mod map;
+mod motion;
+mod protocol;
+#[cfg(feature = "server")]
+pub mod server;
+#[cfg(feature = "threads")]
+mod session;
+mod share;
+mod task;
+mod tracked;
 
-pub use accept::Patience;
-pub use error::Error;
-pub use guard::Token;
-pub use handover::Handover;
-pub use motiform_session::{StudyFile, TrackedCell, typescript};
-pub use server::{DEFAULT_PORT, Handle, Options, Server};
+pub use answers::{Answer, Answers, Gone, refusal};
+pub use catalogue::{Catalogue, StudyFile, file_name};
+pub use greeting::Greeting;
+pub use local::{Local, assist};
+pub use protocol::{LONGEST, Request, typescript};
+#[cfg(feature = "threads")]
+pub use session::Session;
+pub use share::quoted;
+pub use task::{Errand, Post};
+pub use tracked::TrackedCell;

@@ -2,8 +2,8 @@
 
 use crate::simulate::Run;
 use motiform_dynamics::{Model, Outline};
-use motiform_files::{Fields, Format, Staged, read_groups};
-use motiform_study::table::Table;
+use motiform_store::table::Table;
+use motiform_store::{Fields, Format, Staged, read_groups};
 use motiform_study::{Dataset, Error, Manifest};
 use std::path::Path;
 
@@ -18,7 +18,7 @@ const POINTS: usize = 128;
 /// # Errors
 /// Files that cannot be written.
 pub fn write_dataset(dataset: &Dataset, format: Format, staged: &Staged) -> Result<(), Error> {
-    motiform_files::write_dataset(dataset, fields(dataset)?.as_ref(), format, staged)
+    crate::dataset::write_dataset(dataset, fields(dataset)?.as_ref(), format, staged)
 }
 
 /// Writes what belongs to a trajectory that is in the staged folder already (and `whole` in memory where it is short): crossings, fields and
@@ -32,7 +32,7 @@ pub fn write_rest(run: &Run, whole: Option<&Table>, format: Format, staged: &Sta
         Some(table) => fields_in(manifest, table)?,
         None => fields_of(manifest, &staged.path().join(format.file("trajectory")))?,
     };
-    motiform_files::write_rest(manifest, crossings.as_ref(), fields.as_ref(), format, staged)
+    crate::dataset::write_rest(manifest, crossings.as_ref(), fields.as_ref(), format, staged)
 }
 
 /// The fields of a dataset; `None` for models without a field on the boundary.
@@ -53,13 +53,13 @@ fn fields_in(manifest: &Manifest, table: &Table) -> Result<Option<Fields>, Error
 fn fields_of(manifest: &Manifest, path: &Path) -> Result<Option<Fields>, Error> {
     let mut rows = 0;
     if Making::new(manifest, 1)?.is_some() {
-        read_groups(path, &mut |group| {
+        read_groups(path, &mut |group| -> Result<(), Error> {
             rows += group.rows();
             Ok(())
         })?;
     }
     let Some(mut made) = Making::new(manifest, rows)? else { return Ok(None) };
-    read_groups(path, &mut |group| {
+    read_groups(path, &mut |group| -> Result<(), Error> {
         made.take(&group);
         Ok(())
     })?;

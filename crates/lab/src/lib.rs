@@ -3,6 +3,7 @@
 
 pub mod analyse;
 pub mod clock;
+pub mod dataset;
 pub mod draw;
 pub mod ensemble;
 pub mod equilibria;
@@ -23,5 +24,6 @@ pub mod samples;
 pub mod scan;
 pub mod section;
 pub mod simulate;
+pub mod statistics;
 mod varying;
 pub mod verify;

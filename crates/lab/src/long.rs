@@ -1,7 +1,7 @@
 //! Trajectories of any length: what is drawn of them is read a group of rows at a time.
 
-use motiform_files::{GROUP_ROWS, read_groups};
-use motiform_study::table::Table;
+use motiform_store::table::Table;
+use motiform_store::{GROUP_ROWS, read_groups};
 use motiform_study::{Error, Manifest};
 use std::ops::Range;
 use std::path::Path;
@@ -20,7 +20,7 @@ const DRAWN: usize = 1 << 16;
 pub fn read_shown(manifest: &mut Manifest, path: &Path) -> Result<(Table, u32), Error> {
     let figure = &manifest.plan.figure;
     let mut shown = Shown { window: [figure.from, figure.to], most: [GROUP_ROWS, DRAWN], ..Shown::default() };
-    read_groups(path, &mut |group| {
+    read_groups(path, &mut |group| -> Result<(), Error> {
         shown.take(group);
         Ok(())
     })?;

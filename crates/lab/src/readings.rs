@@ -2,9 +2,9 @@
 
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
 use motiform_dynamics::{Model, Trajectory};
+use motiform_store::table::Table;
 use motiform_study::plan::{Computation, Named};
 use motiform_study::study::ReturnMapSettings;
-use motiform_study::table::Table;
 
 /// The trajectory as a table, with derived quantities.
 pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, c: &Computation) -> Table {

@@ -4,9 +4,9 @@ use crate::readings::{Crossings, Readings};
 use crate::simulate::Simulation;
 use motiform_dynamics::section::Crossing;
 use motiform_dynamics::{Sink, Trajectory, Watch};
-use motiform_files::TableWriter;
+use motiform_store::TableWriter;
+use motiform_store::table::Table;
 use motiform_study::Error;
-use motiform_study::table::Table;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -50,7 +50,7 @@ impl Rows for TableWriter {
     }
 
     fn advance(&mut self) -> Result<(), Error> {
-        self.advance()
+        Ok(self.advance()?)
     }
 
     fn restart(&mut self) -> Result<(), Error> {
@@ -258,7 +258,7 @@ mod tests {
     use crate::simulate::{Run, columns, simulate, simulate_into};
     use motiform_dynamics::Outcome;
     use motiform_models::ModelInfo;
-    use motiform_study::table::same_bits;
+    use motiform_store::table::same_bits;
     use motiform_study::{Plan, presets};
 
     fn plan(model: &str, preset: &str, change: impl Fn(&mut motiform_study::Study)) -> Plan {
@@ -295,7 +295,7 @@ mod tests {
             let kept = simulate(&plan, &()).unwrap();
             let file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
             let mut rows =
-                TableWriter::new(columns(&plan).unwrap(), motiform_files::Format::Csv, file.path());
+                TableWriter::new(columns(&plan).unwrap(), motiform_store::Format::Csv, file.path());
             let Run { manifest, crossings } = simulate_into(&plan, &mut rows, &()).unwrap();
             let written = rows.finish(&manifest).unwrap().unwrap();
             assert!(manifest == kept.manifest && manifest.centre.is_some());

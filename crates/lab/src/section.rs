@@ -4,8 +4,8 @@ use crate::simulate::after_transient;
 use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Direction, InPlane, Model, Request, Section, Trajectory};
+use motiform_store::table::Table;
 use motiform_study::plan::check;
-use motiform_study::table::Table;
 use motiform_study::{Ending, Error, Plan};
 
 /// The crossings of `coordinate = value` (a coordinate of the shape, or `x`, `y`) while the plan records: a table with

@@ -11,9 +11,9 @@ use motiform_dynamics::{
     Direction, InPlane, Integration, Model, Noise, NoiseSteps, NoisyOrbit, Normal, Outcome, Part, Request,
     Section, StepControl, Trajectory, Watch,
 };
+use motiform_store::table::Table;
 use motiform_study::dataset::{Dataset, Manifest, VERSION};
 use motiform_study::plan::{Computation, Control, Named, NoiseSettings, Plan};
-use motiform_study::table::Table;
 use motiform_study::{Ending, Error};
 
 /// Runs a plan.

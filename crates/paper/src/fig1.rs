@@ -7,8 +7,8 @@ mod schemes;
 
 use super::claims::{check, claim};
 use super::context::Context;
+use crate::lines::Continued;
 use grid::{Grid, found_line};
-use motiform_chapter::lines::Continued;
 use motiform_lab::draw::{boundary_lines, phase_diagram, sheet};
 use motiform_lab::scan::Axis;
 use motiform_models::tensor::reduced::{Line, Motion, Reduced};

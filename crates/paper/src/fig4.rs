@@ -9,8 +9,8 @@ mod places;
 mod schemes;
 
 use super::context::Context;
-use motiform_chapter::branches::{self, at};
-use motiform_chapter::curves::Curves;
+use crate::branches::{self, at};
+use crate::curves::Curves;
 use motiform_figures::Drawn;
 use motiform_report::{ReportFigure, Section};
 use motiform_study::{Error, Random, Study};

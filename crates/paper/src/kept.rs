@@ -1,31 +1,68 @@
-//! Finished chapters as items of a journal.
+//! Results that are computed once, though several chapters ask for them.
 
-use motiform_files::Journal;
-use motiform_report::Section;
 use motiform_study::Error;
-use motiform_study::dataset::VERSION;
-use std::path::Path;
+use std::any::Any;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
-fn item(chapter: &str, quick: bool) -> String {
-    format!("{chapter}{}.json", if quick { "-quick" } else { "" })
+/// A result of any type.
+type Anything = Arc<dyn Any + Send + Sync>;
+
+/// Where a result will be; locked while it is computed.
+type Place = Arc<Mutex<Option<Anything>>>;
+
+/// Results by what they are of.
+#[derive(Default)]
+pub struct Kept(Mutex<HashMap<String, Place>>);
+
+impl Kept {
+    /// The result of this name, computed where it is not there yet. Others that ask for it wait.
+    ///
+    /// # Errors
+    /// Those of the computation, of which nothing is kept.
+    pub fn once<T: Clone + Send + Sync + 'static>(
+        &self,
+        name: &str,
+        compute: impl FnOnce() -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let mut compute = Some(compute);
+        let found = self.any(name, &mut || {
+            // called at most once
+            let compute = compute.take().ok_or(Error::Interrupted)?;
+            Ok(Arc::new(compute()?))
+        })?;
+        found.downcast_ref::<T>().cloned().ok_or(Error::Interrupted)
+    }
+
+    /// The same for results of any type: compiled once.
+    fn any(
+        &self,
+        name: &str,
+        compute: &mut dyn FnMut() -> Result<Anything, Error>,
+    ) -> Result<Anything, Error> {
+        let place = {
+            let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(all.entry(name.to_owned()).or_default())
+        };
+        let mut there = place.lock().unwrap_or_else(PoisonError::into_inner);
+        if there.is_none() {
+            *there = Some(compute()?);
+        }
+        there.clone().ok_or(Error::Interrupted)
+    }
 }
 
-/// A chapter that an earlier run finished; `None` where there is none, or another version computed it.
-pub(crate) fn read(journal: &dyn Journal, chapter: &str, quick: bool) -> Option<Section> {
-    let (version, section): (String, Section) =
-        serde_json::from_slice(&journal.finished(&item(chapter, quick))?).ok()?;
-    (version == VERSION).then_some(section)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Keeps a chapter.
-pub(crate) fn write(
-    journal: &dyn Journal,
-    chapter: &str,
-    quick: bool,
-    section: &Section,
-) -> Result<(), Error> {
-    let item = item(chapter, quick);
-    let content = serde_json::to_vec(&(VERSION, section))
-        .map_err(|error| Error::write_failed(Path::new(&item), error))?;
-    journal.finish(&item, &content)
+    #[test]
+    fn a_result_is_computed_once_and_an_error_is_not_kept() {
+        let kept = Kept::default();
+        let refused = || Err::<u32, _>(Error::Interrupted);
+        assert!(kept.once("one", refused).is_err());
+        assert_eq!(kept.once("one", || Ok(1_u32)).ok(), Some(1));
+        assert_eq!(kept.once("one", || Ok(2_u32)).ok(), Some(1));
+        assert_eq!(kept.once("two", || Ok(2_u32)).ok(), Some(2));
+    }
 }

@@ -1,29 +1,37 @@
 //! Reproduction of the paper: every figure recomputed, every claim checked, one report.
 //!
-//! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`] with its pictures and its claims. What all of them need is in
-//! the crate `motiform-chapter`.
+//! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`] with its pictures and its claims. A chapter runs studies
+//! and scans through its `context`, and says what it finds as `claims`. Continued bifurcations belong to two figures: `lines` (Fig. 1), which are known from
+//! formulas, and `branches` and `curves` (Fig. 4).
 
+mod branches;
+mod claims;
+mod context;
+mod curves;
 mod equations;
 mod extensions;
+mod fault;
 mod fig1;
 mod fig2;
 mod fig3;
 mod fig4;
 mod fig5;
 mod fig6;
+mod journal;
 mod kept;
+mod lines;
 mod models;
+mod plane;
 mod sentences;
 mod strip;
 
-use motiform_chapter::context::{Context, Progress, Share};
-pub use motiform_chapter::fault::Fault;
-pub use motiform_chapter::kept::Kept;
-use motiform_chapter::{claims, context};
+use context::{Context, Progress, Share};
+pub use fault::Fault;
+pub use kept::Kept;
 use motiform_dynamics::Watch;
-use motiform_files::Journal;
 use motiform_lab::pool;
 use motiform_report::{Claim, Counts, Report, Section};
+use motiform_store::Journal;
 use motiform_study::Error;
 pub use sentences::{checked_in, entry_of};
 use std::path::Path;
@@ -139,14 +147,14 @@ pub fn reproduce_kept(
             kept: keeping.kept,
             fault: None,
         };
-        let section = match kept::read(keeping.journal, chapter.name, options.quick) {
+        let section = match journal::read(keeping.journal, chapter.name, options.quick) {
             Some(section) => section,
             None => {
                 let mut section = (chapter.rebuild)(&context)?;
                 section.number = number_of(chapter.name);
                 // the paper's own figures first
                 section.figures.sort_by_key(|figure| figure.of_paper.is_none());
-                kept::write(keeping.journal, chapter.name, options.quick, &section)?;
+                journal::write(keeping.journal, chapter.name, options.quick, &section)?;
                 section
             }
         };

@@ -3,9 +3,9 @@
 use crate::errors::{of_json, python};
 use crate::study::Study;
 use crate::watch::Caller;
-use motiform_branching::starts::StartPoint;
-use motiform_branching::{BranchFolder, columns, follow, summary};
-use motiform_files::columns::to_csv;
+use motiform_diagrams::starts::StartPoint;
+use motiform_diagrams::{BranchFolder, columns, follow, summary};
+use motiform_store::columns::to_csv;
 use motiform_study::branches::{Along, BranchSettings, origin};
 use motiform_study::{BranchPlan, Stride, Towards};
 use pyo3::prelude::*;

@@ -7,7 +7,7 @@ use motiform_cells::{
     CellFit, CellTrack, FitOptions, OutlineFile, coefficient_columns, fit_cells, fits_json, mode_columns,
     observations_json, observe,
 };
-use motiform_files::columns::to_csv;
+use motiform_store::columns::to_csv;
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::{Cell, Columns, Given, Options, Outline, Tracks, given};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};

@@ -2,10 +2,11 @@
 
 use crate::errors::python;
 use crate::run::{Columns, TableArrays};
-use motiform_files::store::mend;
-use motiform_files::{read_columns, trajectory_path};
+use motiform_lab::dataset::trajectory_path;
+use motiform_store::mend;
+use motiform_store::read_columns;
+use motiform_store::table::Table;
 use motiform_study::Error;
-use motiform_study::table::Table;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, sync_channel};

@@ -3,8 +3,8 @@
 use crate::errors::{of_json, python};
 use crate::study::Study;
 use crate::watch::Caller;
-use motiform_branching::curves::{CurveFolder, curve_columns, curve_summary, follow_curves};
-use motiform_files::columns::to_csv;
+use motiform_diagrams::curves::{CurveFolder, curve_columns, curve_summary, follow_curves};
+use motiform_store::columns::to_csv;
 use motiform_study::branches::{Along, BranchSettings, origin};
 use motiform_study::curves::{CurveKind, CurveSettings, Plane};
 use motiform_study::{BranchPlan, CurvePlan};

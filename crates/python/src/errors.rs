@@ -1,7 +1,7 @@
 //! Conversion of errors to Python exceptions, with the texts of the library and the keywords that mend them.
 
-use motiform_files::store::Error as StoreError;
 use motiform_models::Error as ModelError;
+use motiform_store::Error as StoreError;
 use motiform_study::Error;
 use pyo3::PyErr;
 use pyo3::exceptions::{
@@ -13,9 +13,9 @@ pub(crate) fn python(error: Error) -> PyErr {
     let text = format!("{error}{}", remedy(&error).unwrap_or_default());
     match error {
         Error::Interrupted => PyKeyboardInterrupt::new_err(text),
-        Error::Unreadable { .. }
-        | Error::Store(
-            StoreError::Unwritable { .. }
+        Error::Store(
+            StoreError::Unreadable { .. }
+            | StoreError::Unwritable { .. }
             | StoreError::Busy { .. }
             | StoreError::WriteFailed { .. }
             | StoreError::Inventory { .. },

@@ -4,7 +4,8 @@ use crate::errors::python;
 use crate::run::{Columns, Run, TableArrays};
 use crate::scan_files::load;
 use crate::scan_plan::{Arrays, ScanPlan};
-use motiform_files::{read_dataset, read_fields as fields, read_table_file};
+use motiform_lab::dataset::{read_dataset, read_table_file};
+use motiform_store::read_fields as fields;
 use motiform_study::Dataset;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
@@ -50,7 +51,7 @@ type FieldArrays<'py> = (
 /// The fields of `fields.h5`.
 #[pyfunction]
 pub(crate) fn read_fields(py: Python<'_>, path: PathBuf) -> PyResult<FieldArrays<'_>> {
-    let read = py.detach(|| fields(&path)).map_err(python)?;
+    let read = py.detach(|| fields(&path)).map_err(|error| python(error.into()))?;
     let (times, arcs) = (read.times.len(), read.arcs.len());
     let phi = PyArray1::from_vec(py, read.phi).reshape([times, arcs])?;
     let outlines = PyArray1::from_vec(py, read.outlines).reshape([times, read.points, 2])?;

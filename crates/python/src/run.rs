@@ -5,7 +5,7 @@ use crate::study::{Study, plan};
 use crate::watch::Caller;
 use motiform_dynamics::{Model, Outline};
 use motiform_lab::{draw, naming};
-use motiform_study::table::Table;
+use motiform_store::table::Table;
 use motiform_study::{Dataset, Manifest};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyIndexError;

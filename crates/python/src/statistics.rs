@@ -3,9 +3,9 @@
 use crate::errors::{of_json, python};
 use crate::study::Study;
 use crate::watch::Caller;
-use motiform_files::columns::to_csv;
-use motiform_measure::{Error, Measurement, read, simulated, summary, tables};
+use motiform_lab::statistics::{Error, Measurement, read, simulated, summary, tables};
 use motiform_statistics::Settings;
+use motiform_store::columns::to_csv;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

@@ -2,7 +2,7 @@
 
 use crate::errors::python;
 use crate::watch::Caller;
-use motiform_branching::Verification;
+use motiform_diagrams::Verification;
 use motiform_study::Error;
 use pyo3::prelude::*;
 use std::path::PathBuf;

@@ -100,6 +100,14 @@ pub enum Error {
         /// The system's reason. (Not a `source`, because the message already contains it.)
         reason: std::io::Error,
     },
+    /// A file that cannot be read.
+    #[error("cannot read {}: {reason}", .path.display())]
+    Unreadable {
+        /// The path.
+        path: PathBuf,
+        /// The reason.
+        reason: String,
+    },
     /// Writing failed (for example because of a full disk).
     #[error("writing {} failed: {reason}; {}", .path.display(), advice(.reason))]
     WriteFailed {
@@ -115,6 +123,12 @@ impl Error {
     #[must_use]
     pub fn is_machine_failure(&self) -> bool {
         matches!(self, Self::WriteFailed { .. })
+    }
+
+    /// [`Error::Unreadable`] of a path, with the reason as text.
+    #[must_use]
+    pub fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
+        Self::Unreadable { path: path.to_owned(), reason: reason.to_string() }
     }
 
     /// [`Error::WriteFailed`] of a path, with the reason as text.

@@ -2,7 +2,7 @@
 
 use crate::Ending;
 use crate::plan::{Named, Plan};
-use crate::table::Table;
+use motiform_store::Table;
 use serde::{Deserialize, Serialize};
 
 /// The result of a simulation.
@@ -54,4 +54,4 @@ pub struct Manifest {
 }
 
 /// The version of this program.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+pub const VERSION: &str = motiform_store::VERSION;

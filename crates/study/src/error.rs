@@ -277,14 +277,6 @@ pub enum Error {
         /// The path.
         path: PathBuf,
     },
-    /// A file that cannot be read.
-    #[error("cannot read {}: {reason}", .path.display())]
-    Unreadable {
-        /// The path.
-        path: PathBuf,
-        /// The reason.
-        reason: String,
-    },
     /// A figure could not be drawn.
     #[error("{0}")]
     Figure(String),
@@ -300,10 +292,10 @@ impl Error {
         }
     }
 
-    /// [`Error::Unreadable`] of a path, with the reason as text.
+    /// A file that cannot be read, with the reason as text.
     #[must_use]
     pub fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
-        Self::Unreadable { path: path.to_owned(), reason: reason.to_string() }
+        motiform_store::Error::unreadable(path, reason).into()
     }
 
     /// A file that cannot be written, with the reason as text.

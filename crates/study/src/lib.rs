@@ -27,7 +27,6 @@ mod stride;
 pub mod study;
 mod study_reader;
 mod study_toml;
-pub mod table;
 mod ties;
 pub mod titles;
 mod toml_reader;

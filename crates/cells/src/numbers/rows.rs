@@ -2,9 +2,9 @@
 
 use super::{FormNumber, Numbers};
 use crate::{Observation, Units};
-use motiform_files::columns::{Column, Values};
 use motiform_inference::{Bounded, PersistentWalk};
 use motiform_statistics::{Answer, Measured, four_digits};
+use motiform_store::columns::{Column, Values};
 
 /// Why there is no walk.
 const TOO_FEW: &str = "fewer than 12 displacements, or none at all";

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use super::bodies::{cell, preset};
-use motiform_branching::follow;
 use motiform_cells::{FitOptions, fit_cell};
+use motiform_diagrams::follow;
 use motiform_study::branches::{Along, BranchSettings};
 use motiform_study::{BranchPlan, presets::find_any};
 
@@ -21,10 +21,10 @@ fn a_zigzag_is_as_far_from_its_bifurcations_as_its_law() {
     let mut compared = 0;
     for near in fit.bifurcations.iter().filter(|near| near.parameter == "kappa2") {
         println!("{}", near.sentence());
-        let like = |entry: &&motiform_branching::SpecialEntry| {
+        let like = |entry: &&motiform_diagrams::SpecialEntry| {
             entry.kind == near.kind && (entry.parameter > 0.9) == (near.at > near.value)
         };
-        let off = |entry: &&motiform_branching::SpecialEntry| (entry.parameter - 0.9).abs();
+        let off = |entry: &&motiform_diagrams::SpecialEntry| (entry.parameter - 0.9).abs();
         let Some(known) = truth.iter().filter(like).min_by(|a, b| off(a).total_cmp(&off(b))) else {
             continue;
         };

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use motiform_files::columns::{Column, Values, encode};
+use motiform_store::columns::{Column, Values, encode};
 use std::fmt::Write;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

@@ -9,6 +9,7 @@ mod format_writers;
 mod matrix;
 mod numbers;
 mod observed;
+mod pages;
 mod population;
 mod prediction;
 mod rates;

@@ -57,7 +57,7 @@ fn a_chaotic_cell_is_found_chaotic_at_its_place() {
     let work = FitWork::open(&target, &sample, &cells, &FitOptions::default(), Opening::New).unwrap();
     work.write(&sample, std::slice::from_ref(&fit), true).unwrap();
     let path = work.path();
-    assert_eq!(motiform_files::kind_of(path), Some(motiform_files::Kind::Fits));
+    assert_eq!(motiform_store::kind_of(path), Some(motiform_store::Kind::Fits));
     let back = Study::read(&path.join("cell-1.toml")).unwrap();
     assert!(back.model.definition().is_some() && back.run.noise > 0.0);
     says_where_it_comes_from(&fs::read_to_string(path.join("cell-1.toml")).unwrap(), &back, &fit);

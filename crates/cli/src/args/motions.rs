@@ -2,7 +2,7 @@
 
 use super::{MethodOptions, MotionOptions, StyleOptions, SubjectOptions, number, whole};
 use clap::{Args, ValueEnum};
-use motiform_branching::draw::Ordinate;
+use motiform_diagrams::draw::Ordinate;
 use std::path::PathBuf;
 
 #[derive(Args)]

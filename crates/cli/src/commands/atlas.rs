@@ -6,12 +6,12 @@ use crate::commands::subject;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::Regime;
-use motiform_atlas::{
+use motiform_diagrams::atlas::{
     AtlasFolder, AtlasPlan, AtlasSettings, Boundary, Grid, Line, atlas_summary, boundaries,
     default_atlas_folder, regions, survey, trace,
 };
-use motiform_files::{Folder, Opening};
 use motiform_lab::scan::Axis;
+use motiform_store::{Folder, Opening};
 use motiform_study::branches::Along;
 use motiform_study::{Error, Study};
 use std::fmt::Write;
@@ -40,7 +40,7 @@ pub(crate) fn run(options: &AtlasOptions) -> anyhow::Result<End> {
     } else {
         text(&atlas, &files.shown().display().to_string())?
     })?;
-    let undetermined = |place: &motiform_atlas::Place| place.motion(Regime::Undetermined).is_some();
+    let undetermined = |place: &motiform_diagrams::atlas::Place| place.motion(Regime::Undetermined).is_some();
     Ok(if atlas.grid.places.iter().any(undetermined) { End::NotAsAsked } else { End::Done })
 }
 

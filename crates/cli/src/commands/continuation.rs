@@ -5,14 +5,14 @@ use crate::commands::remarks::{of_branches, ties};
 use crate::commands::{curves, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_branching::draw::branch_figures;
-use motiform_branching::starts::StartPoint;
-use motiform_branching::{
+use motiform_diagrams::draw::branch_figures;
+use motiform_diagrams::starts::StartPoint;
+use motiform_diagrams::{
     BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, default_folder, follow_kept, stated,
     stretches, summary,
 };
-use motiform_files::{Folder, Journal, Opening};
 use motiform_lab::draw::{self, Figures, Picture};
+use motiform_store::{Folder, Journal, Opening};
 use motiform_study::branches::{Along, BranchSettings, origin};
 use motiform_study::curves::{CurveKind, Plane};
 use motiform_study::study::FollowSettings;

@@ -4,11 +4,11 @@ use super::continuation::{end, or_abandon, output, prepare, write};
 use crate::args::ContinueOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_branching::curves::{
+use motiform_diagrams::curves::{
     CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, default_curve_folder,
     follow_curves_kept, not_found,
 };
-use motiform_branching::draw::{check_scan, curve_figures};
+use motiform_diagrams::draw::{check_scan, curve_figures};
 use motiform_lab::scan::ScanFolder;
 use motiform_study::CurvePlan;
 use std::fmt::Write;

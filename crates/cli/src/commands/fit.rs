@@ -10,9 +10,9 @@ use motiform_cells::{
     Agreement, CellFit, CellTrack, Correction, FitOptions, FitWork, Fitted, Observation, Prediction, Sample,
     Units, fit_cells, fit_together, fits_json, fitted_population, observe,
 };
-use motiform_files::Opening;
 use motiform_inference::{Place, Placement, Symmetry};
 use motiform_statistics::{four_digits, with_error};
+use motiform_store::Opening;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 

@@ -10,8 +10,8 @@ use motiform_cells::{
     population_numbers, write_observations,
 };
 use motiform_dynamics::Watch;
-use motiform_files::{Kind, Staged};
 use motiform_statistics::{Answer, four_digits};
+use motiform_store::{Kind, Staged};
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::{Columns, Note, Options};
 use std::fmt::Write;

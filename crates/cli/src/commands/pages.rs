@@ -2,7 +2,7 @@
 
 use crate::output::warn;
 use crate::progress::Progress;
-use motiform_cell_report::{Case, Maps, Sink, pages, planes};
+use motiform_cells::report::{Case, Maps, Sink, pages, planes};
 use motiform_cells::{CellFit, CellTrack, Observation, Sample};
 use motiform_dynamics::Watch;
 use motiform_study::Error;

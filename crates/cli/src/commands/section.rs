@@ -5,9 +5,9 @@ use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_dynamics::Direction;
-use motiform_files::table_to_csv;
 use motiform_lab::section::section;
-use motiform_study::table::Table;
+use motiform_store::table::Table;
+use motiform_store::table_to_csv;
 use motiform_study::{Error, Plan};
 use serde_json::{Map, Value, json};
 

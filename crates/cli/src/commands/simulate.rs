@@ -6,14 +6,14 @@ use crate::commands::{figure, film, subject};
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::Verdict;
-use motiform_files::{Format, Kind, Staged, StagedFile, TableWriter};
 use motiform_lab::draw::Picture;
 use motiform_lab::fields::write_rest;
 use motiform_lab::long::read_shown;
 use motiform_lab::naming;
 use motiform_lab::recorder::{Rows, Unwanted};
 use motiform_lab::simulate::{Run, columns, simulate_into};
-use motiform_study::table::Table;
+use motiform_store::table::Table;
+use motiform_store::{Format, Kind, Staged, StagedFile, TableWriter};
 use motiform_study::{Dataset, Error, Manifest, Plan, Study};
 use serde_json::json;
 use std::fmt::Write;
@@ -193,7 +193,7 @@ trait Destination: Rows {
 
 impl Destination for TableWriter {
     fn finish(self: Box<Self>, manifest: &Manifest) -> Result<Option<Table>, Error> {
-        (*self).finish(manifest)
+        Ok((*self).finish(manifest)?)
     }
 }
 

@@ -5,9 +5,9 @@ use crate::commands::remarks::remark;
 use crate::commands::subject;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_files::{Folder, Journal, Opening};
-use motiform_measure::{Measurement, read, sentences, simulated_kept, summary, write};
+use motiform_lab::statistics::{Measurement, read, sentences, simulated_kept, summary, write};
 use motiform_statistics::Settings;
+use motiform_store::{Folder, Journal, Opening};
 use motiform_study::{Error, Plan, Study};
 use std::fmt::Write;
 use std::path::Path;
@@ -82,7 +82,7 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
 /// Opens the output before any computing.
 fn open(options: &StatisticsOptions, bodies: Option<(&Plan, u64)>) -> Result<Option<Folder>, Error> {
     let Some(out) = &options.out else { return Ok(None) };
-    let folder = motiform_measure::open(out, Opening::of(options.resume, options.force), bodies)?;
+    let folder = motiform_lab::statistics::open(out, Opening::of(options.resume, options.force), bodies)?;
     folder.notes().iter().for_each(|note| warn(note));
     Ok(Some(folder))
 }
@@ -102,7 +102,7 @@ fn bodies(
         simulated_kept(study, usize::try_from(count)?, &settings(options), (threads, journal), &watch);
     watch.finish();
     match found {
-        Err(motiform_measure::Error::Study(Error::Interrupted)) => Ok(None),
+        Err(motiform_lab::statistics::Error::Study(Error::Interrupted)) => Ok(None),
         found => found.map(Some).map_err(plain_error),
     }
 }
@@ -152,9 +152,9 @@ fn text(found: &Measurement, written: Option<&str>) -> anyhow::Result<String> {
 }
 
 /// The error itself, so that remedies and exit codes are those of every command.
-fn plain_error(error: motiform_measure::Error) -> anyhow::Error {
+fn plain_error(error: motiform_lab::statistics::Error) -> anyhow::Error {
     match error {
-        motiform_measure::Error::Study(error) => error.into(),
+        motiform_lab::statistics::Error::Study(error) => error.into(),
         other => other.into(),
     }
 }

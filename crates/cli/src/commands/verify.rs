@@ -3,7 +3,7 @@
 use crate::args::VerifyOptions;
 use crate::output::{End, print};
 use crate::progress::Progress;
-use motiform_branching::Verification;
+use motiform_diagrams::Verification;
 use std::fmt::Write;
 
 pub(crate) fn run(options: &VerifyOptions) -> anyhow::Result<End> {

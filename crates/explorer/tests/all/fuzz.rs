@@ -3,14 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use crate::common;
-#[path = "../../../session/tests/all/messages.rs"]
-mod messages;
-#[path = "../../../lab/tests/all/common/mutate.rs"]
-mod mutate;
+use crate::protocol::messages;
 
+use crate::protocol::mutate::{Mutator, cases};
 use common::{Page, Running};
 use messages::MESSAGES;
-use mutate::{Mutator, cases};
 use std::time::Duration;
 use tungstenite::Message;
 

@@ -4,6 +4,7 @@ mod branches;
 mod common;
 mod fuzz;
 mod hand;
+mod protocol;
 mod server;
 mod session;
 mod stop;

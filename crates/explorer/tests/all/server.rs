@@ -5,7 +5,7 @@
 use crate::common;
 
 use common::Running;
-use motiform_explorer::{Options, Patience, Server};
+use motiform_explorer::server::{Options, Patience, Server};
 use std::io::{Read as _, Write as _};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};

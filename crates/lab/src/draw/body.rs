@@ -3,7 +3,7 @@
 use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Model, Outcome, Outline};
 use motiform_models::ModelInfo;
-use motiform_study::table::Table;
+use motiform_store::table::Table;
 use motiform_study::titles::number;
 use motiform_study::{Dataset, Dimension, Error, Units};
 use std::ops::Range;

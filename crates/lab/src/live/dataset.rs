@@ -5,9 +5,9 @@ use crate::readings::{measures, motion};
 use crate::simulate::finite;
 use motiform_dynamics::model::velocity;
 use motiform_dynamics::{Model, Outcome, Sink, Trajectory};
+use motiform_store::table::Table;
 use motiform_study::dataset::{Dataset, Manifest, VERSION};
 use motiform_study::plan::Named;
-use motiform_study::table::Table;
 use motiform_study::{Error, Plan};
 
 /// The record of a plan's model as a dataset: times start at 0, and the plan in its manifest starts from the first state that

@@ -5,8 +5,8 @@ use crate::recorder::Centre;
 use crate::varying::varies;
 use motiform_dynamics::Model;
 use motiform_dynamics::model::velocity;
+use motiform_store::table::Table;
 use motiform_study::study::ReturnMapSettings;
-use motiform_study::table::Table;
 
 /// The maxima of the speed, in order: each is the vertex of the parabola through three samples, so its error is of order
 /// `dt^4`. None if the speed does not vary.

@@ -4,8 +4,8 @@ use super::*;
 use crate::simulate::simulate;
 use motiform_dynamics::{InPlane, Model, Outcome};
 use motiform_models::ModelInfo;
+use motiform_store::table::same_bits;
 use motiform_study::study::ReturnMapSettings;
-use motiform_study::table::same_bits;
 use motiform_study::{Plan, Study, presets};
 use std::time::Duration;
 
@@ -54,7 +54,7 @@ fn looking_does_not_change_the_motion() {
             let seen = dataset(&plan, model.as_ref(), record, *outcome, None).unwrap().unwrap();
             // The last step of a run is cut at its end, that of a body goes on: all samples but those of that step agree.
             let rows = simulated.trajectory.rows() - 40;
-            let cut = |table: &motiform_study::table::Table| {
+            let cut = |table: &motiform_store::table::Table| {
                 let mut table = table.clone();
                 table.columns.iter_mut().for_each(|column| column.values.truncate(rows));
                 table

@@ -4,7 +4,7 @@
 //! folder as one table.
 
 use super::{Parts, ScanPlan};
-use motiform_files::store::mend;
+use motiform_store::mend;
 use motiform_study::Error;
 use motiform_study::dataset::VERSION;
 use motiform_study::input;

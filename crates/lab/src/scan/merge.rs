@@ -4,8 +4,8 @@ use super::folder::{MANIFEST, ScanFolder, differences, manifest};
 use super::part::PartError;
 use super::rows::same_rows;
 use super::{Parts, ScanPlan, read_part};
-use motiform_files::store::Error as StoreError;
-use motiform_files::{Kind, Staged};
+use motiform_store::Error as StoreError;
+use motiform_store::{Kind, Staged};
 use motiform_study::Error;
 use std::path::{Path, PathBuf};
 

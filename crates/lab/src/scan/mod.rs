@@ -21,7 +21,7 @@ mod work;
 pub use evaluate::{Classify, Done, Evaluate};
 pub use folder::{ScanFolder, ScanManifest, default_folder};
 pub use merge::{Merged, merge};
-pub use motiform_files::Opening;
+pub use motiform_store::Opening;
 pub use motiform_study::scan::{Axis, SCAN_FORMAT, ScanComputation, ScanPlan, Shard};
 pub use part::{PartError, Parts, read_part};
 pub use rows::{NUMBERS, Row, rows_to_csv};

@@ -5,7 +5,7 @@
 
 use super::ScanPlan;
 use super::rows::{Row, from_columns, to_columns};
-use motiform_files::columns;
+use motiform_store::columns;
 use motiform_study::Error;
 use motiform_study::dataset::VERSION;
 use motiform_study::plan::sha256_hex;

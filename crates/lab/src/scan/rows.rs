@@ -2,7 +2,7 @@
 
 use super::ScanPlan;
 use motiform_analysis::regime::{Attractor, Course, Regime, Verdict};
-use motiform_files::columns::{Column, Values, to_csv};
+use motiform_store::columns::{Column, Values, to_csv};
 use motiform_study::Error;
 
 /// The numbers of a row, in file order: name and meaning.

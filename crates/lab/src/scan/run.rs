@@ -6,8 +6,8 @@ use super::part::PartError;
 use super::work::{Ended, Store, compute};
 use super::{Row, ScanPlan, Shard};
 use motiform_dynamics::Watch;
-use motiform_files::store::{Error as StoreError, Inventory};
-use motiform_files::{Folder, Kind, Opening};
+use motiform_store::{Error as StoreError, Inventory};
+use motiform_store::{Folder, Kind, Opening};
 use motiform_study::Error;
 use std::path::Path;
 

@@ -2,10 +2,11 @@
 
 use super::Repeated;
 use super::rows::{Compared, difference, groups};
+use crate::dataset::{read_dataset_by, trajectory_path};
 use crate::simulate::{columns, simulate_into};
 use motiform_dynamics::{Outcome, Watch};
-use motiform_files::{read_dataset_by, read_groups, trajectory_path};
-use motiform_study::table::Table;
+use motiform_store::read_groups;
+use motiform_store::table::Table;
 use motiform_study::{Dataset, Error};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,9 +1,9 @@
 //! Rows compared with those of a file while they are computed: in memory that does not grow with their number.
 
 use crate::recorder::Rows;
-use motiform_files::read_groups;
+use motiform_store::read_groups;
+use motiform_store::table::Table;
 use motiform_study::Error;
-use motiform_study::table::Table;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -5,9 +5,10 @@
 use crate::common;
 
 use common::{preset, run};
-use motiform_files::{Format, Kind, Staged, read_dataset};
+use motiform_lab::dataset::read_dataset;
 use motiform_lab::fields::write_dataset;
-use motiform_study::table::{Table, same_bits};
+use motiform_store::table::{Table, same_bits};
+use motiform_store::{Format, Kind, Staged};
 use motiform_study::{Dataset, Manifest};
 use proptest::prelude::*;
 use std::fs;
@@ -214,7 +215,7 @@ fn datasets_of_earlier_versions_are_read() {
     write(&SHORT, Format::Csv, &folder);
     fs::remove_file(folder.join("_inventory.jsonl")).unwrap();
     assert_eq!(read_dataset(&folder).unwrap().trajectory.rows(), SHORT.trajectory.rows());
-    assert_eq!(motiform_files::kind_of(&folder), Some(Kind::Dataset));
+    assert_eq!(motiform_store::kind_of(&folder), Some(Kind::Dataset));
 }
 
 /// Each count of a Parquet file changed alone: its columns then differ in length from each other or from the footer.
@@ -225,7 +226,7 @@ fn a_changed_count_is_no_other_table() {
     let rows = SHORT.trajectory.rows();
     assert!(rows < 60, "a count is one byte");
     let manifest = &SHORT.manifest;
-    motiform_files::write_table(&SHORT.trajectory, manifest, Format::Parquet, &path).unwrap();
+    motiform_store::write_table(&SHORT.trajectory, manifest, Format::Parquet, &path).unwrap();
     let whole = fs::read(&path).unwrap();
     // Thrift writes a number as a zigzag varint: twice the number.
     let count = u8::try_from(2 * rows).unwrap();
@@ -235,7 +236,7 @@ fn a_changed_count_is_no_other_table() {
             let mut bytes = whole.clone();
             bytes[place] = other;
             fs::write(&path, bytes).unwrap();
-            match motiform_files::read_table_file(&path) {
+            match motiform_lab::dataset::read_table_file(&path) {
                 Err(_) => refused += 1,
                 Ok((table, _)) => assert!(table.columns.iter().all(|column| column.values.len() == rows)),
             }

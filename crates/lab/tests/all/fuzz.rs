@@ -8,12 +8,11 @@ use crate::common;
 mod mutate;
 
 use common::{preset, run};
-use motiform_files::store::{Audit, INVENTORY, Inventory};
-use motiform_files::{
-    Format, Kind, Staged, decoding, read_dataset, read_fields, read_table_file, write_fields,
-};
+use motiform_lab::dataset::{read_dataset, read_table_file};
 use motiform_lab::fields::write_dataset;
 use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals, read_part};
+use motiform_store::{Audit, INVENTORY, Inventory};
+use motiform_store::{Format, Kind, Staged, decoding, read_fields, write_fields};
 use motiform_study::presets::{EXTENSIONS, PRESETS};
 use motiform_study::{Plan, ScanPlan, Study};
 use mutate::{Mutator, cases, each, in_turn};

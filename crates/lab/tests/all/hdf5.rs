@@ -1,7 +1,7 @@
 //! HDF5 fields as h5py and as the crate itself read them.
 
 use hdf5_pure::{AttrValue, File};
-use motiform_files::{Fields, read_fields, write_fields};
+use motiform_store::{Fields, read_fields, write_fields};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -134,7 +134,7 @@ fn lengths_that_do_not_belong_together_are_refused() {
     assert!(refused(Fields { points: usize::MAX, ..good() }).contains("outline has 30 values"));
     assert!(!path.exists());
     let nowhere = folder.path().join("nowhere").join("fields.h5");
-    assert!(matches!(write_fields(&nowhere, &good()), Err(motiform_study::Error::Store(_))));
+    assert!(matches!(write_fields(&nowhere, &good()), Err(motiform_store::Error::WriteFailed { .. })));
 }
 
 #[test]

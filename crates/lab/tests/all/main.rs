@@ -24,5 +24,6 @@ mod random;
 mod scan;
 mod scan_lanes;
 mod starts;
+mod statistics;
 mod study_toml;
 mod tolerances;

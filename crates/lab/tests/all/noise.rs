@@ -7,7 +7,7 @@ use crate::common;
 use common::{column, preset, run};
 use motiform_lab::analyse;
 use motiform_models::ModelInfo;
-use motiform_study::table::same_bits;
+use motiform_store::table::same_bits;
 use motiform_study::{Plan, Study};
 
 fn rectangular(noise: f64, seed: u64) -> Study {

@@ -6,8 +6,8 @@
 use crate::common;
 
 use common::{column, preset, run};
+use motiform_store::table::same_bits;
 use motiform_study::study::ReturnMapSettings;
-use motiform_study::table::same_bits;
 use motiform_study::{Plan, Study};
 
 type Change = (&'static str, fn(&mut Study));

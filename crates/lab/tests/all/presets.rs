@@ -6,8 +6,8 @@ use crate::common;
 
 use common::{column, headings, polar, preset, run, tensor};
 use motiform_dynamics::Outcome;
+use motiform_store::table::same_bits;
 use motiform_study::presets::PRESETS;
-use motiform_study::table::same_bits;
 use motiform_study::{Dataset, Plan, Study};
 
 #[test]

@@ -1,7 +1,7 @@
 //! Motions found in a scan of the plane; and the motions that were measured before this project.
 
+use crate::curves::Place;
 use motiform_analysis::Regime;
-use motiform_chapter::curves::Place;
 use motiform_lab::scan::CellSummary;
 use motiform_study::ScanPlan;
 

@@ -3,8 +3,8 @@
 use super::super::claims::check;
 use super::super::context::Context;
 use super::lengths::study;
-use motiform_branching::draw::{Ordinate, branch_diagram};
-use motiform_branching::{Branches, SpecialEntry, stretches};
+use motiform_diagrams::draw::{Ordinate, branch_diagram};
+use motiform_diagrams::{Branches, SpecialEntry, stretches};
 use motiform_lab::draw::sheet;
 use motiform_report::{Claim, ReportFigure};
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
@@ -51,7 +51,7 @@ impl Atlas {
         let settings = BranchSettings { branches: MOST, stride, ..BranchSettings::over(along) };
         let plan = BranchPlan::new(&study, &settings)?;
         let follow = || {
-            let found = motiform_branching::follow(&plan, None, &context.quiet())?;
+            let found = motiform_diagrams::follow(&plan, None, &context.quiet())?;
             if found.complete { Ok(Arc::new(found)) } else { Err(Error::Interrupted) }
         };
         let found = context.kept.once(&format!("branches {}", plan.hash()), follow)?;

@@ -6,7 +6,7 @@ use crate::gather::{Gather, Key};
 use crate::header::{Header, needed};
 use crate::input::{integer, io};
 use crate::{Error, Options, Place, Result};
-use motiform_files::parquet_input::{column, numbers, read as read_file, wrong};
+use motiform_store::table::parquet_input::{column, numbers, read as read_file, wrong};
 use parquet::column::reader::ColumnReader;
 use parquet::data_type::ByteArray;
 use parquet::errors::ParquetError;

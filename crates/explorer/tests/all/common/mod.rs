@@ -7,7 +7,7 @@
     reason = "shared by tests, each of which uses a part"
 )]
 
-use motiform_explorer::{Handle, Options, Server};
+use motiform_explorer::server::{Handle, Options, Server};
 use serde_json::Value;
 use std::io::{Read, Write};
 use std::net::TcpStream;

@@ -4,10 +4,10 @@
 
 use super::{Toy, compute, contents, folder, open, plan, preset, study};
 use motiform_dynamics::Watch;
-use motiform_files::store::Error as StoreError;
 use motiform_lab::scan::{
     Axis, Classify, NUMBERS, Opening, Row, SCAN_FORMAT, Scan, Shard, Totals, for_each_part, merge,
 };
+use motiform_store::Error as StoreError;
 use motiform_study::{Error, ScanPlan};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tempfile::TempDir;

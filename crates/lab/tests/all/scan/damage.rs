@@ -5,8 +5,8 @@
 use super::{Toy, compute, contents, folder, open, plan, study};
 use motiform_analysis::regime::{Attractor, Regime, Verdict};
 use motiform_dynamics::Watch;
-use motiform_files::store::Error as StoreError;
 use motiform_lab::scan::{Evaluate, Opening, PartError, Scan, ScanFolder, Shard, Totals, merge};
+use motiform_store::Error as StoreError;
 use motiform_study::{Error, ScanPlan};
 use tempfile::TempDir;
 

@@ -1,3 +1,0 @@
-//! Tests of the pages of tracked cells.
-
-mod pages;

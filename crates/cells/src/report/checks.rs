@@ -1,0 +1,110 @@
+//! Checks of a fit: other sampling intervals, the weak form, and what the fit leaves unexplained.
+
+use crate::Fitted;
+use crate::Units;
+use crate::report::numbers::{plain, with_error};
+use crate::report::terms::typeset;
+use motiform_figures::{BandCurve, BandFigure, BandPoint};
+use motiform_inference::{Channel, Coefficient};
+use motiform_lab::draw::sheet;
+use motiform_report::{Cell, ReportFigure, Section, Table};
+use motiform_study::Error;
+
+/// Half the width of a 95 % interval in standard errors.
+const NORMAL_95: f64 = 1.96;
+
+pub(crate) fn section(fitted: &Fitted, units: &Units) -> Result<Section, Error> {
+    let n = fitted.model().frames as f64;
+    let channels = &fitted.checks.innovations;
+    let pairs = channels.chunks(2).filter(|pair| !pair[0].autocorrelation.is_empty());
+    Ok(Section {
+        title: "Checks".to_owned(),
+        about: "If the model describes the cell, coefficients do not depend on the sampling interval, and innovations have variance 1 and no memory. The weak form shares nothing with the likelihood but the data: under process noise it is biased by 10 to 40 %, so only its signs and orders of magnitude count.".to_owned(),
+        tables: vec![intervals(fitted, units), whiteness(channels)],
+        small_figures: pairs.map(|pair| memory(pair, n)).collect::<Result<_, _>>()?,
+        ..Section::default()
+    })
+}
+
+/// Coefficients at other sampling intervals and by the weak form.
+fn intervals(fitted: &Fitted, units: &Units) -> Table {
+    // Those of the mirror-symmetric fit: of it the others are made.
+    let fit = &fitted.selection.fit;
+    let drift = fitted.drift.as_ref();
+    let points = drift.map_or(&[][..], |drift| drift.points.get(1..).unwrap_or_default());
+    let mut head = vec!["term".to_owned(), "coefficient".to_owned()];
+    for point in points {
+        head.push(format!("every {} frames ({} {})", point.every, plain(point.interval), units.time));
+    }
+    if drift.is_some() {
+        head.push("largest change".to_owned());
+    }
+    head.push("weak form".to_owned());
+    let row = |(place, c): (usize, &Coefficient)| {
+        let mut row =
+            vec![Cell::text(typeset(&c.name)), Cell::number(with_error(c.estimate.value, c.estimate.error))];
+        for point in points {
+            let text = |e: &motiform_inference::Estimate| with_error(e.value, e.error);
+            row.push(Cell::number(point.estimates.get(place).map_or_else(String::new, text)));
+        }
+        if let Some(drift) = drift {
+            let change = drift.changes.get(place).copied().unwrap_or_default();
+            row.push(Cell::number(format!("{change:.1}")));
+        }
+        let weak = fitted.checks.weak(place); // none of a handed model
+        row.push(Cell::number(weak.map_or_else(|| "-".to_owned(), plain)));
+        row
+    };
+    Table {
+        caption: "The same coefficients from fewer frames and by another method; changes in standard deviations of such a change.".to_owned(),
+        head,
+        rows: fit.coefficients.iter().enumerate().map(row).collect(),
+    }
+}
+
+/// The autocorrelations of the innovations of a pair of numbers (x and y, the parts of a mode), on the band of white noise.
+fn memory(pair: &[Channel], n: f64) -> Result<ReportFigure, Error> {
+    let half = NORMAL_95 / n.sqrt();
+    let lags = || (1..=pair[0].autocorrelation.len()).map(|lag| lag as f64);
+    let bare = |x, y| BandPoint { x, y, low: y, high: y };
+    let white = lags().map(|x| BandPoint { x, y: 0.0, low: -half, high: half });
+    let mut curves = vec![BandCurve { label: "white noise, 95 % band".to_owned(), points: white.collect() }];
+    for channel in pair {
+        let own = lags().zip(&channel.autocorrelation).map(|(x, &y)| bare(x, y)).collect();
+        curves.push(BandCurve { label: symbol(&channel.name), points: own });
+    }
+    for end in [-half, half] {
+        // keeps the band in sight: axes show all points, and one alone is no line
+        curves.push(BandCurve { label: String::new(), points: vec![bare(1.0, 1.1 * end)] });
+    }
+    let figure = BandFigure {
+        x_label: "lag (frames)".to_owned(),
+        y_label: "autocorrelation of innovations".to_owned(),
+        curves,
+        zero_line: true,
+        ..BandFigure::default()
+    };
+    let names: Vec<String> = pair.iter().map(|channel| symbol(&channel.name)).collect();
+    Ok(ReportFigure::new(sheet(&figure)?, format!("Innovations of {}.", names.join(" and "))))
+}
+
+/// Variances of the innovations and the test of their whiteness.
+fn whiteness(channels: &[Channel]) -> Table {
+    let row = |channel: &Channel| {
+        let (variance, p) = (plain(channel.variance), plain(channel.p_value));
+        vec![Cell::text(symbol(&channel.name)), Cell::number(variance), Cell::number(p)]
+    };
+    Table {
+        caption: "Innovations of each observed number.".to_owned(),
+        head: ["innovations of", "variance", "p of white noise"].map(str::to_owned).to_vec(),
+        rows: channels.iter().map(row).collect(),
+    }
+}
+
+/// `Re z2` as it is set.
+fn symbol(name: &str) -> String {
+    match name.split_once(" z") {
+        Some((part, n)) => format!("{part} *z*_{n}"),
+        None => format!("*{name}*"),
+    }
+}

@@ -1,0 +1,219 @@
+//! The fitted equations: coefficients, noise, what the data determine, the motion, what is doubtful.
+
+use crate::Units;
+use crate::report::motion::capital;
+use crate::report::numbers::{estimate, plain, with_error};
+use crate::report::terms::{typeset, unit};
+use crate::{CellFit, Fitted};
+use motiform_figures::literal;
+use motiform_inference::{Coefficient, EquationKnowledge, paper};
+use motiform_report::{Cell, Section, Table};
+
+pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
+    let title = "Fitted equations".to_owned();
+    let fitted = match &fit.fitted {
+        Ok(fitted) => fitted,
+        Err(why) => {
+            return Section { title, about: format!("No fit: {}.", literal(why)), ..Section::default() };
+        }
+    };
+    let why = capital(&literal(&fitted.why()));
+    let regime = fitted.motion_name();
+    let about = format!(
+        "Motion of the fitted equations, without their noise: {regime}. {why}.\n\nThe equations are the study file {name}.toml in the folder of this page: every command of motiform takes it as a model."
+    );
+    let mut tables = vec![coefficients(fitted, units)];
+    tables.extend(sets(fitted));
+    tables.extend(motions(fitted));
+    tables.extend(bifurcations(fit));
+    tables.extend(determined(fitted));
+    tables.extend(warnings(fit));
+    Section { title, about, parameters: parameters(fitted, units), tables, ..Section::default() }
+}
+
+fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
+    let model = fitted.model();
+    let noise = &model.noise;
+    let (symmetry, p) = (fitted.symmetry().name(), plain(fitted.handedness.p_value));
+    vec![
+        ("symmetry".to_owned(), format!("{symmetry}, p = {p}")),
+        (
+            "imaginary parts excluded".to_owned(),
+            format!(
+                "above {:.0} % of the largest coefficient of their equation",
+                100.0 * fitted.handedness.excluded
+            ),
+        ),
+        ("frames with a likelihood".to_owned(), model.frames.to_string()),
+        ("log-likelihood".to_owned(), plain(model.log_likelihood)),
+        ("factor of the stated errors".to_owned(), estimate(&noise.s)),
+        (
+            "noise of the velocity".to_owned(),
+            format!("{} {}/√{}", estimate(&noise.eta_v), units.speed(), units.time),
+        ),
+        (
+            "noise of the shape".to_owned(),
+            format!("{} {}/√{}", estimate(&noise.eta_shape), units.length, units.time),
+        ),
+        ("noise of the centre, beside the contour's".to_owned(), centre(fitted, units)),
+        ("velocity of the stage, subtracted".to_owned(), stage(fitted, units)),
+        ("sets of terms that are as good".to_owned(), fitted.selection.subsets.ties.len().to_string()),
+        ("natural time".to_owned(), format!("{} {}", plain(model.scales.time), units.time)),
+    ]
+}
+
+/// The noise that all outlines of a frame may have together, as the fit of one cell sees it.
+fn centre(fitted: &Fitted, units: &Units) -> String {
+    let noise = &fitted.model().noise;
+    match noise.is_of_centre() {
+        true => format!("{} {}", estimate(&noise.centre), units.length),
+        false => "none is seen".to_owned(),
+    }
+}
+
+fn stage(fitted: &Fitted, units: &Units) -> String {
+    let one = |v: &[f64; 2]| format!("({}, {}) {}", plain(v[0]), plain(v[1]), units.speed());
+    let all: Vec<String> = fitted.stage.iter().map(one).collect();
+    if all.is_empty() { "none".to_owned() } else { all.join("; ") }
+}
+
+fn coefficients(fitted: &Fitted, units: &Units) -> Table {
+    let between = fitted.between.as_ref();
+    let (sound, stated) = (fitted.model().converged(), fitted.no_intervals().is_none());
+    let row = |(place, c): (usize, &Coefficient)| {
+        let (name, factor) = paper(&c.term, c.imaginary);
+        let part = if c.imaginary { "imaginary part of " } else { "" };
+        let over = fitted.over_sets(&c.name).filter(|_| !c.imaginary);
+        let [low, high] = over.map_or(c.estimate.interval, |over| over.interval).map(plain);
+        let interval = if sound && stated { format!("{low} to {high}") } else { String::new() };
+        let mut row = vec![
+            Cell::text(format!("{part}{}", typeset(&c.name))),
+            Cell::number(if sound {
+                with_error(c.estimate.value, c.estimate.error)
+            } else {
+                plain(c.estimate.value)
+            }),
+            Cell::text(unit(&c.term, units)),
+            Cell::number(if sound { plain(c.estimate.robust) } else { "not converged".to_owned() }),
+            Cell::number(interval),
+            Cell::text(literal(&format!("{name} = {}", plain(c.estimate.value / factor)))),
+        ];
+        if let Some(between) = between {
+            row.insert(4, Cell::number(between.errors.get(place).map_or_else(String::new, |e| plain(*e))));
+        }
+        row
+    };
+    let mut head =
+        vec!["term", "coefficient", "unit", "robust error", "95 % interval", "parameter of the study file"];
+    if between.is_some() {
+        head.insert(4, "error between cells");
+    }
+    let mut rows: Vec<Vec<Cell>> = fitted.model().coefficients.iter().enumerate().map(row).collect();
+    for one in fitted.in_other_sets() {
+        let [low, high] = one.interval.map(plain);
+        let mut row = vec![
+            Cell::text(format!("{} (other sets)", typeset(&one.name))),
+            Cell::number(format!("{}, mean over sets", plain(one.value))),
+            Cell::text(
+                fitted.whole.coefficient(&one.name).map_or_else(String::new, |c| unit(&c.term, units)),
+            ),
+            Cell::number(""),
+            Cell::number(if stated { format!("{low} to {high}") } else { String::new() }),
+            Cell::text(format!(
+                "not in the file: in {:.0} % of the weight of all tied sets",
+                100.0 * one.weight
+            )),
+        ];
+        if between.is_some() {
+            row.insert(4, Cell::number(""));
+        }
+        rows.push(row);
+    }
+    let intervals = fitted.no_intervals().map_or_else(
+        || "Intervals are those over all sets of terms that the data do not tell apart".to_owned(),
+        |reason| format!("No intervals are stated: {reason}"),
+    );
+    Table {
+        caption: format!(
+            "Coefficients in the units of the data; a term stands in the equation of the amplitude before the colon. {intervals}; the errors are those of the best set alone."
+        ),
+        head: head.into_iter().map(str::to_owned).collect(),
+        rows,
+    }
+}
+
+/// The terms that are not in all sets that are as good as the best.
+fn sets(fitted: &Fitted) -> Option<Table> {
+    let subsets = &fitted.selection.subsets;
+    let all = subsets.ties.len();
+    let best = subsets.best()?;
+    let row = |(name, count): (String, usize)| {
+        let chosen = if best.names.contains(&name) { "yes" } else { "no" };
+        vec![Cell::text(typeset(&name)), Cell::number(format!("{count} of {all}")), Cell::text(chosen)]
+    };
+    let rows: Vec<Vec<Cell>> =
+        subsets.counts().into_iter().filter(|(_, count)| *count < all).map(row).collect();
+    (!rows.is_empty()).then(|| Table {
+        caption: "Terms that some of the sets that are as good as the best have, and others do not: the data do not tell whether they are there.".to_owned(),
+        head: ["term", "sets of terms that are as good", "in the set above"].map(str::to_owned).to_vec(),
+        rows,
+    })
+}
+
+/// The motions of the models that the data allow.
+fn motions(fitted: &Fitted) -> Option<Table> {
+    let found = fitted.regime.as_ref()?;
+    let row = |(regime, count): &(motiform_analysis::regime::Regime, usize)| {
+        let share = 100.0 * *count as f64 / found.draws as f64;
+        vec![
+            Cell::text(regime.name()),
+            Cell::number(count.to_string()),
+            Cell::number(format!("{share:.0} %")),
+        ]
+    };
+    Some(Table {
+        caption: format!(
+            "Motions of {} models drawn from the estimate. A motion is named if 90 % agree, with the best model among them.",
+            found.draws
+        ),
+        head: ["motion", "models", "share"].map(str::to_owned).to_vec(),
+        rows: found.counts.iter().map(row).collect(),
+    })
+}
+
+/// The nearest changes of the motion.
+fn bifurcations(fit: &CellFit) -> Option<Table> {
+    let rows: Vec<Vec<Cell>> =
+        fit.bifurcations.iter().map(|near| vec![Cell::text(literal(&near.sentence()))]).collect();
+    (!rows.is_empty()).then(|| Table {
+        caption: "The nearest bifurcations of the motion, all other parameters being those of the fit."
+            .to_owned(),
+        head: vec!["bifurcation".to_owned()],
+        rows,
+    })
+}
+
+/// What the motion fixes, where it does not fix everything.
+fn determined(fitted: &Fitted) -> Option<Table> {
+    let equations = &fitted.known_of_all.equations;
+    let row = |of: &EquationKnowledge| {
+        vec![Cell::text(format!("*z*_{}", of.equation + 1)), Cell::text(literal(&of.text))]
+    };
+    let rows: Vec<Vec<Cell>> = equations.iter().map(row).collect();
+    let whole = equations.iter().all(|of| of.fixed() == of.combinations.len());
+    (!whole).then(|| Table {
+        caption: "What the data determine, equation by equation, among all terms.".to_owned(),
+        head: vec!["equation".to_owned(), "determined".to_owned()],
+        rows,
+    })
+}
+
+fn warnings(fit: &CellFit) -> Option<Table> {
+    let rows: Vec<Vec<Cell>> =
+        fit.warnings().iter().map(|warning| vec![Cell::text(literal(warning))]).collect();
+    (!rows.is_empty()).then(|| Table {
+        caption: "What makes the fit doubtful.".to_owned(),
+        head: vec!["warnings".to_owned()],
+        rows,
+    })
+}

@@ -1,0 +1,117 @@
+//! Numbers without a model: a table and the displacements; speed, area and aspect ratio over time, for beside the film strip.
+
+use crate::report::Case;
+use crate::report::motion::points;
+use crate::report::numbers::{answer, plain};
+use crate::{Numbers, Row, Units};
+use motiform_dynamics::order::ascending;
+use motiform_figures::palette::INK;
+use motiform_figures::{BandCurve, BandFigure, Curve, Panel, SeriesFigure};
+use motiform_lab::draw::sheet;
+use motiform_report::{Cell, ReportFigure, Section, Table};
+use motiform_statistics::Answer;
+use motiform_study::Error;
+use motiform_tracks::modes::{Flag, FrameModes};
+
+pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> {
+    let numbers = &case.observation.numbers;
+    let seen = numbers.seen;
+    let figures = displacement(numbers, units)?.into_iter().collect();
+    let frames = case.cell.modes.frames.len();
+    let mut about = format!(
+        "From the centroids and polygons of the {seen} of {frames} frames whose outline is seen, whatever its radius. In brackets 95 % intervals."
+    );
+    if numbers.pieces > 1 {
+        about += &format!(
+            " The record has {} pieces between which place or area step; no displacement is taken across.",
+            numbers.pieces
+        );
+    }
+    Ok(Section {
+        title: "Numbers without a model".to_owned(),
+        about,
+        tables: vec![table(numbers, units)],
+        figures,
+        ..Section::default()
+    })
+}
+
+/// Speed, area and aspect ratio over time; nothing where fewer than two frames are seen.
+pub(crate) fn over_time(case: &Case<'_>, units: &Units) -> Result<Option<ReportFigure>, Error> {
+    if case.observation.numbers.seen < 2 {
+        return Ok(None);
+    }
+    let words = "Speed from each frame to the next, area and aspect ratio over time. Grey: frames that are missing, or whose outline does not count; there is no speed across a jump of the stage.";
+    Ok(Some(ReportFigure::new(sheet(&series(&case.cell.modes.frames, units))?, words)))
+}
+
+fn table(numbers: &Numbers, units: &Units) -> Table {
+    let row =
+        |row: Row| vec![Cell::text(row.name), Cell::text(answer(&row.value, &row.dimension.unit(units)))];
+    Table {
+        caption: "Path, persistence and form.".to_owned(),
+        head: ["quantity", "value"].map(str::to_owned).to_vec(),
+        rows: numbers.rows().into_iter().map(row).collect(),
+    }
+}
+
+/// A number of a cell as it stands in a table; empty where there is none.
+pub(crate) fn value(numbers: &Numbers, key: &str) -> String {
+    let found = numbers.rows().into_iter().find(|row| row.key == key);
+    let known = found.and_then(|row| match row.value {
+        Answer::Known(found) => Some(found.value),
+        Answer::Unknown { .. } => None,
+    });
+    known.map_or_else(String::new, plain)
+}
+
+/// Speed to the next frame, area and aspect ratio, `None` where the outline is not seen or frames are missing.
+fn series(frames: &[FrameModes], units: &Units) -> SeriesFigure {
+    let mut gaps: Vec<f64> = frames.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
+    ascending(&mut gaps);
+    let usual = gaps.get(gaps.len() / 2).copied().unwrap_or(0.0);
+    let (mut times, mut rows): (Vec<f64>, Vec<[Option<f64>; 3]>) = (Vec::new(), Vec::new());
+    for (k, frame) in frames.iter().enumerate() {
+        let seen = frame.is_seen();
+        let next = frames.get(k + 1).filter(|next| seen && next.is_seen() && next.t - frame.t < 1.5 * usual);
+        let next = next.filter(|next| !next.flags.iter().any(Flag::parts));
+        let speed = next.map(|next| {
+            let [x, y] = [0, 1].map(|c| next.centroid[c] - frame.centroid[c]);
+            libm::hypot(x, y) / (next.t - frame.t)
+        });
+        let form = frame.form.filter(|_| seen);
+        times.push(frame.t);
+        rows.push([speed, seen.then_some(frame.area), form.map(|form| form.aspect_ratio)]);
+        if frames.get(k + 1).is_some_and(|next| next.t - frame.t > 1.5 * usual) {
+            times.push(frame.t + usual);
+            rows.push([None; 3]);
+        }
+    }
+    let panel = |at: usize, label: String| Panel {
+        label: label.clone(),
+        curves: vec![Curve { label, colour: INK, values: rows.iter().map(|row| row[at]).collect() }],
+    };
+    let panels = vec![
+        panel(0, format!("speed ({})", units.speed())),
+        panel(1, format!("area ({}^2)", units.length)),
+        panel(2, "aspect ratio".to_owned()),
+    ];
+    SeriesFigure { time_label: format!("*t* ({})", units.time), times, panels, ..SeriesFigure::default() }
+}
+
+fn displacement(numbers: &Numbers, units: &Units) -> Result<Option<ReportFigure>, Error> {
+    let curve = BandCurve { label: "observed, 95 % band".to_owned(), points: points(&numbers.displacement) };
+    if curve.points.len() < 3 || !curve.points.iter().any(|point| point.y > 0.0) {
+        return Ok(None);
+    }
+    let figure = BandFigure {
+        x_label: format!("lag ({})", units.time),
+        y_label: format!("mean-square displacement ({}^2)", units.length),
+        curves: vec![curve],
+        logarithmic_x: true,
+        logarithmic_y: true,
+        ..BandFigure::default()
+    };
+    let words = "Mean-square displacement over all pairs of frames that are seen, gaps or not; errors of the places are in it. The band ends at an eighth of the record.";
+    Ok(Some(ReportFigure::new(sheet(&figure)?, words)))
+}

@@ -1,0 +1,184 @@
+//! The page of the data set: all cells in a table, the population, all places.
+
+use crate::Units;
+use crate::report::numbers::estimate;
+use crate::report::place::{self, PLANES, map};
+use crate::report::{Case, Maps, fitted, free, page_name, population, words};
+use crate::{Agreement, CellFit, Fitted, Sample};
+use motiform_analysis::regime::Regime;
+use motiform_figures::literal;
+use motiform_inference::{Place, Placement};
+use motiform_lab::draw::sheet;
+use motiform_report::{Cell, Report, ReportFigure, Section, Table};
+use motiform_study::Error;
+
+pub(crate) fn report(
+    sample: &Sample,
+    (cases, together): (&[Case<'_>], Option<&CellFit>),
+    names: &[String],
+    maps: &Maps,
+    units: &Units,
+) -> Result<Report, Error> {
+    let mut sections = vec![Section {
+        title: "Cells".to_owned(),
+        tables: vec![table(cases, names, units)],
+        ..Section::default()
+    }];
+    if let Some(fit) = together {
+        sections.extend(one_law(fit, maps, units)?);
+    }
+    sections.extend(field(sample, units));
+    sections.extend(population::section(cases, units)?);
+    sections.extend(places(cases, maps)?);
+    sections.extend(notes(sample));
+    let about = format!(
+        "{}; lengths in {}, times in {}. A name is given where the data leave no other; otherwise a motion is 'undecided', and the page of the cell says what is missing.",
+        sample.tracks.size(),
+        units.length,
+        units.time
+    );
+    Ok(Report {
+        title: "Tracked cells".to_owned(),
+        about,
+        sections,
+        glossary: words::glossary(),
+        ..Report::default()
+    })
+}
+
+/// One fit of all cells: its equations, and their place.
+fn one_law(fit: &CellFit, maps: &Maps, units: &Units) -> Result<Vec<Section>, Error> {
+    let file = crate::file_names(std::iter::once(fit.name.as_str())).concat();
+    let mut sections = vec![fitted::section(fit, &file, units)];
+    sections[0].title = "One law for all cells".to_owned();
+    if let Ok(found) = &fit.fitted {
+        sections.push(place::section("all cells", found, maps)?);
+    }
+    Ok(sections)
+}
+
+/// The motion of the fitted equations, or the observed one.
+pub(crate) fn verdict(case: &Case<'_>) -> &'static str {
+    if let Some(fitted) = fitted_of(case).filter(|fitted| fitted.is_walk()) {
+        return fitted.motion_name();
+    }
+    fitted_regime(case).or(case.observation.motion.regime).map_or("undecided", |regime| regime.name())
+}
+
+pub(crate) fn fitted_of<'c>(case: &Case<'c>) -> Option<&'c Fitted> {
+    case.fit?.fitted.as_deref().ok()
+}
+
+pub(crate) fn fitted_regime(case: &Case<'_>) -> Option<Regime> {
+    fitted_of(case)?.regime.as_ref()?.regime
+}
+
+fn table(cases: &[Case<'_>], names: &[String], units: &Units) -> Table {
+    let fits = cases.iter().any(|case| case.fit.is_some());
+    let name = |regime: Option<Regime>| Cell::text(regime.map_or("undecided", |regime| regime.name()));
+    let row = |(case, file): (&Case<'_>, &String)| {
+        let free = |key: &str| Cell::number(free::value(&case.observation.numbers, key));
+        let mut row = vec![
+            Cell::link(literal(&case.cell.name), page_name(file)),
+            Cell::number(case.cell.frames().to_string()),
+            free("speed"),
+            free("persistence"),
+            free("area"),
+            free("aspect_ratio"),
+            name(case.observation.motion.regime),
+        ];
+        if fits {
+            row.push(Cell::text(fitted_of(case).map_or("undecided", Fitted::motion_name)));
+            row.push(Cell::text(fitted_of(case).map_or("", |fitted| fitted.symmetry().name())));
+            row.push(Cell::text(fitted_of(case).map_or_else(String::new, place_words)));
+            row.push(Cell::text(agreement(case)));
+        }
+        row
+    };
+    let mut head = vec![
+        "cell".to_owned(),
+        "frames that count".to_owned(),
+        format!("speed ({})", units.speed()),
+        format!("persistence ({})", units.time),
+        format!("area ({}^2)", units.length),
+        "aspect ratio".to_owned(),
+        "observed motion".to_owned(),
+    ];
+    if fits {
+        head.extend(["motion of the fit", "symmetry", "place", "simulated cells"].map(str::to_owned));
+    }
+    Table {
+        caption: "Every cell has a page of its own.".to_owned(),
+        head,
+        rows: cases.iter().zip(names).map(row).collect(),
+    }
+}
+
+fn placed(fitted: &Fitted, plane: usize) -> Option<&Place> {
+    match &fitted.places[plane] {
+        Placement::Placed(place) => Some(place),
+        Placement::Refused { .. } => None,
+    }
+}
+
+pub(crate) fn place_words(fitted: &Fitted) -> String {
+    let place = placed(fitted, 0).or(placed(fitted, 1));
+    let words = |place: &Place| {
+        let both = place.coordinates.iter().map(|c| format!("{} = {}", c.name, estimate(&c.estimate)));
+        both.collect::<Vec<_>>().join(", ")
+    };
+    place.map_or_else(|| "none".to_owned(), words)
+}
+
+pub(crate) fn agreement(case: &Case<'_>) -> String {
+    match case.prediction() {
+        None => String::new(),
+        Some(found) if found.is_unstable() => "unstable".to_owned(),
+        Some(found) => format!("{} of {} agree", found.count(Agreement::Agrees), found.comparisons.len()),
+    }
+}
+
+/// All places on one map per plane.
+fn places(cases: &[Case<'_>], maps: &Maps) -> Result<Option<Section>, Error> {
+    let mut figures = Vec::new();
+    for (number, (plane, name)) in PLANES.into_iter().enumerate() {
+        let all: Vec<_> = cases
+            .iter()
+            .filter_map(|case| Some((case.cell.name.as_str(), placed(fitted_of(case)?, number)?, None)))
+            .collect();
+        let drawn = if all.is_empty() { None } else { map(&all, plane, maps) };
+        if let Some(map) = drawn {
+            figures
+                .push(ReportFigure::new(sheet(&map)?, format!("The cells that have a place on the {name}.")));
+        }
+    }
+    let section = Section { title: "Places".to_owned(), figures, ..Section::default() };
+    Ok((!section.figures.is_empty()).then_some(section))
+}
+
+/// What stage and camera add to all cells.
+fn field(sample: &Sample, units: &Units) -> Option<Section> {
+    let found = sample.field.in_words(units).into_iter();
+    let table = Table {
+        caption: "What the outlines of all cells have in common, found in all of them together.".to_owned(),
+        head: ["motion of the images", "found"].map(str::to_owned).to_vec(),
+        rows: found.map(|(name, words)| vec![Cell::text(name), Cell::text(literal(&words))]).collect(),
+    };
+    (!table.rows.is_empty()).then(|| Section {
+        title: "Field of view".to_owned(),
+        tables: vec![table],
+        ..Section::default()
+    })
+}
+
+/// What was noticed while reading the files.
+fn notes(sample: &Sample) -> Option<Section> {
+    let rows: Vec<Vec<Cell>> = sample.notes().iter().map(|note| vec![Cell::text(literal(note))]).collect();
+    let table =
+        Table { caption: "What was noticed while reading.".to_owned(), head: vec!["note".to_owned()], rows };
+    (!table.rows.is_empty()).then(|| Section {
+        title: "Notes".to_owned(),
+        tables: vec![table],
+        ..Section::default()
+    })
+}

@@ -1,0 +1,149 @@
+//! The observed motion: verdict, numbers, displacements and correlations.
+
+use crate::Units;
+use crate::report::numbers::{answer, plain, with_error};
+use crate::report::{Case, relatives};
+use crate::{AtLag, Memory, MotionStatistics};
+use motiform_figures::{BandCurve, BandFigure, BandPoint, literal};
+use motiform_lab::draw::sheet;
+use motiform_report::{Cell, ReportFigure, Section, Table};
+use motiform_study::Error;
+
+pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> {
+    let found = case.observation;
+    let name = found.motion.regime.map_or("undecided", |regime| regime.name());
+    let mut about = format!("Observed motion: {name}. {}.", capital(&literal(&found.motion.why)));
+    if let Some(confidence) = found.motion.confidence {
+        about += &format!(" {:.0} % of resampled records say the same.", 100.0 * confidence);
+    }
+    let mut figures = match &found.statistics {
+        Some(statistics) => figures(statistics, units)?,
+        None => Vec::new(),
+    };
+    let mut tables: Vec<Table> = found.statistics.iter().map(|statistics| walk(statistics, units)).collect();
+    if let Some(found) = &found.relatives {
+        tables.push(relatives::table(found, units));
+        figures.extend(relatives::figure(found, units)?);
+    }
+    Ok(Section {
+        title: "Observed motion".to_owned(),
+        about,
+        tables,
+        parameters: parameters(case, units),
+        small_figures: figures,
+        ..Section::default()
+    })
+}
+
+pub(crate) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
+    let (time, length) = (&units.time, &units.length);
+    let mut all = vec![
+        (
+            "frames that count".to_owned(),
+            format!("{} of {}", case.cell.frames(), case.cell.modes.frames.len()),
+        ),
+        ("mean radius".to_owned(), format!("{} {length}", plain(case.cell.radius))),
+    ];
+    for (flag, count) in case.cell.flags() {
+        all.push((flag.to_owned(), format!("{count} frame{}", if count == 1 { "" } else { "s" })));
+    }
+    if let Some(m) = &case.observation.measures {
+        if m.frames < case.cell.frames() {
+            let [from, to] = m.span.map(plain);
+            let text = format!("{} frames, *t* = {from} to {to} {time}", m.frames);
+            all.push(("stretch without gaps".to_owned(), text));
+        }
+        all.push(("sampling interval".to_owned(), format!("{} {time}", plain(case.cell.track.interval()))));
+        all.push(("speed".to_owned(), format!("{} {}", plain(m.speed), units.speed())));
+        all.push(("scatter of the speed".to_owned(), format!("{:.0} %", 100.0 * m.speed_scatter)));
+        all.push((
+            "turning rate".to_owned(),
+            format!("{} rad/{time}", with_error(m.turning, m.turning_error)),
+        ));
+        all.push(("directness".to_owned(), plain(m.directness)));
+    }
+    all
+}
+
+/// Persistence, diffusion and correlation times, of a cell or a population.
+pub(crate) fn walk(statistics: &MotionStatistics, units: &Units) -> Table {
+    let time = &units.time;
+    let mut all = vec![
+        ("persistence time".to_owned(), answer(&statistics.walk.persistence, time)),
+        ("diffusion coefficient".to_owned(), answer(&statistics.walk.diffusion, &units.diffusion())),
+    ];
+    for memory in &statistics.memories {
+        let name = format!("correlation time of {}", symbol(&memory.quantity));
+        all.push((name, answer(&memory.time, time)));
+    }
+    Table {
+        caption: "How long velocity and shape persist; in brackets 95 % intervals.".to_owned(),
+        head: ["quantity", "value"].map(str::to_owned).to_vec(),
+        rows: all.into_iter().map(|(name, value)| vec![Cell::text(name), Cell::text(value)]).collect(),
+    }
+}
+
+/// Mean-square displacement and autocorrelations.
+pub(crate) fn figures(statistics: &MotionStatistics, units: &Units) -> Result<Vec<ReportFigure>, Error> {
+    let lag = format!("lag ({})", units.time);
+    let displacement = BandFigure {
+        x_label: lag.clone(),
+        y_label: format!("mean-square displacement ({}^2)", units.length),
+        curves: vec![BandCurve {
+            label: "observed, 95 % band".to_owned(),
+            points: points(&statistics.displacement),
+        }],
+        logarithmic_x: true,
+        logarithmic_y: true,
+        ..BandFigure::default()
+    };
+    let curve =
+        |memory: &Memory| BandCurve { label: symbol(&memory.quantity), points: points(&memory.correlation) };
+    let correlations = BandFigure {
+        x_label: lag,
+        y_label: "autocorrelation".to_owned(),
+        curves: statistics
+            .memories
+            .iter()
+            .filter(|memory| !memory.correlation.is_empty())
+            .map(curve)
+            .collect(),
+        zero_line: true,
+        ..BandFigure::default()
+    };
+    let mut all = Vec::new();
+    if displacement.curves[0].points.iter().any(|point| point.y > 0.0) {
+        all.push(ReportFigure::new(
+            sheet(&displacement)?,
+            "Mean-square displacement against lag; errors of measurement subtracted.",
+        ));
+    }
+    if !correlations.curves.is_empty() {
+        all.push(ReportFigure::new(
+            sheet(&correlations)?,
+            "Autocorrelations of velocity and modes of the shape, with 95 % bands.",
+        ));
+    }
+    Ok(all)
+}
+
+pub(crate) fn points(curve: &[AtLag]) -> Vec<BandPoint> {
+    let point = |at: &AtLag| {
+        let [low, high] = at.value.interval.unwrap_or([at.value.value; 2]);
+        BandPoint { x: at.lag, y: at.value.value, low, high }
+    };
+    curve.iter().map(point).collect()
+}
+
+fn symbol(quantity: &str) -> String {
+    match quantity {
+        "z2" => "*z*_2".to_owned(),
+        "z3" => "*z*_3".to_owned(),
+        other => other.to_owned(),
+    }
+}

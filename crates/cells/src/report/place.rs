@@ -1,0 +1,100 @@
+//! The place on the paper's planes.
+
+use crate::Fitted;
+use crate::report::Maps;
+use crate::report::numbers::{estimate, plain};
+use motiform_figures::{MapPlace, PlaceMap, literal};
+use motiform_inference::{Coordinate, Place, Placement, Plane, coordinates, draws};
+use motiform_lab::draw::sheet;
+use motiform_report::{Cell, ReportFigure, Section, Table};
+use motiform_study::Error;
+
+/// Models of the cloud, and the seed of their draws.
+const CLOUD: usize = 60;
+const SEED: u64 = 1;
+/// Points of an ellipse.
+const ELLIPSE: usize = 90;
+/// 95 % of a normal distribution in the plane lie within this Mahalanobis distance: sqrt(-2 ln 0.05).
+const WITHIN: f64 = 2.447_746_830_680_816;
+
+pub(crate) const PLANES: [(Plane, &str); 2] =
+    [(Plane::Full, "plane of Fig. 4"), (Plane::Reduced, "plane of Fig. 1")];
+
+pub(crate) fn section(name: &str, fitted: &Fitted, maps: &Maps) -> Result<Section, Error> {
+    let mut section = Section { title: "Place on the paper's diagrams".to_owned(), ..Section::default() };
+    for ((plane, plane_name), placement) in PLANES.into_iter().zip(&fitted.places) {
+        match placement {
+            Placement::Refused { reasons } => {
+                section.about +=
+                    &format!("No place on the {plane_name}: {}.\n\n", literal(&reasons.join("; ")));
+            }
+            Placement::Placed(place) => {
+                section.tables.push(table(place, plane_name));
+                if let Some(map) = map(&[(name, place, Some(fitted))], plane, maps) {
+                    let caption = format!(
+                        "The cell on the {plane_name}. Beneath: motions of the tensor model on the paper's slice; what is off the slice is in the table, so the motion beneath need not be that of the cell."
+                    );
+                    section.figures.push(ReportFigure::new(sheet(&map)?, caption));
+                }
+            }
+        }
+    }
+    Ok(section)
+}
+
+/// Places on a plane; `None` without a diagram. Clouds are drawn where fits are given.
+pub(crate) fn map(places: &[(&str, &Place, Option<&Fitted>)], plane: Plane, maps: &Maps) -> Option<PlaceMap> {
+    let under = maps.of(plane)?.clone();
+    let one = |(name, place, fitted): &(&str, &Place, Option<&Fitted>)| MapPlace {
+        name: literal(name),
+        at: [place.coordinates[0].estimate.value, place.coordinates[1].estimate.value],
+        region: ellipse(place),
+        cloud: fitted.map_or_else(Vec::new, |fitted| cloud(fitted, plane)),
+    };
+    Some(PlaceMap {
+        x_label: under.x_label.clone(),
+        y_label: under.y_label.clone(),
+        region_label: "95 % region".to_owned(),
+        cloud_label: "models drawn from the estimate".to_owned(),
+        places: places.iter().map(one).collect(),
+        under,
+        ..PlaceMap::default()
+    })
+}
+
+/// Coordinates of models drawn from the estimate.
+fn cloud(fitted: &Fitted, plane: Plane) -> Vec<[f64; 2]> {
+    let fit = fitted.model();
+    draws(fit, CLOUD, SEED).iter().filter_map(|values| coordinates(fit, plane, values)).collect()
+}
+
+/// The boundary of the region that holds 95 % of a normal distribution with the place's covariance.
+fn ellipse(place: &Place) -> Vec<[f64; 2]> {
+    let [[xx, xy], [_, yy]] = place.covariance;
+    let first = xx.max(0.0).sqrt();
+    let across = if first > 0.0 { xy / first } else { 0.0 };
+    let second = (yy - across * across).max(0.0).sqrt();
+    let [x, y] = [0, 1].map(|k| place.coordinates[k].estimate.value);
+    let point = |k: usize| {
+        let angle = std::f64::consts::TAU * k as f64 / ELLIPSE as f64;
+        let (sin, cos) = (WITHIN * angle.sin(), WITHIN * angle.cos());
+        [x + first * cos, y + across * cos + second * sin]
+    };
+    (0..ELLIPSE).map(point).collect()
+}
+
+fn table(place: &Place, plane: &str) -> Table {
+    let row = |c: &Coordinate| {
+        let slice = c.slice.map_or_else(|| "free".to_owned(), plain);
+        vec![Cell::text(literal(&c.name)), Cell::number(estimate(&c.estimate)), Cell::number(slice)]
+    };
+    Table {
+        caption: format!(
+            "The cell in the units of the {plane}: {} off its slice ({} standard errors).",
+            plain(place.distance),
+            plain(place.deviation)
+        ),
+        head: ["parameter", "cell", "value on the slice"].map(str::to_owned).to_vec(),
+        rows: place.coordinates.iter().chain(&place.others).map(row).collect(),
+    }
+}

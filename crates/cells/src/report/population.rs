@@ -1,0 +1,109 @@
+//! The population: names and numbers over cells.
+
+use crate::Units;
+use crate::report::numbers::plain;
+use crate::report::terms::{typeset, unit};
+use crate::report::{Case, motion};
+use crate::{
+    CellFit, FittedPopulation, NameShare, Observation, OverCells, PopulationNumbers, fitted_population,
+    observed_population, population_numbers, population_statistics,
+};
+use motiform_report::{Cell, Section, Table};
+use motiform_study::Error;
+
+/// Nothing for a single cell.
+pub(crate) fn section(cases: &[Case<'_>], units: &Units) -> Result<Option<Section>, Error> {
+    if cases.len() < 2 {
+        return Ok(None);
+    }
+    let found: Vec<Observation> = cases.iter().map(|case| case.observation.clone()).collect();
+    let fits: Vec<CellFit> = cases.iter().filter_map(|case| case.fit.cloned()).collect();
+    let mut about = "Intervals are those of resampling whole cells, which needs 8 of them.".to_owned();
+    let observed = observed_population(&found);
+    let free = population_numbers(&found);
+    let mut tables = vec![names(&observed.regimes, "observed motion"), numbers(&free, units)];
+    if fits.len() > 1 {
+        let fitted = fitted_population(&fits);
+        tables.push(names(&fitted.regimes, "motion of the fit"));
+        if fitted.fitted > 1 {
+            tables.push(coefficients(&fitted, &fits, units));
+        }
+    }
+    let mut figures = Vec::new();
+    if let Some((count, statistics)) = population_statistics(&found) {
+        about += &format!(
+            " Displacements and correlations are over {count} cell{} with enough frames at one sampling interval; with fewer than 8 their intervals are over blocks of the records.",
+            if count == 1 { "" } else { "s" }
+        );
+        tables.push(motion::walk(&statistics, units));
+        figures = motion::figures(&statistics, units)?;
+    }
+    tables.retain(|table| !table.rows.is_empty());
+    Ok(Some(Section {
+        title: "Population".to_owned(),
+        about,
+        tables,
+        small_figures: figures,
+        ..Section::default()
+    }))
+}
+
+fn names(shares: &[NameShare], head: &str) -> Table {
+    let row = |one: &NameShare| {
+        let share = &one.share;
+        let [low, high] = [share.lower, share.upper].map(|end| 100.0 * end);
+        vec![
+            Cell::text(one.name),
+            Cell::number(share.count.to_string()),
+            Cell::number(format!("{:.0} %", 100.0 * share.value)),
+            Cell::number(format!("{low:.0} to {high:.0} %")),
+        ]
+    };
+    Table {
+        caption: "Cells with each motion.".to_owned(),
+        head: [head, "cells", "share", "95 % interval of the share"].map(str::to_owned).to_vec(),
+        rows: shares.iter().map(row).collect(),
+    }
+}
+
+fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
+    let rows = found.numbers.iter().map(|one| {
+        let unit = one.dimension.unit(units);
+        let name = if unit.is_empty() { one.name.to_owned() } else { format!("{} ({unit})", one.name) };
+        row(name, &one.over)
+    });
+    table("Numbers over the cells that have them.", rows.collect())
+}
+
+fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Table {
+    let whole = || fits.iter().filter_map(|fit| Some(&fit.fitted.as_ref().ok()?.whole));
+    let named = |term: &str| {
+        let unit = whole().find_map(|fit| Some(unit(&fit.coefficient(term)?.term, units)));
+        format!("{} ({})", typeset(term), unit.unwrap_or_default())
+    };
+    let rows = found.coefficients.iter().map(|one| row(named(&one.term), &one.over));
+    let caption = format!(
+        "Coefficients over the cells whose fit is {}, from the fits with all terms. Cells with other motions have other laws, and are in no mean.",
+        found.law.unwrap_or("named")
+    );
+    table(&caption, rows.collect())
+}
+
+fn table(caption: &str, rows: Vec<Vec<Cell>>) -> Table {
+    let head = ["quantity", "cells", "mean over cells", "95 % interval", "median over cells"];
+    Table { caption: caption.to_owned(), head: head.map(str::to_owned).to_vec(), rows }
+}
+
+fn row(name: String, over: &OverCells) -> Vec<Cell> {
+    let interval = over.mean_interval.map_or_else(
+        || "fewer than 8 cells".to_owned(),
+        |[low, high]| format!("{} to {}", plain(low), plain(high)),
+    );
+    vec![
+        Cell::text(name),
+        Cell::number(over.cells.to_string()),
+        Cell::number(plain(over.mean)),
+        Cell::number(interval),
+        Cell::number(plain(over.median)),
+    ]
+}

@@ -1,0 +1,273 @@
+//! Where neighbouring cells have different motions, and which bifurcation lies between them.
+
+use crate::atlas::AtlasPlan;
+use crate::atlas::grid::{Grid, rank};
+use crate::atlas::line::{Line, LineEnd, StabilityCurve};
+use crate::branches::draw::curve_stretches;
+use motiform_analysis::Regime;
+use motiform_continuation::ConnectionKind;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A curve explains an edge that it passes within so many cells.
+const REACH: f64 = 1.0;
+
+/// An end of a branch explains the edges of its motion within so many cells.
+const REACH_OF_ENDS: f64 = 2.5;
+
+/// Two neighbouring cells with different motions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Edge {
+    /// The cells, the one with smaller parameters first.
+    pub cells: [usize; 2],
+    /// The side of the plane along which they are neighbours: 0 across, 1 upwards.
+    pub side: usize,
+}
+
+/// The motions on one side of a boundary and on the other.
+pub(crate) type Pair = [Vec<Regime>; 2];
+
+/// What lies between two sets of motions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundary {
+    /// The motions on one side and on the other, in the order of legends.
+    pub between: [Vec<Regime>; 2],
+    /// How many edges of cells it has.
+    pub edges: usize,
+    /// The bifurcations on it with their numbers of edges, the most frequent first.
+    pub kinds: Vec<(String, usize)>,
+    /// Edges that lie on no bifurcation that was found.
+    pub unnamed: usize,
+    /// Why there are such edges.
+    pub why: Option<&'static str>,
+}
+
+impl Edge {
+    /// Its middle, in units of half cells.
+    fn middle(self, grid: &Grid) -> [i64; 2] {
+        let [i, j] = grid.place(self.cells[0]).map(|place| 2 * i64::try_from(place).unwrap_or(i64::MAX / 4));
+        if self.side == 0 { [i + 1, j] } else { [i, j + 1] }
+    }
+
+    /// Its middle, in units of cells.
+    pub(crate) fn centre(self, grid: &Grid) -> [f64; 2] {
+        self.middle(grid).map(|half| 0.5 * half as f64)
+    }
+
+    fn pair(self, labels: &[Vec<Regime>]) -> Pair {
+        let mut pair = self.cells.map(|cell| labels[cell].clone());
+        let key = |label: &Vec<Regime>| label.iter().map(|regime| rank(*regime)).collect::<Vec<_>>();
+        if key(&pair[1]) < key(&pair[0]) {
+            pair.swap(0, 1);
+        }
+        pair
+    }
+}
+
+/// The edges between cells with different motions, row by row.
+pub(crate) fn edges(grid: &Grid, labels: &[Vec<Regime>]) -> Vec<Edge> {
+    let [columns, rows] = grid.size;
+    let mut all = Vec::new();
+    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        let here = grid.cell([column, row]);
+        let right = (column + 1 < columns).then(|| (grid.cell([column + 1, row]), 0));
+        let above = (row + 1 < rows).then(|| (grid.cell([column, row + 1]), 1));
+        let differing = right.into_iter().chain(above).filter(|(other, _)| labels[*other] != labels[here]);
+        all.extend(differing.map(|(other, side)| Edge { cells: [here, other], side }));
+    }
+    all
+}
+
+/// Edges in connected pieces between the same motions, the longest first.
+pub(crate) fn pieces(grid: &Grid, labels: &[Vec<Regime>], edges: &[Edge]) -> Vec<(Pair, Vec<Edge>)> {
+    let mut open: BTreeMap<[i64; 2], Edge> = edges.iter().map(|edge| (edge.middle(grid), *edge)).collect();
+    let mut all = Vec::new();
+    while let Some((_, first)) = open.pop_first() {
+        let pair = first.pair(labels);
+        let (mut piece, mut next) = (vec![first], 0);
+        while let Some(edge) = piece.get(next).copied() {
+            next += 1;
+            let [x, y] = edge.middle(grid);
+            for place in (-2..=2).flat_map(|up| (-2..=2).map(move |right| [x + right, y + up])) {
+                if open.get(&place).is_some_and(|near| near.pair(labels) == pair)
+                    && let Some(near) = open.remove(&place)
+                {
+                    piece.push(near);
+                }
+            }
+        }
+        piece.sort_unstable();
+        all.push((pair, piece));
+    }
+    descending(all, |(_, piece)| piece.len())
+}
+
+/// The motions that one side has and the other has not, in the order of legends.
+pub(crate) fn differing(pair: &Pair) -> Vec<Regime> {
+    let only = |regime: &Regime| pair.iter().filter(|label| label.contains(regime)).count() == 1;
+    Regime::ALL.into_iter().filter(only).collect()
+}
+
+/// What is known of bifurcations, in units of cells.
+pub(crate) struct Atlas {
+    stretches: Vec<Stretch>,
+    ends: Vec<(Regime, String, [f64; 2])>,
+}
+
+/// A part of a curve that bounds a motion.
+struct Stretch {
+    motion: Regime,
+    label: String,
+    points: Vec<[f64; 2]>,
+}
+
+impl Atlas {
+    pub(crate) fn of(plan: &AtlasPlan, grid: &Grid, lines: &[Line]) -> Self {
+        let mut found = Self { stretches: Vec::new(), ends: Vec::new() };
+        for StabilityCurve { motion, curve } in lines.iter().flat_map(|line| &line.curves) {
+            for stretch in curve_stretches(curve).into_iter().filter(|stretch| stretch.bounds) {
+                let points = stretch.points.iter().map(|at| grid.units(plan, *at)).collect();
+                found.stretches.push(Stretch { motion: *motion, label: stretch.label, points });
+            }
+        }
+        for LineEnd { at, kind, motion } in lines.iter().flat_map(|line| &line.ends) {
+            found.ends.push((*motion, connection_words(*kind).to_owned(), grid.units(plan, *at)));
+        }
+        found
+    }
+
+    /// The bifurcation of a motion that only one side of an edge has: the nearest curve, or else the nearest end of a branch.
+    pub(crate) fn name<'s>(&'s self, grid: &Grid, labels: &[Vec<Regime>], edge: Edge) -> Option<&'s str> {
+        let (at, between) = (edge.centre(grid), differing(&edge.pair(labels)));
+        let own = |motion: &Regime| between.contains(motion);
+        let curves = self.stretches.iter().filter(|stretch| own(&stretch.motion)).map(|stretch| {
+            let off = stretch.points.windows(2).map(|pair| distance(at, [pair[0], pair[1]]));
+            (off.fold(f64::INFINITY, f64::min), stretch.label.as_str())
+        });
+        let ends =
+            self.ends.iter().filter(|end| own(&end.0)).map(|end| (distance(at, [end.2; 2]), end.1.as_str()));
+        let closer = |best: Option<(f64, &'s str)>, one: (f64, &'s str)| match best {
+            Some(known) if known.0 <= one.0 => best,
+            _ => Some(one),
+        };
+        let curve = curves.filter(|one| one.0 <= REACH).fold(None, closer);
+        let found = curve.or_else(|| ends.filter(|one| one.0 <= REACH_OF_ENDS).fold(None, closer));
+        found.map(|one| one.1)
+    }
+}
+
+/// What an orbit becomes at the end of its branch.
+pub(crate) const fn connection_words(kind: ConnectionKind) -> &'static str {
+    match kind {
+        ConnectionKind::Resonant => "resonant heteroclinic connection",
+        ConnectionKind::SaddleNode => "saddle-node on a circle",
+        ConnectionKind::Cycle => "heteroclinic cycle",
+        _ => "homoclinic connection",
+    }
+}
+
+/// Distance of a point from a segment.
+fn distance(at: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let off = [at[0] - from[0], at[1] - from[1]];
+    let length = along[0] * along[0] + along[1] * along[1];
+    let part =
+        if length > 0.0 { ((off[0] * along[0] + off[1] * along[1]) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (off[0] - part * along[0]).hypot(off[1] - part * along[1])
+}
+
+/// The boundaries of a plane with their bifurcations, the longest first.
+#[must_use]
+pub fn boundaries(plan: &AtlasPlan, grid: &Grid, lines: &[Line]) -> Vec<Boundary> {
+    let labels = grid.labels();
+    let known = Atlas::of(plan, grid, lines);
+    let mut all: Vec<(Pair, Vec<Option<&str>>)> = Vec::new();
+    for edge in edges(grid, &labels) {
+        let (pair, name) = (edge.pair(&labels), known.name(grid, &labels, edge));
+        match all.iter_mut().find(|entry| entry.0 == pair) {
+            Some(entry) => entry.1.push(name),
+            None => all.push((pair, vec![name])),
+        }
+    }
+    let all = all.into_iter().map(|(between, names)| summed(between, &names)).collect();
+    descending(all, |boundary: &Boundary| boundary.edges)
+}
+
+fn summed(between: Pair, names: &[Option<&str>]) -> Boundary {
+    let mut kinds: Vec<(String, usize)> = Vec::new();
+    for name in names.iter().flatten() {
+        match kinds.iter_mut().find(|kind| kind.0 == **name) {
+            Some(kind) => kind.1 += 1,
+            None => kinds.push(((*name).to_owned(), 1)),
+        }
+    }
+    let kinds = descending(kinds, |kind| kind.1);
+    let unnamed = names.iter().filter(|name| name.is_none()).count();
+    let why = (unnamed > 0).then(|| why(&differing(&between)));
+    Boundary { between, edges: names.len(), kinds, unnamed, why }
+}
+
+/// The items, the largest first, equal ones in their order. Lists of tens of items: a sort of the library is 20 kB of code for each type.
+pub(crate) fn descending<T>(items: Vec<T>, size: impl Fn(&T) -> usize) -> Vec<T> {
+    let mut all: Vec<T> = Vec::new();
+    for item in items {
+        let place = all.iter().position(|other| size(other) < size(&item)).unwrap_or(all.len());
+        all.insert(place, item);
+    }
+    all
+}
+
+/// Why a part of a boundary has no name.
+fn why(differing: &[Regime]) -> &'static str {
+    let has = |regime| differing.contains(&regime);
+    if has(Regime::Undetermined) {
+        "a motion is undetermined there"
+    } else if has(Regime::BlowUp) && has(Regime::Chaotic) {
+        "kind undetermined: neither is a branch; sampling does not tell a crisis of the chaotic set from transients longer than what was looked at"
+    } else if has(Regime::BlowUp) {
+        "kind undetermined: blow-up is not a solution branch, and no bifurcation of the neighbouring motion was found here; this may be the edge of its basin of attraction"
+    } else if has(Regime::Chaotic) {
+        "kind undetermined: chaotic motion is no branch, found by sampling; it may begin with a cascade, or end in a crisis"
+    } else if has(Regime::Rectangular) {
+        "kind undetermined: rectangular motion is a heteroclinic cycle, which is no branch, found by sampling"
+    } else {
+        "no branch that was followed ends or loses its stability there: more lines or initial states may find it"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::atlas::grid::{Found, Place};
+
+    fn grid(rows: &[&str]) -> Grid {
+        let motion = |letter: char| match letter {
+            's' => Regime::Straight,
+            'c' => Regime::Circular,
+            _ => Regime::Chaotic,
+        };
+        let found = |letter| Found { regime: motion(letter), rows: 1, sample: 0, numbers: [None; 5] };
+        let place = |letter: char| Place { motions: vec![found(letter)], like: None };
+        let places: Vec<Place> = rows.iter().flat_map(|row| row.chars().map(place)).collect();
+        Grid { size: [rows[0].len(), rows.len()], places }
+    }
+
+    #[test]
+    fn edges_between_the_same_motions_are_pieces_by_place() {
+        let grid = grid(&["ccss", "ccss", "ccss", "cccx"]);
+        let labels = grid.labels();
+        let all = edges(&grid, &labels);
+        let found = pieces(&grid, &labels, &all);
+        let count: Vec<usize> = found.iter().map(|piece| piece.1.len()).collect();
+        assert_eq!(count.iter().sum::<usize>(), all.len());
+        assert_eq!(found[0].0, [vec![Regime::Straight], vec![Regime::Circular]]);
+        assert_eq!((count[0], count.len()), (4, 3), "{found:?}");
+    }
+
+    #[test]
+    fn a_distance_is_that_from_the_segment() {
+        assert_eq!(distance([0.0, 1.0], [[-1.0, 0.0], [1.0, 0.0]]), 1.0);
+        assert_eq!(distance([4.0, 4.0], [[-1.0, 0.0], [1.0, 0.0]]), 5.0);
+        assert_eq!(distance([3.0, 4.0], [[0.0, 0.0], [0.0, 0.0]]), 5.0);
+    }
+}

@@ -1,0 +1,83 @@
+//! The map of an atlas: regions with their names, curves with their kinds, ends of motions, points of codimension two.
+
+use crate::atlas::boundary::connection_words;
+use crate::atlas::folder::AtlasFolder;
+use crate::atlas::inset::insets;
+use crate::branches::draw::{curve_mark, curve_stretches, marks_together};
+use crate::curves::codimension_2;
+use motiform_figures::{Cell, CurveMap, MapEnd, PhaseDiagram};
+use motiform_lab::draw::{FigureFormat, Picture, files, symbol, words};
+use motiform_study::Error;
+
+/// Draws `atlas`: as SVG and PNG, with its numbers as CSV.
+///
+/// # Errors
+/// An unknown model, or numbers that no axis can hold.
+pub fn draw_atlas(folder: &AtlasFolder, format: &FigureFormat) -> Result<Vec<Picture>, Error> {
+    files(vec![("atlas", Box::new(atlas_map(folder)?))], true, format)
+}
+
+/// The map.
+///
+/// # Errors
+/// An unknown model.
+pub fn atlas_map(folder: &AtlasFolder) -> Result<CurveMap, Error> {
+    let AtlasFolder { plan, lines, .. } = folder;
+    let (info, plane) = (plan.info()?, plan.plane());
+    let [x, y] = plane.each_ref().map(|side| [side.from, side.to]);
+    let curves = || lines.iter().flat_map(|line| &line.curves).map(|one| &one.curve);
+    let stretches = curves().flat_map(curve_stretches).filter(|stretch| stretch.bounds);
+    let bounding = curves().flat_map(codimension_2).filter(|(_, sample)| sample.unstable == 0);
+    let ends = lines.iter().flat_map(|line| &line.ends);
+    Ok(CurveMap {
+        title: plan.title.clone(),
+        caption: caption(folder)?,
+        x_label: symbol(info, &plane[0].name),
+        y_label: symbol(info, &plane[1].name),
+        x,
+        y,
+        under: Some(cells(folder)),
+        named: true,
+        insets: insets(folder)?,
+        curves: stretches.collect(),
+        ends: ends.map(|end| MapEnd { label: connection_words(end.kind).to_owned(), at: end.at }).collect(),
+        marks: marks_together(bounding.map(curve_mark), [x, y]),
+    })
+}
+
+/// The motions of the cells.
+fn cells(folder: &AtlasFolder) -> PhaseDiagram {
+    let scan = folder.plan.scan();
+    let cell = |(cell, place): (usize, &crate::atlas::Place)| {
+        let at = scan.axis_values(cell);
+        let rows: usize = place.motions.iter().map(|found| found.rows).sum();
+        let share =
+            |found: &crate::atlas::Found| (found.regime.name().to_owned(), found.rows as f64 / rows as f64);
+        Cell { x: at[0], y: at[1], shares: place.motions.iter().map(share).collect() }
+    };
+    PhaseDiagram {
+        x: scan.computation.axes[0].values.clone(),
+        y: scan.computation.axes[1].values.clone(),
+        cells: folder.grid.places.iter().enumerate().map(cell).collect(),
+        ..PhaseDiagram::default()
+    }
+}
+
+fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
+    let AtlasFolder { plan, grid, lines } = folder;
+    let c = &plan.computation.scan;
+    let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
+    let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
+    Ok(vec![
+        words::named(plan.info()?, &c.parameters, &varied, &c.ties),
+        format!(
+            "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. Stability limits: {curves} curves by pseudo-arclength continuation. Below the names of wide regions: paths of the motions, not to one scale.",
+            c.samples,
+            if c.samples == 1 { "state" } else { "states" },
+            c.random.words(),
+            c.seed,
+            grid.computed(),
+            grid.places.len(),
+        ),
+    ])
+}

@@ -1,0 +1,122 @@
+//! The cells of a plane, with the motions found in each.
+
+use crate::atlas::AtlasPlan;
+use motiform_analysis::Regime;
+use serde::{Deserialize, Serialize};
+
+/// A motion found in a cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Found {
+    /// Its name.
+    pub regime: Regime,
+    /// How many initial states lead to it.
+    pub rows: usize,
+    /// The first one that does.
+    pub sample: usize,
+    /// Medians over those that do: mean speed, turning rate, period, largest Lyapunov exponent and its error; `None` where a number has no meaning.
+    pub numbers: [Option<f64>; 5],
+}
+
+/// The numbers of [`Found::numbers`], as columns of a scan are named.
+pub(crate) const NUMBERS: [(&str, &str); 5] = [
+    ("speed_mean", "time average of |v| (model length per model time)"),
+    ("turning_rate", "mean turning rate of the heading (rad per model time)"),
+    ("period", "period of the reduced motion (model time)"),
+    ("lambda_1", "largest Lyapunov exponent (inverse model time)"),
+    ("lambda_1_error", "half width of its 95 % confidence interval"),
+];
+
+/// A cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// Its motions, the most frequent first.
+    pub motions: Vec<Found>,
+    /// The computed cell that it was taken from, because all cells around have the same motions; `None` if it was computed itself.
+    pub like: Option<usize>,
+}
+
+/// All cells, in the order of the scan: `cell = i1 + n1 i2`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Grid {
+    /// Numbers of values across and upwards.
+    pub size: [usize; 2],
+    /// The cells.
+    pub places: Vec<Place>,
+}
+
+impl Place {
+    /// The motions by name, sorted, without those that are undetermined if others are known.
+    #[must_use]
+    pub fn label(&self) -> Vec<Regime> {
+        let known = self.motions.iter().any(|found| found.regime != Regime::Undetermined);
+        let counts =
+            |regime: &Regime| self.motion(*regime).is_some() && !(known && *regime == Regime::Undetermined);
+        Regime::ALL.into_iter().filter(counts).collect()
+    }
+
+    /// The motion of this name.
+    #[must_use]
+    pub fn motion(&self, regime: Regime) -> Option<&Found> {
+        self.motions.iter().find(|found| found.regime == regime)
+    }
+}
+
+/// The place of a motion in the order of legends.
+pub(crate) fn rank(regime: Regime) -> usize {
+    Regime::ALL.iter().position(|one| *one == regime).unwrap_or(Regime::ALL.len())
+}
+
+impl Grid {
+    /// Column and row of a cell.
+    #[must_use]
+    pub fn place(&self, cell: usize) -> [usize; 2] {
+        [cell % self.size[0], cell / self.size[0]]
+    }
+
+    /// The cell in a column and row.
+    #[must_use]
+    pub fn cell(&self, [column, row]: [usize; 2]) -> usize {
+        column + self.size[0] * row
+    }
+
+    /// How many cells were computed.
+    #[must_use]
+    pub fn computed(&self) -> usize {
+        self.places.iter().filter(|place| place.like.is_none()).count()
+    }
+
+    /// The motions of each cell. Few initial states miss a motion of a small basin now and then: it counts where most of the cells around have it.
+    #[must_use]
+    pub fn labels(&self) -> Vec<Vec<Regime>> {
+        let own: Vec<Vec<Regime>> = self.places.iter().map(Place::label).collect();
+        let filled = |(cell, label): (usize, &Vec<Regime>)| {
+            let around: Vec<usize> = self.around(cell).collect();
+            let missed = |regime: &Regime| {
+                let having = around.iter().filter(|near| own[**near].contains(regime)).count();
+                *regime != Regime::Undetermined && 8 * having >= 6 * around.len().max(8)
+            };
+            let all = Regime::ALL.into_iter();
+            all.filter(|regime| label.contains(regime) || missed(regime)).collect()
+        };
+        own.iter().enumerate().map(filled).collect()
+    }
+
+    /// The cells around a cell, diagonal ones included.
+    fn around(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let [column, row] = self.place(cell);
+        let near = |at: usize, most: usize| at.saturating_sub(1)..(at + 2).min(most);
+        near(row, self.size[1])
+            .flat_map(move |j| near(column, self.size[0]).map(move |i| [i, j]))
+            .map(|place| self.cell(place))
+            .filter(move |other| *other != cell)
+    }
+
+    /// A place in the plane in units of cells: 0 is the centre of the first one.
+    pub(crate) fn units(&self, plan: &AtlasPlan, at: [f64; 2]) -> [f64; 2] {
+        let plane = plan.plane();
+        [0, 1].map(|side| {
+            let last = (self.size[side].max(2) - 1) as f64;
+            (at[side] - plane[side].from) / (plane[side].to - plane[side].from) * last
+        })
+    }
+}

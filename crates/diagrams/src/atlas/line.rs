@@ -1,0 +1,215 @@
+//! A line across the plane: the branches that begin with a motion of one of its cells, and where their motions begin and end.
+
+use crate::atlas::plan::AtlasPlan;
+use crate::curves::{FollowedCurve, follow_curve_within};
+use crate::{Allowance, BranchEnd, Branches, Sample, follow_within, is_stable};
+use motiform_analysis::Regime;
+use motiform_continuation::ConnectionKind;
+use motiform_dynamics::Watch;
+use motiform_study::curves::CurveKind;
+use motiform_study::{CurvePlan, Error, ScanPlan};
+use serde::{Deserialize, Serialize};
+
+/// A curve along which a motion gains or loses its stability.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StabilityCurve {
+    /// The motion that is stable on one side, where the curve was begun.
+    pub motion: Regime,
+    /// The curve.
+    pub curve: FollowedCurve,
+}
+
+/// Where a stable motion ends in a connection of a steady motion with itself or its images.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LineEnd {
+    /// Where, across and upwards.
+    pub at: [f64; 2],
+    /// The kind of connection.
+    pub kind: ConnectionKind,
+    /// The motion that ends.
+    pub motion: Regime,
+}
+
+/// A line, and what was found on it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Line {
+    /// The cell and the initial state that it begins with.
+    pub start: (usize, usize),
+    /// Where that is in the plane.
+    pub at: [f64; 2],
+    /// The side of the plane along which it goes: 0 across, 1 upwards.
+    pub side: usize,
+    /// The motion that it begins with.
+    pub motion: Regime,
+    /// How many branches were followed.
+    pub branches: usize,
+    /// The curves that were begun on it.
+    pub curves: Vec<StabilityCurve>,
+    /// Ends of stable motions.
+    pub ends: Vec<LineEnd>,
+    /// Steps of the flow that its orbits took.
+    pub steps: u64,
+    /// Why nothing could be followed, or not all.
+    pub refused: Option<String>,
+}
+
+/// A line to follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Task {
+    pub(crate) start: (usize, usize),
+    pub(crate) side: usize,
+    pub(crate) motion: Regime,
+}
+
+/// The branches on a line, and what is left for curves; or why there are none. `None` if the watch stopped it.
+pub(crate) type Course = Option<Result<Ground, String>>;
+
+/// The branches on a line, and what is left for curves.
+pub(crate) type Ground = (CurvePlan, Branches, Allowance);
+
+/// Follows the branches on a line.
+pub(crate) fn course(
+    plan: &AtlasPlan,
+    scan: &ScanPlan,
+    task: Task,
+    watch: &dyn Watch,
+) -> Result<Course, Error> {
+    let line = plan.line(scan, task.start, task.side)?;
+    let allowance = Allowance::of(plan.computation.line_steps);
+    match follow_within(&line.branches(), &allowance, watch) {
+        Ok(found) if found.complete => Ok(Some(Ok((line, found, allowance)))),
+        Ok(_) => Ok(None),
+        Err(_) if watch.stopped() => Ok(None),
+        Err(error @ (Error::Start { .. } | Error::Analysis(_))) => Ok(Some(Err(error.to_string()))),
+        Err(error) => Err(error),
+    }
+}
+
+/// Follows the curves on which motions of these branches gain or lose their stability: those that begin at a boundary of the motion, as `bounds` says of
+/// places, and are not known. `None` if the watch stopped it.
+pub(crate) fn read_line(
+    (scan, most): (&ScanPlan, u64),
+    task: Task,
+    course: Result<Ground, String>,
+    (known, bounds): (&[Line], &dyn Fn([f64; 2], Regime) -> bool),
+    watch: &dyn Watch,
+) -> Result<Option<Line>, Error> {
+    let values = scan.axis_values(task.start.0);
+    let mut line = Line {
+        start: task.start,
+        at: [values[0], values[1]],
+        side: task.side,
+        motion: task.motion,
+        branches: 0,
+        curves: Vec::new(),
+        ends: Vec::new(),
+        steps: 0,
+        refused: None,
+    };
+    let (plan, found, allowance) = match course {
+        Ok(found) => found,
+        Err(why) => return Ok(Some(Line { refused: Some(why), ..line })),
+    };
+    line.branches = found.branches.len();
+    line.ends = ends(&plan, &found);
+    let mut doublings: Vec<f64> = Vec::new();
+    for (kind, start, motion) in limits(&found) {
+        let Some(sample) = found.at(start) else { continue };
+        let mut at = [plan.fixed_value(); 2];
+        at[plan.varied()] = sample.point.parameter;
+        if !bounds(at, motion) {
+            continue;
+        }
+        // the doublings of a cascade accumulate: beside the boundary the first one stands for all
+        let period = sample.reading.period.unwrap_or(0.0);
+        let doubled = doublings.iter().any(|first| LATER * first <= period);
+        if kind == CurveKind::PeriodDoubling && doubled {
+            continue;
+        }
+        if kind == CurveKind::PeriodDoubling {
+            doublings.push(period);
+        }
+        let is_known = known
+            .iter()
+            .chain([&line])
+            .flat_map(|line| &line.curves)
+            .any(|one| one.curve.kind == kind && one.curve.passes(&plan, sample));
+        if is_known {
+            continue;
+        }
+        if allowance.is_spent() {
+            break;
+        }
+        match follow_curve_within(&plan, &found, (kind, start), &allowance, watch) {
+            Ok(curve) => line.curves.push(StabilityCurve { motion, curve }),
+            Err(Error::Interrupted) => return Ok(None),
+            Err(error) => return Err(error),
+        }
+    }
+    line.steps = most - allowance.left();
+    line.refused = unfinished(&line, &found, allowance.is_spent());
+    Ok(Some(line))
+}
+
+/// What was not followed to its end because the steps of the line were spent.
+fn unfinished(line: &Line, found: &Branches, spent: bool) -> Option<String> {
+    let legs = found.branches.iter().flat_map(|branch| &branch.legs);
+    let cut = legs.filter(|leg| leg.end == BranchEnd::Spent).count();
+    let curves = line.curves.iter().flat_map(|one| &one.curve.legs);
+    let short = curves.filter(|leg| leg.end == BranchEnd::Spent).count();
+    let count = |count: usize, one: &str, many: &str| match count {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        _ => Some(format!("{count} {many}")),
+    };
+    let parts = [
+        count(cut, "end of a branch", "ends of branches"),
+        count(short, "end of a curve", "ends of curves"),
+        (cut + short == 0).then(|| "what begins last on its branches".to_owned()),
+    ];
+    (spent || cut + short > 0).then(|| {
+        let left: Vec<String> = parts.into_iter().flatten().collect();
+        format!("the steps that its orbits may take were spent before {}", left.join(" and "))
+    })
+}
+
+/// A doubling of an orbit whose period is so many times longer than that of another one on the line is a later one of its cascade.
+const LATER: f64 = 1.5;
+
+/// The special points at which a motion gains or loses its stability, with that motion.
+fn limits(found: &Branches) -> Vec<(CurveKind, [usize; 3], Regime)> {
+    let mut all = Vec::new();
+    for (branch, followed) in found.branches.iter().enumerate() {
+        for (leg, done) in followed.legs.iter().enumerate() {
+            for (point, sample) in done.samples.iter().enumerate() {
+                let Some(special) = sample.point.special else { continue };
+                let kind = CurveKind::ALL.into_iter().find(|kind| kind.name() == special.name());
+                let before = point.checked_sub(1).and_then(|place| done.samples.get(place));
+                let beside = before.into_iter().chain(done.samples.get(point + 1));
+                let stable = beside.clone().find(|near| is_stable(near, sample));
+                all.extend(
+                    kind.zip(stable).map(|(kind, near)| (kind, [branch, leg, point], near.reading.motion)),
+                );
+            }
+        }
+    }
+    all
+}
+
+/// The connections in which stable motions end.
+fn ends(plan: &CurvePlan, found: &Branches) -> Vec<LineEnd> {
+    let legs = found.branches.iter().flat_map(|followed| &followed.legs);
+    let end = |leg: &crate::Leg| {
+        let BranchEnd::Homoclinic(connection) = &leg.end else { return None };
+        let [.., before, last] = &leg.samples[..] else { return None };
+        let pair: [&Sample; 2] = [before, last];
+        let mut at = [plan.fixed_value(); 2];
+        at[plan.varied()] = connection.parameter;
+        is_stable(pair[0], pair[1]).then(|| LineEnd {
+            at,
+            kind: connection.kind(),
+            motion: last.reading.motion,
+        })
+    };
+    legs.filter_map(end).collect()
+}

@@ -1,0 +1,78 @@
+//! The cells and the curves as tables.
+
+use crate::atlas::AtlasPlan;
+use crate::atlas::grid::{Grid, NUMBERS};
+use crate::atlas::line::Line;
+use motiform_store::columns::{Column, Values};
+
+fn whole(values: impl Iterator<Item = usize>) -> Values {
+    Values::Whole(values.map(|value| i64::try_from(value).unwrap_or(i64::MAX)).collect())
+}
+
+/// A row per cell and motion.
+pub(crate) fn cell_columns(plan: &AtlasPlan, grid: &Grid) -> Vec<Column> {
+    let scan = plan.scan();
+    let rows: Vec<_> = grid
+        .places
+        .iter()
+        .enumerate()
+        .flat_map(|(cell, place)| place.motions.iter().map(move |found| (cell, place, found)))
+        .collect();
+    let mut all = vec![Column::new(
+        "cell",
+        "number of the cell: i1 + n1 i2 for place i1 on the first axis",
+        whole(rows.iter().map(|row| row.0)),
+    )];
+    for (side, axis) in scan.computation.axes.iter().enumerate() {
+        let values = rows.iter().map(|row| scan.axis_values(row.0)[side]).collect();
+        all.push(Column::new(&axis.name, "the parameter", Values::Number(values)));
+    }
+    let names = rows.iter().map(|row| row.2.regime.name().to_owned()).collect();
+    all.push(Column::new("regime", "the motion", Values::Text(names)));
+    all.push(Column::new("rows", "initial states that lead to it", whole(rows.iter().map(|row| row.2.rows))));
+    let computed = "1 if the cell was computed, 0 if it was taken from cells around it with the same motions";
+    let is_computed = rows.iter().map(|row| usize::from(row.1.like.is_none()));
+    all.push(Column::new("computed", computed, whole(is_computed)));
+    for (place, (name, meaning)) in NUMBERS.iter().enumerate() {
+        let values = rows.iter().map(|row| row.2.numbers[place].unwrap_or(f64::NAN)).collect();
+        all.push(Column::new(name, meaning, Values::Number(values)));
+    }
+    all
+}
+
+/// A row per point of each curve.
+pub(crate) fn curve_columns(plan: &AtlasPlan, lines: &[Line]) -> Vec<Column> {
+    let curves = lines.iter().flat_map(|line| &line.curves).enumerate();
+    let rows: Vec<_> = curves
+        .flat_map(|(number, one)| one.curve.samples().map(move |sample| (number, one, sample)))
+        .collect();
+    let text = |read: &dyn Fn(usize) -> &'static str| {
+        Values::Text((0..rows.len()).map(|row| read(row).to_owned()).collect())
+    };
+    let mut all = vec![
+        Column::new("curve", "number of the curve, from 0", whole(rows.iter().map(|row| row.0))),
+        Column::new("kind", "what is critical along the curve", text(&|row| rows[row].1.curve.kind.name())),
+        Column::new("motion", "the motion whose stability it bounds", text(&|row| rows[row].1.motion.name())),
+        Column::new(
+            "codimension_2",
+            "what else happens here, empty at ordinary points",
+            text(&|row| rows[row].2.degenerate.map_or("", |kind| kind.name())),
+        ),
+        Column::new(
+            "unstable",
+            "growing directions, the critical ones left out",
+            whole(rows.iter().map(|row| row.2.unstable)),
+        ),
+    ];
+    for (side, along) in plan.plane().iter().enumerate() {
+        let values = rows.iter().map(|row| row.2.parameters[side]).collect();
+        all.push(Column::new(&along.name, "the parameter", Values::Number(values)));
+    }
+    let periods = rows.iter().map(|row| row.2.period.unwrap_or(f64::NAN)).collect();
+    all.push(Column::new(
+        "period",
+        "period of the motion, or of the one that begins (model time)",
+        Values::Number(periods),
+    ));
+    all
+}

@@ -1,0 +1,293 @@
+//! Branches: the bifurcation diagram, and the periods.
+
+use crate::branches::family::Bodies;
+use crate::branches::result::Leg;
+use crate::branches::sweep::{SweepPoint, Sweeps};
+use crate::{Branches, Followed, Origin, Sample, is_stable};
+use motiform_continuation::{End, Joins, Special};
+use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Glyph};
+use motiform_lab::draw::{Figures, words};
+use motiform_study::plan::Named;
+use motiform_study::{BranchPlan, Error};
+
+/// What a diagram shows against the parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ordinate {
+    /// Mean speed.
+    Speed,
+    /// Mean turning rate; undefined where the body stops.
+    TurningRate,
+    /// Largest size of the shape.
+    Size,
+    /// The same with its sign: anticlockwise above 0.
+    SignedTurningRate,
+    /// Net rotation per period.
+    NetRotation,
+    /// The same with its sign.
+    SignedNetRotation,
+    /// Period.
+    Period,
+}
+
+impl Ordinate {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Speed => "mean speed",
+            Self::TurningRate | Self::SignedTurningRate => "mean turning rate",
+            Self::Size => "largest size |*u*| of the shape",
+            Self::NetRotation | Self::SignedNetRotation => "net rotation per period (rad)",
+            Self::Period => "period",
+        }
+    }
+
+    /// The quantity with its sign where the mirror is no symmetry: then left and right are different motions.
+    const fn of_model(self, mirror: bool) -> Self {
+        match (self, mirror) {
+            (Self::TurningRate, false) => Self::SignedTurningRate,
+            (Self::NetRotation, false) => Self::SignedNetRotation,
+            (as_given, _) => as_given,
+        }
+    }
+
+    /// What a simulation shows; nothing where the two would not be comparable.
+    fn sampled(self, point: &SweepPoint) -> Option<f64> {
+        match self {
+            Self::Speed => point.speed.map(|speed| speed[0]),
+            Self::TurningRate => point.turning_rate.map(f64::abs),
+            Self::SignedTurningRate => point.turning_rate,
+            Self::Size => point.size,
+            Self::NetRotation | Self::SignedNetRotation | Self::Period => None,
+        }
+    }
+
+    fn read(self, sample: &Sample) -> Option<f64> {
+        let reading = &sample.reading;
+        match self {
+            // the cell has none where its boundary cannot be closed
+            Self::Speed => Some(reading.speed[0]).filter(|speed| speed.is_finite()),
+            // where left and right are mirror images, one of them is followed
+            Self::TurningRate => reading.turning_rate.map(f64::abs),
+            Self::SignedTurningRate => reading.turning_rate,
+            Self::Size => Some(reading.size),
+            Self::SignedNetRotation => reading.net_rotation,
+            Self::NetRotation => reading.net_rotation.map(f64::abs),
+            Self::Period => reading.period,
+        }
+    }
+}
+
+/// `branches` (the diagram) and, where motions repeat, `period`; nothing for branches without points.
+///
+/// # Errors
+/// An unknown model, or numbers that no axis can hold.
+pub fn branch_figures(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<Figures, Error> {
+    let mut all: Figures = Vec::new();
+    for (name, ordinate) in [("branches", ordinate), ("period", Ordinate::Period)] {
+        let figure = diagram(plan, found, ordinate)?;
+        if !figure.parts.is_empty() {
+            all.push((name, Box::new(figure)));
+        }
+    }
+    Ok(all)
+}
+
+/// The diagram of branches.
+///
+/// # Errors
+/// An unknown model.
+pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<BranchDiagram, Error> {
+    let info = plan.info()?;
+    let mirror = Bodies::new(plan)?.model(plan.start_value())?.symmetry().mirror;
+    let ordinate = ordinate.of_model(mirror);
+    let along = &plan.computation.along;
+    let spec = info.parameters().iter().find(|spec| spec.name == along.name);
+    Ok(BranchDiagram {
+        title: plan.title(),
+        caption: caption(plan, found, (mirror, ordinate))?,
+        x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
+        y_label: ordinate.label().to_owned(),
+        logarithmic: ordinate == Ordinate::Period,
+        x: [along.from, along.to],
+        parts: found.branches.iter().flat_map(|followed| all_parts(found, followed, ordinate)).collect(),
+        dots: found.sweeps.iter().flat_map(|sweeps| dots(sweeps, ordinate)).collect(),
+        marks: found.branches.iter().flat_map(|followed| marks(followed, ordinate)).collect(),
+    })
+}
+
+/// The samples of both sweeps.
+fn dots(sweeps: &Sweeps, ordinate: Ordinate) -> Vec<BranchDots> {
+    let points = |all: &[SweepPoint]| -> Vec<[f64; 2]> {
+        all.iter().filter_map(|point| Some([point.parameter, ordinate.sampled(point)?])).collect()
+    };
+    let all = [(true, "simulated, upwards", &sweeps.up), (false, "simulated, downwards", &sweeps.down)];
+    let dots = all.map(|(up, label, all)| BranchDots { label: label.to_owned(), up, points: points(all) });
+    dots.into_iter().filter(|dots| !dots.points.is_empty()).collect()
+}
+
+fn caption(
+    plan: &BranchPlan,
+    found: &Branches,
+    (mirror, ordinate): (bool, Ordinate),
+) -> Result<Vec<String>, Error> {
+    let c = &plan.computation;
+    let fixed = c.start.parameters.0.iter().filter(|entry| entry.0 != c.along.name).cloned().collect();
+    let count = match found.branches.len() {
+        1 => "One branch".to_owned(),
+        count => format!("{count} branches"),
+    };
+    let once = match (mirror, found.branches.len()) {
+        (false, _) => "",
+        (true, 1) => ", drawn once for all its mirror images",
+        (true, _) => ", each drawn once for all its mirror images",
+    };
+    let left = match found.left {
+        0 => String::new(),
+        1 => "; one point at which more may begin was left".to_owned(),
+        left => format!("; {left} points at which more may begin were left"),
+    };
+    let samples = if found.sweeps.is_some() {
+        format!(" Simulated at {} values, each run from the end of the one before.", c.samples)
+    } else {
+        String::new()
+    };
+    let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
+    Ok(vec![
+        words::named(plan.info()?, &Named(fixed), &[&c.along.name], &c.ties),
+        format!(
+            "{count} by pseudo-arclength continuation{once}{left}.{}{samples}{unfinished}",
+            gaps(found, ordinate)
+        ),
+    ])
+}
+
+/// Why points are left out of a diagram of speeds.
+fn gaps(found: &Branches, ordinate: Ordinate) -> String {
+    let undefined = |sample: &&Sample| sample.reading.speed[0].is_nan();
+    let all = found.branches.iter().flat_map(Followed::samples).filter(undefined);
+    match (ordinate, all.count()) {
+        (Ordinate::Speed, 1) => {
+            " One point without a speed is left out: the boundary of its shape cannot be closed.".to_owned()
+        }
+        (Ordinate::Speed, count @ 2..) => {
+            format!(
+                " {count} points without a speed are left out: the boundary of their shapes cannot be closed."
+            )
+        }
+        _ => String::new(),
+    }
+}
+
+/// The parts of a branch, drawn from the special point where it begins to the connection at which it ends.
+fn all_parts(found: &Branches, followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
+    let mut all = parts(followed, ordinate);
+    let (back, ahead) = match &followed.legs[..] {
+        [] => (None, None),
+        [only] => (None, Some(only)),
+        [back, .., ahead] => (Some(back), Some(ahead)),
+    };
+    if let (Some(at), Some(first)) = (back.and_then(|leg| connection(leg, ordinate)), all.first_mut()) {
+        first.points.insert(0, at);
+    }
+    if let (Some(at), Some(last)) = (ahead.and_then(|leg| connection(leg, ordinate)), all.last_mut()) {
+        last.points.push(at);
+    }
+    if let (Some(at), [_], Some(first)) =
+        (birth(found, followed.origin, ordinate), &followed.legs[..], all.first_mut())
+    {
+        first.points.insert(0, at);
+    }
+    all
+}
+
+/// The special point where a branch begins, as a point of the new branch.
+fn birth(found: &Branches, origin: Origin, ordinate: Ordinate) -> Option<[f64; 2]> {
+    let Origin::Special { branch, leg, point } = origin else { return None };
+    let sample = &found.branches[branch].legs[leg].samples[point];
+    let value = match (ordinate, sample.point.special?) {
+        (Ordinate::Period, Special::PeriodDoubling) => 2.0 * sample.reading.period?,
+        (_, special) => begun(sample, special, ordinate).or_else(|| ordinate.read(sample))?,
+    };
+    Some([sample.point.parameter, value])
+}
+
+/// The period of the orbits that begin at a Hopf point.
+fn begun(sample: &Sample, special: Special, ordinate: Ordinate) -> Option<f64> {
+    match special {
+        Special::Hopf(hopf) if ordinate == Ordinate::Period && sample.reading.period.is_none() => {
+            Some(hopf.period())
+        }
+        _ => None,
+    }
+}
+
+/// The parts of a branch, each with its stability and motion.
+fn parts(followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
+    let samples: Vec<&Sample> = followed.samples().collect();
+    let mut all: Vec<BranchPart> = Vec::new();
+    let mut open = false;
+    for pair in samples.windows(2) {
+        let at = |sample: &Sample| Some([sample.point.parameter, ordinate.read(sample)?]);
+        let (Some(from), Some(to)) = (at(pair[0]), at(pair[1])) else {
+            open = false;
+            continue;
+        };
+        let named = if pair[0].point.special.is_none() { pair[0] } else { pair[1] };
+        let (regime, stable) = (named.reading.motion.name(), is_stable(pair[0], pair[1]));
+        match all.last_mut().filter(|last| open && last.regime == regime && last.stable == stable) {
+            Some(last) => last.points.push(to),
+            None => all.push(BranchPart { regime: regime.to_owned(), stable, points: vec![from, to] }),
+        }
+        open = true;
+    }
+    all
+}
+
+/// The connection at which a leg ends. There the orbit is at its saddle for all but a vanishing part of the time, so that means over time are
+/// those of the saddle; a period that is infinite is marked at the last one computed.
+fn connection(leg: &Leg, ordinate: Ordinate) -> Option<[f64; 2]> {
+    let End::Homoclinic(connection) = &leg.end else { return None };
+    let last = ordinate.read(leg.samples.last()?)?;
+    let saddle = connection.saddle.as_ref();
+    let value = match ordinate {
+        Ordinate::Speed => saddle.map(|saddle| saddle.velocity[0].hypot(saddle.velocity[1])),
+        Ordinate::TurningRate => saddle.map(|saddle| saddle.turning_rate.abs()),
+        Ordinate::SignedTurningRate => saddle.map(|saddle| saddle.turning_rate),
+        _ => None,
+    };
+    Some([connection.parameter, value.unwrap_or(last)])
+}
+
+/// The special points of a branch, and the connections that it ends at.
+fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
+    let mut all = Vec::new();
+    for leg in &followed.legs {
+        for sample in &leg.samples {
+            let Some(special) = sample.point.special else { continue };
+            // at a Hopf point of a steady motion the orbit that begins has a period
+            let Some(y) = begun(sample, special, ordinate).or_else(|| ordinate.read(sample)) else {
+                continue;
+            };
+            let (label, glyph) = mark(special);
+            all.push(BranchMark { label: label.to_owned(), glyph, at: [sample.point.parameter, y] });
+        }
+        if let (Some(at), End::Homoclinic(end)) = (connection(leg, ordinate), &leg.end) {
+            let glyph = if end.joins == Joins::Itself { Glyph::Cross } else { Glyph::Zigzag };
+            all.push(BranchMark { label: end.joins.kind().to_owned(), glyph, at });
+        }
+    }
+    all
+}
+
+fn mark(special: Special) -> (&'static str, Glyph) {
+    match special {
+        Special::Fold => ("fold", Glyph::Star),
+        Special::Pitchfork { .. } => ("pitchfork", Glyph::Diamond),
+        Special::Continuum => ("continuum", Glyph::Plus),
+        Special::Hopf(_) => ("Hopf", Glyph::Disc),
+        Special::PeriodDoubling => ("period doubling", Glyph::Triangle),
+        Special::SymmetryBreaking => ("symmetry breaking", Glyph::Square),
+        Special::Torus { .. } => ("torus", Glyph::Ring),
+        Special::Unresolved { .. } => ("not located", Glyph::Question),
+        _ => ("branch point", Glyph::DownTriangle),
+    }
+}

@@ -1,0 +1,12 @@
+//! Bifurcation diagrams from a plan, with their files, figures and pages: [`branches`] of motions along a parameter, [`curves`] of special points over two
+//! parameters, and the [`atlas`] of a plane, which has both.
+
+pub mod atlas;
+pub mod branches;
+pub mod curves;
+
+pub use branches::{
+    Allowance, BranchEnd, BranchFolder, Branches, Coefficient, Followed, Keep, Leg, Link, Origin, Reading,
+    Sample, SpecialEntry, Verification, columns, default_folder, draw, follow, follow_kept, follow_within,
+    is_stable, path, settle, starts, stated, stretches, summary, sweep,
+};

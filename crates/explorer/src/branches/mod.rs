@@ -1,0 +1,138 @@
+//! Branches of the motion on the screen: followed along a parameter on a worker, and the orbit of any of their points.
+
+mod orbit;
+mod told;
+mod work;
+
+use crate::answers::{Answers, Gone};
+use crate::protocol::{Follow, FollowEnd};
+use crate::task::{self, Crew, Errand, Worker, lock};
+use motiform_diagrams::{Branches, Sample};
+use motiform_dynamics::Watch;
+use motiform_study::{BranchPlan, Study};
+pub(crate) use orbit::OrbitJob;
+use serde::{Deserialize, Serialize};
+use std::sync::{Arc, Mutex};
+use work::{Found, Job};
+
+/// The branches so far.
+#[derive(Clone, Serialize, Deserialize)]
+struct Known {
+    epoch: u32,
+    plan: BranchPlan,
+    found: Branches,
+}
+
+/// A point of a branch, with the plan that it belongs to.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Spot {
+    pub(crate) plan: BranchPlan,
+    pub(crate) sample: Sample,
+}
+
+/// The branches of a session.
+pub(crate) struct BranchService {
+    worker: Worker<work::Following>,
+    orbits: Worker<orbit::Path>,
+    heard: Arc<Heard>,
+}
+
+/// What is known, and the page that is told.
+struct Heard {
+    known: Mutex<Option<Known>>,
+    answers: Answers,
+}
+
+impl BranchService {
+    pub(crate) fn new(answers: &Answers, crew: &Crew) -> std::io::Result<Self> {
+        let heard = Arc::new(Heard { known: Mutex::new(None), answers: answers.clone() });
+        let shared = Arc::clone(&heard);
+        let worker = Worker::new(crew, move |found, watch: &dyn Watch| shared.take(found, watch))?;
+        let told = answers.clone();
+        let orbits = Worker::new(crew, move |text, _: &dyn Watch| told.text(text))?;
+        Ok(Self { worker, orbits, heard })
+    }
+
+    /// Follows the branches of the motion that a study settles on, instead of those before.
+    pub(crate) fn follow(&self, follow: &Follow, study: &Study) -> Result<(), Gone> {
+        self.forget();
+        match work::plan(follow, study) {
+            Ok(plan) => {
+                self.worker.put(Job { epoch: follow.epoch, branches: follow.branches, plan });
+                Ok(())
+            }
+            Err(error) => {
+                let why = Some(error.to_string());
+                let end = FollowEnd { epoch: follow.epoch, branches: 0, left: 0, seconds: 0.0, why };
+                self.heard.answers.say(end)
+            }
+        }
+    }
+
+    /// Takes what a helper found.
+    pub(crate) fn report(&self, errand: &Errand<'_>) -> Result<(), Gone> {
+        self.worker.report(errand).map_or(Ok(()), |found| self.heard.take(found, &()))
+    }
+
+    /// Takes an orbit that a helper computed.
+    pub(crate) fn report_orbit(&self, errand: &Errand<'_>) -> Result<(), Gone> {
+        self.orbits.report(errand).map_or(Ok(()), |text| self.heard.answers.text(text))
+    }
+
+    /// Stops, and keeps what was found.
+    pub(crate) fn stop(&self) {
+        self.worker.clear();
+    }
+
+    /// Stops: the branches are those of another body.
+    pub(crate) fn forget(&self) {
+        self.stop();
+        *lock(&self.heard.known) = None;
+    }
+
+    /// Whether branches are, or were, followed along this parameter.
+    pub(crate) fn along(&self, name: &str) -> bool {
+        lock(&self.heard.known).as_ref().is_some_and(|known| known.plan.computation.along.name == name)
+    }
+
+    /// A point of a branch; `None` if there is no such point, or the branches are others by now.
+    pub(crate) fn spot(&self, epoch: u32, branch: usize, point: usize) -> Option<Spot> {
+        let known = lock(&self.heard.known);
+        let known = known.as_ref().filter(|known| known.epoch == epoch)?;
+        let sample = known.found.branches.get(branch)?.samples().nth(point)?.clone();
+        Some(Spot { plan: known.plan.clone(), sample })
+    }
+
+    /// Computes the orbit of a point, instead of the one before.
+    pub(crate) fn orbit(&self, job: OrbitJob) {
+        self.orbits.put(job);
+    }
+}
+
+/// Does the job of an errand.
+pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) -> bool {
+    task::perform::<work::Following>(errand, back) || task::perform::<orbit::Path>(errand, back)
+}
+
+impl Heard {
+    /// Keeps what was found, and sends what is new of it.
+    fn take(&self, found: Found, watch: &dyn Watch) -> Result<(), Gone> {
+        let (now, old) = match found {
+            Found::Said { text } => return self.answers.text(text),
+            Found::Branches { known, old } => (known, old),
+        };
+        let mut known = lock(&self.known);
+        if watch.stopped() {
+            return Ok(());
+        }
+        let now = known.insert(now);
+        let new: Vec<_> =
+            (old..now.found.branches.len()).filter_map(|number| told::branch(now, number)).collect();
+        let specials = told::specials(now);
+        drop(known);
+        for branch in new {
+            self.answers.say(branch)?;
+        }
+        self.answers.say(specials)
+    }
+}

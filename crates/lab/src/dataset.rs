@@ -1,0 +1,122 @@
+//! The folder of a dataset: `manifest.json`, `trajectory.*`, `crossings.*`, and figures.
+
+use motiform_store::{
+    Fields, Format, Staged, Table, mend, read_table, table_metadata, write_fields, write_table,
+};
+use motiform_study::dataset::{Dataset, Manifest};
+use motiform_study::{Error, input};
+use std::path::{Path, PathBuf};
+
+/// The name of the manifest in every dataset folder.
+const MANIFEST: &str = "manifest.json";
+
+/// Writes the tables, the fields (if any) and the manifest of a dataset into a staged folder.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_dataset(
+    dataset: &Dataset,
+    fields: Option<&Fields>,
+    format: Format,
+    staged: &Staged,
+) -> Result<(), Error> {
+    let path = staged.path().join(format.file("trajectory"));
+    write_table(&dataset.trajectory, &dataset.manifest, format, &path)
+        .map_err(|error| staged.shown(error))?;
+    write_rest(&dataset.manifest, dataset.crossings.as_ref(), fields, format, staged)
+}
+
+/// Writes what belongs to a trajectory, which is in the staged folder: crossings and fields (if any) and the manifest.
+///
+/// # Errors
+/// [`Error::Store`].
+pub fn write_rest(
+    manifest: &Manifest,
+    crossings: Option<&Table>,
+    fields: Option<&Fields>,
+    format: Format,
+    staged: &Staged,
+) -> Result<(), Error> {
+    if let Some(crossings) = crossings {
+        let path = staged.path().join(format.file("crossings"));
+        write_table(crossings, manifest, format, &path).map_err(|error| staged.shown(error))?;
+    }
+    if let Some(fields) = fields {
+        write_fields(&staged.path().join("fields.h5"), fields).map_err(|error| staged.shown(error))?;
+    }
+    let mut json =
+        serde_json::to_vec_pretty(manifest).map_err(|error| Error::write_failed(staged.target(), error))?;
+    json.push(b'\n');
+    Ok(staged.write(MANIFEST, &json)?)
+}
+
+/// Reads a dataset folder back.
+///
+/// # Errors
+/// [`Error::Unreadable`] for a folder without a manifest, or files that are missing or damaged.
+pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
+    read_dataset_by(folder, &|_, path| Ok(read_table(path)?))
+}
+
+/// Reads a dataset folder back, whose trajectory `read` reads.
+///
+/// # Errors
+/// As [`read_dataset`].
+pub fn read_dataset_by(
+    folder: &Path,
+    read: &dyn Fn(&mut Manifest, &Path) -> Result<Table, Error>,
+) -> Result<Dataset, Error> {
+    mend(folder)?;
+    let path = folder.join(MANIFEST);
+    let text = input::manifest(&path).map_err(|error| {
+        Error::unreadable(&path, format!("{error}; give a folder written by `motiform simulate`"))
+    })?;
+    let mut manifest: Manifest =
+        serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
+    let model = manifest.plan.body().map_err(|error| Error::unreadable(&path, error))?;
+    let path = trajectory_path(folder)?;
+    let trajectory = read(&mut manifest, &path)?;
+    let observables = model.observables().iter().map(|observable| observable.name);
+    let coordinates = model.coordinates().iter().map(|coordinate| coordinate.name);
+    let derived = ["t", "x", "y", "speed", "turning_rate"].into_iter();
+    require(&trajectory, &path, derived.chain(coordinates).chain(observables))?;
+    let Some(path) = table_path(folder, "crossings") else {
+        return Ok(Dataset { manifest, trajectory, crossings: None });
+    };
+    let crossings = read_table(&path)?;
+    require(&crossings, &path, ["t", "x", "y", "rising"])?;
+    Ok(Dataset { manifest, trajectory, crossings: Some(crossings) })
+}
+
+/// Reads one table, Parquet or CSV by its extension, and the manifest if the file contains one.
+///
+/// # Errors
+/// [`Error::Unreadable`].
+pub fn read_table_file(path: &Path) -> Result<(Table, Option<Manifest>), Error> {
+    let manifest = table_metadata(path)?.map(|text| serde_json::from_str(&text)).transpose();
+    Ok((read_table(path)?, manifest.map_err(|error| Error::unreadable(path, error))?))
+}
+
+/// Rejects a table without one of the columns `names`.
+fn require(table: &Table, path: &Path, names: impl IntoIterator<Item = &'static str>) -> Result<(), Error> {
+    match names.into_iter().find(|name| table.get(name).is_none()) {
+        Some(missing) => Err(Error::unreadable(path, format!("it has no column {missing}"))),
+        None => Ok(()),
+    }
+}
+
+/// The file of a table in a folder, if it has one.
+#[must_use]
+pub fn table_path(folder: &Path, name: &str) -> Option<PathBuf> {
+    let files = [Format::Parquet, Format::Csv].map(|format| folder.join(format.file(name)));
+    files.into_iter().find(|path| path.is_file())
+}
+
+/// The file of the trajectory in a folder.
+///
+/// # Errors
+/// [`Error::Unreadable`] where there is none.
+pub fn trajectory_path(folder: &Path) -> Result<PathBuf, Error> {
+    table_path(folder, "trajectory")
+        .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))
+}

@@ -1,0 +1,183 @@
+//! Autocorrelations, distributions and spectra.
+
+use super::displacement::point;
+use super::{caption, title};
+use crate::statistics::{Measurement, Result};
+use motiform_figures::{BandCurve, BandFigure, BandPoint, ExpectedLine, Figure, LineStyle};
+use motiform_statistics::{Autocorrelation, Histogram, Quantity, four_digits};
+use std::f64::consts::{PI, TAU};
+
+/// Lags are drawn up to this many of the longest correlation time.
+const TIMES: f64 = 8.0;
+
+/// Decays that differ by more than this factor share a logarithmic axis.
+const APART: f64 = 10.0;
+
+/// Most points of a curve.
+const MOST: usize = 1000;
+
+/// Ratio of neighbouring lags on a logarithmic axis.
+const RATIO: f64 = 1.01;
+
+/// Most curves of a figure.
+const CURVES: usize = 6;
+
+fn symbol(quantity: &Quantity) -> String {
+    match quantity {
+        Quantity::Velocity => "velocity ***v***".to_owned(),
+        Quantity::Heading => "heading ***v***/|***v***|".to_owned(),
+        Quantity::Speed => "speed |***v***|".to_owned(),
+        Quantity::Mode(_, name) => match name.strip_prefix("mode") {
+            Some(number) => format!("mode {number}"),
+            None => format!("mode *{}*", name.replace('_', ", ")),
+        },
+    }
+}
+
+fn drawn(figure: BandFigure) -> Option<Box<dyn Figure>> {
+    (!figure.curves.is_empty()).then(|| Box::new(figure) as Box<dyn Figure>)
+}
+
+/// rho against lag.
+pub(super) fn autocorrelations(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+    let varying: Vec<&Autocorrelation> =
+        measurement.statistics.autocorrelations.iter().filter(|found| !found.lags.is_empty()).collect();
+    let decays = decays(&varying);
+    let [least, end] =
+        [decays.iter().copied().fold(f64::INFINITY, f64::min), decays.iter().copied().fold(0.0, f64::max)];
+    let logarithmic_x = end > APART * least;
+    let curve = |found: &&Autocorrelation| {
+        let rows = found.lags.iter().zip(&found.correlation).filter(|(lag, _)| **lag <= end);
+        let points = thinned(rows.map(|(lag, rho)| point(*lag, rho)).collect(), logarithmic_x);
+        BandCurve { label: symbol(&found.quantity), points }
+    };
+    Ok(drawn(BandFigure {
+        title: title(measurement, "autocorrelations"),
+        caption: caption(measurement, "bands", &[])?,
+        x_label: "lag *τ*".to_owned(),
+        y_label: "*C*(*τ*)/*C*(0)".to_owned(),
+        curves: varying.iter().take(CURVES).map(curve).collect(),
+        zero_line: true,
+        logarithmic_x,
+        ..BandFigure::default()
+    }))
+}
+
+/// At most so many points, evenly spaced along the axis.
+fn thinned(points: Vec<BandPoint>, logarithmic: bool) -> Vec<BandPoint> {
+    let every = points.len().div_ceil(MOST).max(1);
+    let mut next = 0.0;
+    let kept = |(place, p): (usize, BandPoint)| {
+        let keep = if logarithmic { p.x >= next } else { place % every == 0 };
+        next = if keep { p.x * RATIO } else { next };
+        keep.then_some(p)
+    };
+    points.into_iter().enumerate().filter_map(kept).collect()
+}
+
+/// How far each quantity is worth drawing: until its correlation has decayed; all lags where it does not.
+fn decays(all: &[&Autocorrelation]) -> Vec<f64> {
+    let decays = all.iter().map(|found| {
+        let length = found.lags[found.lags.len() - 1];
+        found.time.known().map_or(length, |_| decay(found).min(length))
+    });
+    decays.collect()
+}
+
+/// Eight decay times: of the envelope, twice the integral of rho^2.
+fn decay(found: &Autocorrelation) -> f64 {
+    let dt = found.lags.get(1).copied().unwrap_or(1.0);
+    let mut squares = 0.5;
+    for (lag, rho) in found.correlation.iter().enumerate().skip(1) {
+        squares += rho.value * rho.value;
+        if lag as f64 >= 2.0 * TIMES * squares {
+            return lag as f64 * dt;
+        }
+    }
+    f64::INFINITY
+}
+
+/// The outline of a histogram; `unit` rescales the variable.
+fn stairs(histogram: &Histogram, unit: f64) -> Vec<BandPoint> {
+    let corner = |x: f64, [y, low, high]: [f64; 3]| BandPoint {
+        x: x / unit,
+        y: y * unit,
+        low: low * unit,
+        high: high * unit,
+    };
+    let ends = |bin: &motiform_statistics::Bin| {
+        let values = [bin.density, bin.lower, bin.upper];
+        [corner(bin.from, values), corner(bin.to, values)]
+    };
+    histogram.bins.iter().flat_map(ends).collect()
+}
+
+/// The distribution of the speed.
+pub(super) fn speeds(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+    let Some(speeds) = &measurement.statistics.speeds else { return Ok(None) };
+    let worth = format!("{} samples, worth {:.0} independent ones.", speeds.samples, speeds.independent);
+    Ok(drawn(BandFigure {
+        title: title(measurement, "distribution of the speed"),
+        caption: caption(measurement, "bands", &[&worth])?,
+        x_label: "speed |***v***|".to_owned(),
+        y_label: "probability density".to_owned(),
+        curves: vec![BandCurve { label: "measured".to_owned(), points: stairs(speeds, 1.0) }],
+        zero_line: true,
+        ..BandFigure::default()
+    }))
+}
+
+/// The distributions of turning angles, in degrees.
+pub(super) fn turning(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+    let moving = measurement.statistics.turning.iter().filter(|turning| turning.angles.samples > 0);
+    let curve = |turning: &motiform_statistics::Turning| BandCurve {
+        label: format!("*τ* = {}", four_digits(turning.lag)),
+        points: stairs(&turning.angles, PI / 180.0),
+    };
+    let level = PI / 180.0 / TAU;
+    Ok(drawn(BandFigure {
+        title: title(measurement, "turning angles between displacements of lag *τ*"),
+        caption: caption(measurement, "bands", &[])?,
+        x_label: "turning angle (degrees)".to_owned(),
+        y_label: "probability density (per degree)".to_owned(),
+        curves: moving.map(curve).collect(),
+        lines: vec![ExpectedLine {
+            label: "uniform".to_owned(),
+            style: LineStyle::Dotted,
+            points: vec![[-180.0, level], [180.0, level]],
+        }],
+        zero_line: true,
+        ..BandFigure::default()
+    }))
+}
+
+/// Power spectra with their bands.
+pub(super) fn spectra(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+    let found = &measurement.statistics.spectra;
+    let curve = |spectrum: &motiform_statistics::PowerSpectrum| {
+        let [low, high] = spectrum.band;
+        let rows = spectrum.frequencies.iter().zip(&spectrum.power).filter(|(_, power)| **power > 0.0);
+        let points = rows.map(|(&x, &y)| BandPoint { x, y, low: low * y, high: high * y }).collect();
+        BandCurve { label: symbol(&spectrum.quantity), points }
+    };
+    let method = found.first().map_or(String::new(), |first| {
+        format!(
+            "Welch's method: {} half-overlapping segments of {} samples, Hann window; bands: chi-square, 95 % at each frequency.",
+            first.segments, first.length
+        )
+    });
+    let mut caption = caption(measurement, "bands", &[&method])?;
+    if let Some(line) = caption.get_mut(1) {
+        *line = line.replace("; bands: 95 % intervals over bodies", "");
+    }
+    Ok(drawn(BandFigure {
+        title: title(measurement, "power spectra"),
+        caption,
+        x_label: "frequency".to_owned(),
+        y_label: "power spectral density".to_owned(),
+        curves: found.iter().map(curve).filter(|curve| !curve.points.is_empty()).take(CURVES).collect(),
+        logarithmic_x: true,
+        logarithmic_y: true,
+        ..BandFigure::default()
+    }))
+}

@@ -1,0 +1,189 @@
+//! Displacements: mean square, its exponent, first-passage times.
+
+use super::{caption, title};
+use crate::statistics::summary::value;
+use crate::statistics::{Measurement, Result};
+use motiform_figures::{
+    BandCurve, BandFigure, BandPoint, ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, Interval,
+    LineStyle, Measured as Point,
+};
+use motiform_statistics::{Measured, four_digits, furth};
+
+/// Points of a line.
+const POINTS: usize = 200;
+
+/// Lags that are drawn differ by this factor at least.
+const APART: f64 = 1.25;
+
+/// How far guide lines go beyond the crossover, as a factor.
+const BEYOND: f64 = 4.0;
+
+/// Measured values as points of a curve; without an interval there is no band.
+pub(super) fn point(x: f64, measured: &Measured) -> BandPoint {
+    let [low, high] = measured.interval.unwrap_or([measured.value; 2]);
+    BandPoint { x, y: measured.value, low, high }
+}
+
+/// The mean-square displacement with the fitted walk, both of its limits and the crossover.
+pub(super) fn displacements(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+    let found = &measurement.statistics;
+    let points: Vec<BandPoint> = found.displacement.points().iter().map(|p| point(p.lag, &p.value)).collect();
+    if !points.iter().any(|p| p.y > 0.0) {
+        return Ok(None);
+    }
+    let note = found.walk.persistence.reason().map(|reason| format!("Persistence time: {reason}."));
+    let lines = lines(measurement, &points);
+    let mut last = 0.0;
+    let apart = |p: &BandPoint| {
+        let kept = p.x > APART * last;
+        last = if kept { p.x } else { last };
+        kept
+    };
+    let shown: Vec<BandPoint> = points.into_iter().filter(apart).collect();
+    let intervals =
+        shown.iter().filter(|p| p.low < p.high).map(|p| Interval { x: p.x, low: p.low, high: p.high });
+    let figure = ErrorBarFigure {
+        title: title(measurement, "mean-square displacement"),
+        caption: caption(measurement, "bars", &note.iter().map(String::as_str).collect::<Vec<_>>())?,
+        x_label: "lag *τ*".to_owned(),
+        y_label: "⟨|***r***(*t*+*τ*) − ***r***(*t*)|^2⟩".to_owned(),
+        lines,
+        intervals: intervals.collect(),
+        series: vec![measured(shown.iter().map(|p| (p.x, p.y)))],
+        logarithmic_x: true,
+        logarithmic_y: true,
+        ..ErrorBarFigure::default()
+    };
+    Ok(Some(Box::new(figure)))
+}
+
+/// Values whose intervals are drawn by themselves.
+fn measured(values: impl Iterator<Item = (f64, f64)>) -> ErrorBarSeries {
+    let points = values.map(|(x, y)| Point { x, y, error: 0.0 }).collect();
+    ErrorBarSeries { label: "measured".to_owned(), points, joined: false }
+}
+
+/// The fit, what is ballistic and what is diffusive in it, and where they meet.
+fn lines(measurement: &Measurement, points: &[BandPoint]) -> Vec<ExpectedLine> {
+    let walk = &measurement.statistics.walk;
+    let Some([square, time]) = walk.curve else { return Vec::new() };
+    let speed = measurement.statistics.rms_speed.value;
+    let (first, last) = (points[0].x, points[points.len() - 1].x);
+    let line = |label: String, style, range: (f64, f64), of: &dyn Fn(f64) -> f64| ExpectedLine {
+        label,
+        style,
+        points: logarithmic(range).into_iter().map(|t| [t, of(t)]).collect(),
+    };
+    let mut lines = Vec::new();
+    if walk.speed.known().is_some() || walk.persistence.known().is_some() {
+        let label = "persistent random walk".to_owned();
+        lines.push(line(label, LineStyle::Solid, (first, last), &|t| furth(square, time, t)));
+    }
+    if walk.speed.known().is_some() {
+        let end = (BEYOND * time).min(last);
+        lines.push(line("ballistic: *S*^2*τ*^2".to_owned(), LineStyle::Dashed, (first, end), &|t| {
+            square * t * t
+        }));
+    } else if walk.diffusion.known().is_none() {
+        // no persistent random walk, but its start is as straight
+        let (label, end) = ("ballistic: ⟨|***v***|^2⟩*τ*^2", (BEYOND * time).clamp(first, last));
+        lines.push(line(label.to_owned(), LineStyle::Dashed, (first, end), &|t| speed * speed * t * t));
+    }
+    lines.extend(diffusive(measurement, (first, last)));
+    if let Some(persistence) = walk.persistence.known() {
+        let ends = points.iter().filter(|p| p.y > 0.0).map(|p| p.y);
+        let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
+        let label = format!("crossover 2*P*, *P* = {}", value(&persistence));
+        let crossover = 2.0 * persistence.value; // S^2 t^2 = 4 D t
+        let points = vec![[crossover, 0.1 * low], [crossover, 10.0 * high]];
+        lines.push(ExpectedLine { label, style: LineStyle::DashDotted, points });
+    }
+    lines
+}
+
+/// How far the line goes below the lags it was fitted to, as a factor, while its intercept is less than half of it.
+const BEFORE: f64 = 8.0;
+
+/// The straight line of the late displacements, with its intercept: that is what passes through the points.
+fn diffusive(measurement: &Measurement, (first, last): (f64, f64)) -> Option<ExpectedLine> {
+    let found = &measurement.statistics.diffusion;
+    let ([intercept, slope], [lag, _]) = (found.line?, found.lags?);
+    found.displacements.known()?;
+    let points = logarithmic(((lag / BEFORE).clamp(first, last), last));
+    let points = points.into_iter().map(|t| [t, intercept + slope * t]).filter(|[t, y]| *y > 0.5 * slope * t);
+    let label = format!(
+        "diffusive: 4*D*(*τ* {} {})",
+        if intercept < 0.0 { "−" } else { "+" },
+        four_digits((intercept / slope).abs())
+    );
+    Some(ExpectedLine { label, style: LineStyle::Dotted, points: points.collect() })
+}
+
+fn logarithmic((from, to): (f64, f64)) -> Vec<f64> {
+    let ratio = to / from;
+    (0..=POINTS).map(|k| from * ratio.powf(k as f64 / POINTS as f64)).collect()
+}
+
+/// The local exponent against the lag.
+pub(super) fn exponents(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+    let points = measurement.statistics.displacement.points();
+    let points: Vec<BandPoint> =
+        points.iter().filter_map(|p| Some(point(p.lag, p.exponent.as_ref()?))).collect();
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return Ok(None) };
+    let level = |label: &str, style, y| {
+        let points = vec![[first.x, y], [last.x, y]];
+        ExpectedLine { label: label.to_owned(), style, points }
+    };
+    let lines = vec![level("ballistic", LineStyle::Dashed, 2.0), level("diffusive", LineStyle::Dotted, 1.0)];
+    let figure = BandFigure {
+        title: title(measurement, "exponent of the mean-square displacement"),
+        caption: caption(measurement, "bands", &[])?,
+        x_label: "lag *τ*".to_owned(),
+        y_label: "d ln MSD / d ln *τ*".to_owned(),
+        lines,
+        curves: vec![BandCurve { label: "measured".to_owned(), points }],
+        zero_line: true,
+        logarithmic_x: true,
+        ..BandFigure::default()
+    };
+    Ok(Some(Box::new(figure)))
+}
+
+/// Mean first-passage times against the radius.
+pub(super) fn passages(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+    let found = &measurement.statistics;
+    let known: Vec<(f64, Measured)> =
+        found.passages.iter().filter_map(|p| Some((p.radius, p.time.mean.known()?))).collect();
+    let (Some(first), Some(last)) = (known.first(), known.last()) else { return Ok(None) };
+    let mut lines = Vec::new();
+    let mut line = |label: &str, style, of: &dyn Fn(f64) -> f64| {
+        let points = logarithmic((first.0, last.0 * 1.0001)).into_iter().map(|r| [r, of(r)]).collect();
+        lines.push(ExpectedLine { label: label.to_owned(), style, points });
+    };
+    let speed = found.mean_speed.value;
+    if speed > 0.0 {
+        line("straight: *r*/⟨|***v***|⟩", LineStyle::Dashed, &|r| r / speed);
+    }
+    if let Some(diffusion) = found.walk.diffusion.known().or(found.diffusion.displacements.known()) {
+        line("diffusive: *r*^2/4*D*", LineStyle::Dotted, &|r| r * r / (4.0 * diffusion.value));
+    }
+    let interval = |(x, m): &(f64, Measured)| m.interval.map(|[low, high]| Interval { x: *x, low, high });
+    let left_out = found.passages.len() - known.len();
+    let note = format!(
+        "Not drawn: {left_out} radii that more than half of the starts did not leave within the tracks."
+    );
+    let more = if left_out > 0 { vec![note.as_str()] } else { Vec::new() };
+    let figure = ErrorBarFigure {
+        title: title(measurement, "mean first-passage time out of a disc"),
+        caption: caption(measurement, "bars", &more)?,
+        x_label: "radius *r*".to_owned(),
+        y_label: "mean first-passage time".to_owned(),
+        series: vec![measured(known.iter().map(|(x, m)| (*x, m.value)))],
+        intervals: known.iter().filter_map(interval).collect(),
+        lines,
+        logarithmic_x: true,
+        logarithmic_y: true,
+        ..ErrorBarFigure::default()
+    };
+    Ok(Some(Box::new(figure)))
+}

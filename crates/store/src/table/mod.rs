@@ -1,0 +1,84 @@
+//! A table of numbers with named columns: what is written to Parquet and CSV, and read back.
+
+pub mod columns;
+mod csv;
+mod file;
+mod format;
+#[cfg(feature = "formats")]
+mod parquet_columns;
+#[cfg(feature = "formats")]
+pub mod parquet_input;
+#[cfg(feature = "formats")]
+mod parquet_output;
+#[cfg(feature = "formats")]
+mod parquet_table;
+
+#[cfg(not(feature = "formats"))]
+use crate::absent as parquet_table;
+pub use csv::table_to_csv;
+pub use file::{GROUP_ROWS, TableWriter, read_columns, read_groups, read_table, write_table};
+pub use format::Format;
+
+use crate::Error;
+use std::path::Path;
+
+/// The text that was written with a Parquet table, such as its manifest; `None` for CSV and where there is none.
+///
+/// # Errors
+/// [`Error::Unreadable`].
+pub fn table_metadata(path: &Path) -> Result<Option<String>, Error> {
+    match Format::of_path(path) {
+        Some(Format::Parquet) => parquet_table::read_metadata(path),
+        _ => Ok(None),
+    }
+}
+
+/// A column of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Name, ASCII.
+    pub name: String,
+    /// Its meaning, with its unit; for an undefined value, the reason.
+    pub meaning: String,
+    /// The values; NaN where undefined (written as null, or an empty field).
+    pub values: Vec<f64>,
+}
+
+/// Columns of equal length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// The columns in file order.
+    pub columns: Vec<Column>,
+}
+
+impl Table {
+    /// Appends a column.
+    pub fn push(&mut self, name: &str, meaning: impl Into<String>, values: Vec<f64>) {
+        self.columns.push(Column { name: name.to_owned(), meaning: meaning.into(), values });
+    }
+
+    /// The values of a column.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&[f64]> {
+        self.columns.iter().find(|column| column.name == name).map(|column| column.values.as_slice())
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+}
+
+/// Equality of bits, so that NaN equals NaN: the meaning of 'the same dataset'.
+#[must_use]
+pub fn same_bits(a: &Table, b: &Table) -> bool {
+    let bits = |table: &Table| -> Vec<(String, Vec<u64>)> {
+        table
+            .columns
+            .iter()
+            .map(|c| (c.name.clone(), c.values.iter().map(|x| x.to_bits()).collect()))
+            .collect()
+    };
+    bits(a) == bits(b)
+}
