@@ -7,7 +7,11 @@
 //!
 //! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, sections IV.5 and IV.8.
 
+mod blocks;
+mod common;
 mod escape;
+mod modes;
+mod product;
 mod step;
 mod tableau;
 

@@ -1,10 +1,15 @@
 //! One step of the implicit method.
 
+use super::blocks::Blocks;
+use super::common::Common;
 use super::tableau::{STAGES, Tableau};
 use crate::linear::norm;
 use motiform_dynamics::VectorField;
 use motiform_dynamics::tangent::{Differentiable, jacobian};
 use nalgebra::{DMatrix, Dyn, LU};
+
+/// Up to so many unknowns one matrix for all stages is as quick as several smaller ones.
+const FEW: usize = 12;
 
 /// Iterations that the stages may take.
 const ITERATIONS: usize = 15;
@@ -26,27 +31,41 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
     /// The stages of a step of `h` from `u`, from the guess `stages`; `None` where they are not found.
     pub(super) fn solve(field: &'f F, h: f64, u: &[f64], stages: DMatrix<f64>) -> Option<Self> {
         let mut step = Self { field, h, stages };
+        if u.len() > FEW {
+            let guess = step.stages.clone();
+            let middle = jacobian(field, guess.column(STAGES / 2).as_slice());
+            let common = Common::new(h, &middle);
+            if step.iterate(u, |change| common.solve(change)) {
+                return Some(step);
+            }
+            step.stages = guess;
+        }
         let matrix = step.factors();
+        step.iterate(u, |change| matrix.solve_mut(change)).then_some(step)
+    }
+
+    /// Newton's method with one matrix, whose equations `solve` solves in place; `false` where the stages are not found.
+    fn iterate(&mut self, u: &[f64], solve: impl Fn(&mut DMatrix<f64>) -> bool) -> bool {
         let size = norm(u);
         let mut last = f64::INFINITY;
         for count in 0..ITERATIONS {
-            let mut change = step.defect(u);
-            if !matrix.solve_mut(&mut change) {
-                return None;
+            let mut change = self.defect(u);
+            if !solve(&mut change) {
+                return false;
             }
-            for (to, by) in step.stages.iter_mut().zip(&change) {
+            for (to, by) in self.stages.iter_mut().zip(&change) {
                 *to -= by;
             }
             let moved = change.norm();
             if moved <= SOLVED * size || moved <= STALLED * size && moved > 0.2 * last {
-                return Some(step);
+                return true;
             }
             if !moved.is_finite() || count > 1 && moved > 0.9 * last {
-                return None;
+                return false;
             }
             last = moved;
         }
-        None
+        false
     }
 
     /// `U_i - u - h sum_j a_ij f(U_j)`, stage below stage.
@@ -83,8 +102,33 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
     /// Moves vectors along: `W_i = w + h sum_j a_ij (J_j W_j + g_j)`, with `forced(U_j)` for the last ones. These are the derivatives of
     /// the step itself, exactly. `false` where they do not exist; the vectors then stay as they are.
     pub(super) fn carry(&self, vectors: &mut DMatrix<f64>, forced: &dyn Fn(&[f64]) -> Vec<Vec<f64>>) -> bool {
-        let (dim, count) = vectors.shape();
         let forces: Vec<Vec<Vec<f64>>> = self.stages.column_iter().map(|u| forced(u.as_slice())).collect();
+        let last = if vectors.nrows() > FEW { self.by_blocks(vectors, &forces) } else { None };
+        match last.or_else(|| self.at_once(vectors, &forces)) {
+            Some(last) => vectors.copy_from(&last),
+            None => return false,
+        }
+        true
+    }
+
+    /// The last stage of the vectors, stage by stage.
+    fn by_blocks(&self, vectors: &DMatrix<f64>, forces: &[Vec<Vec<f64>>]) -> Option<DMatrix<f64>> {
+        let jacobians: Vec<_> =
+            self.stages.column_iter().map(|u| jacobian(self.field, u.as_slice())).collect();
+        let first = vectors.ncols() - forces[0].len();
+        let side = |i: usize| {
+            let mut side = vectors * Tableau::get().inverse[i].iter().sum::<f64>();
+            for (c, force) in forces[i].iter().enumerate() {
+                side.column_mut(first + c).iter_mut().zip(force).for_each(|(to, x)| *to += self.h * x);
+            }
+            side
+        };
+        Blocks::new(self.h, &jacobians).last_stage(&std::array::from_fn::<_, STAGES, _>(side))
+    }
+
+    /// The same with all equations in one matrix.
+    fn at_once(&self, vectors: &DMatrix<f64>, forces: &[Vec<Vec<f64>>]) -> Option<DMatrix<f64>> {
+        let (dim, count) = vectors.shape();
         let first = count - forces[0].len();
         let weights = &Tableau::get().weights;
         let mut all = DMatrix::from_fn(dim * STAGES, count, |row, c| {
@@ -93,11 +137,7 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
             let sum = if c < first { 0.0 } else { (0..STAGES).map(force).sum() };
             vectors[(k, c)] + self.h * sum
         });
-        let solved = self.factors().solve_mut(&mut all);
-        if solved {
-            vectors.copy_from(&all.rows(dim * (STAGES - 1), dim));
-        }
-        solved
+        self.factors().solve_mut(&mut all).then(|| all.rows(dim * (STAGES - 1), dim).into_owned())
     }
 
     /// The state at the end of the step.
@@ -154,5 +194,59 @@ mod tests {
     fn a_step_has_an_error_of_order_10() {
         let slope = (error_of_step(1.0) / error_of_step(0.7)).log(1.0 / 0.7);
         assert!((slope - 10.0).abs() < 0.1, "{slope}");
+    }
+
+    /// `u_k' = rate_k u_k + u_(k-1) u_(k+1)`, in a circle.
+    struct Chain(Vec<f64>);
+
+    impl System for Chain {
+        fn dim(&self) -> usize {
+            self.0.len()
+        }
+    }
+
+    impl<T: Scalar> VectorField<T> for Chain {
+        fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+            let dim = u.len();
+            for (k, rate) in self.0.iter().enumerate() {
+                du[k] = u[k] * *rate + u[(k + 1) % dim] * u[(k + dim - 1) % dim];
+            }
+        }
+    }
+
+    fn begun(chain: &Chain, h: f64) -> (Vec<f64>, Step<'_, Chain>) {
+        let start: Vec<f64> = (0..chain.0.len()).map(|k| (1.0 + k as f64).sin()).collect();
+        let stages = DMatrix::from_fn(start.len(), STAGES, |k, _| start[k]);
+        (start, Step { field: chain, h, stages })
+    }
+
+    /// Rates up to a million times the step: what stays stiff is solved to round-off.
+    #[test]
+    fn stages_and_vectors_do_not_depend_on_the_elimination() {
+        let stiff = Chain((0..21).map(|k| 1.0 - 10.0 * f64::from(k).powi(4)).collect());
+        let (start, mut once) = begun(&stiff, 0.3);
+        let quick = Step::solve(&stiff, 0.3, &start, once.stages.clone()).expect("stages");
+        let matrix = once.factors();
+        assert!(once.iterate(&start, |change| matrix.solve_mut(change)));
+        assert!((&quick.stages - &once.stages).norm() < 1e-13 * once.stages.norm());
+        let vectors = DMatrix::identity(21, 23);
+        let forces = vec![vec![start.clone(), vec![1.0; 21]]; STAGES];
+        let (blocks, all) = (quick.by_blocks(&vectors, &forces), quick.at_once(&vectors, &forces));
+        let (blocks, all) = (blocks.expect("vectors"), all.expect("vectors"));
+        assert!((&blocks - &all).norm() < 1e-13 * all.norm(), "{:e}", (blocks - all).norm());
+    }
+
+    /// A growth at which a stage alone has no solution, or none with many digits: all of them together do.
+    #[test]
+    fn a_small_pivot_costs_no_digits() {
+        for off in [0.0, 1e-13, 1e-9, 1e-5] {
+            let growing = Chain(vec![Tableau::get().inverse[0][0] * (1.0 + off); 13]);
+            let mut step = begun(&growing, 1.0).1;
+            step.stages.fill(0.0);
+            let mut vectors = DMatrix::identity(13, 13);
+            let all = step.at_once(&vectors, &vec![Vec::new(); STAGES]).expect("vectors");
+            assert!(step.carry(&mut vectors, &|_| Vec::new()));
+            assert!((&vectors - &all).norm() < 1e-9 * all.norm(), "{off:e}: {:e}", (vectors - all).norm());
+        }
     }
 }
