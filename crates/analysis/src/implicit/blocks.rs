@@ -171,5 +171,6 @@ impl<'j> Blocks<'j> {
 }
 
 fn add(to: &mut DMatrix<f64>, factor: f64, by: &DMatrix<f64>) {
-    to.iter_mut().zip(by).for_each(|(to, by)| *to += factor * by);
+    // slices: the iterators of matrices are four times slower
+    to.as_mut_slice().iter_mut().zip(by.as_slice()).for_each(|(to, by)| *to += factor * by);
 }

@@ -39,10 +39,13 @@ pub struct Flowed {
     pub vectors: Vec<f64>,
     /// Steps taken.
     pub steps: u64,
+    /// The step that would be taken next.
+    pub step: f64,
 }
 
 /// The flow of `field` from `start` over `span`, and of the tangent vectors `vectors`, one after the other. `forced` returns a vector `g` at a state for each
 /// of the last of them: these follow `w' = Df w + g`, the others `w' = Df w`.
+/// `first` is the first step to try, of a flow that goes on ([`Flowed::step`]); without it, one over which the state changes little.
 ///
 /// # Errors
 /// The outcome, where it is not the end of the span: the solution leaves, steps become too short, or `watch` stops it.
@@ -51,7 +54,7 @@ pub fn implicit_flow<F: VectorField<f64> + Differentiable + ?Sized>(
     start: &[f64],
     vectors: &[f64],
     forced: &dyn Fn(&[f64]) -> Vec<Vec<f64>>,
-    span: f64,
+    (span, first): (f64, Option<f64>),
     watch: &dyn Watch,
 ) -> Result<Flowed, Outcome> {
     let dim = start.len();
@@ -59,7 +62,7 @@ pub fn implicit_flow<F: VectorField<f64> + Differentiable + ?Sized>(
         field,
         u: start.to_vec(),
         vectors: DMatrix::from_column_slice(dim, vectors.len() / dim.max(1), vectors),
-        h: first_step(field, start, span),
+        h: first.unwrap_or_else(|| first_step(field, start, span)),
         before: None,
         steps: 0,
     };
@@ -78,7 +81,7 @@ pub fn implicit_flow<F: VectorField<f64> + Differentiable + ?Sized>(
             t = if now == left { span } else { t + now };
         }
     }
-    Ok(Flowed { end: flow.u, vectors: flow.vectors.as_slice().to_vec(), steps: flow.steps })
+    Ok(Flowed { end: flow.u, vectors: flow.vectors.as_slice().to_vec(), steps: flow.steps, step: flow.h })
 }
 
 /// A flow on its way.

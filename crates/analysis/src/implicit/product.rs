@@ -1,22 +1,15 @@
 //! Products and inverses of matrices of some tens of rows, with the same bits on every processor.
 
+use motiform_dynamics::simd::{self, Kernel};
 use nalgebra::DMatrix;
 
-/// Rows and columns of a part of a product that stays in registers.
-const TILE: usize = 4;
+/// Columns of a part of a product that stays in registers.
+const COLUMNS: usize = 4;
 
 /// `c += factor a b`. Each entry is one sum in the order of the columns of `a`.
 pub(super) fn add_product(c: &mut DMatrix<f64>, factor: f64, a: &DMatrix<f64>, b: &DMatrix<f64>) {
     let (rows, inner) = a.shape();
-    for (to, from) in c.as_mut_slice().chunks_mut(TILE * rows).zip(b.as_slice().chunks(TILE * inner)) {
-        if from.len() == TILE * inner {
-            tiles(to, factor, a.as_slice(), from, (rows, inner));
-        } else {
-            for (to, from) in to.chunks_exact_mut(rows).zip(from.chunks_exact(inner)) {
-                column(to, factor, a.as_slice(), from);
-            }
-        }
-    }
+    simd::run(Product { c: c.as_mut_slice(), factor, a: a.as_slice(), b: b.as_slice(), rows, inner });
 }
 
 /// `a b`.
@@ -26,37 +19,69 @@ pub(super) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     c
 }
 
-/// As many columns as a tile has.
-fn tiles(c: &mut [f64], factor: f64, a: &[f64], b: &[f64], (rows, inner): (usize, usize)) {
-    let whole = rows - rows % TILE;
-    for row in (0..whole).step_by(TILE) {
-        let mut sums = [[0.0; TILE]; TILE];
-        for k in 0..inner {
-            let part: [f64; TILE] = std::array::from_fn(|i| a[k * rows + row + i]);
-            for (j, sum) in sums.iter_mut().enumerate() {
-                let x = b[j * inner + k];
-                sum.iter_mut().zip(&part).for_each(|(sum, a)| *sum += a * x);
-            }
+struct Product<'m> {
+    c: &'m mut [f64],
+    factor: f64,
+    a: &'m [f64],
+    b: &'m [f64],
+    rows: usize,
+    inner: usize,
+}
+
+impl Kernel for Product<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let columns = self.c.len() / self.rows.max(1);
+        let whole = columns - columns % COLUMNS;
+        for column in (0..whole).step_by(COLUMNS) {
+            self.rows_of::<COLUMNS>(column);
         }
-        for (j, sum) in sums.iter().enumerate() {
-            let to = &mut c[j * rows + row..][..TILE];
-            to.iter_mut().zip(sum).for_each(|(to, sum)| *to += factor * sum);
-        }
-    }
-    for row in whole..rows {
-        for j in 0..TILE {
-            let sum: f64 = (0..inner).map(|k| a[k * rows + row] * b[j * inner + k]).sum();
-            c[j * rows + row] += factor * sum;
+        for column in whole..columns {
+            self.rows_of::<1>(column);
         }
     }
 }
 
-fn column(c: &mut [f64], factor: f64, a: &[f64], b: &[f64]) {
-    let mut sums = vec![0.0; c.len()];
-    for (part, &x) in a.chunks_exact(c.len()).zip(b) {
-        sums.iter_mut().zip(part).for_each(|(sum, a)| *sum += a * x);
+impl Product<'_> {
+    /// All rows of so many columns, as many at a time as registers hold.
+    #[inline(always)]
+    fn rows_of<const C: usize>(&mut self, column: usize) {
+        let mut row = 0;
+        while row + 8 <= self.rows {
+            self.tile::<8, C>(row, column);
+            row += 8;
+        }
+        while row + 2 <= self.rows {
+            self.tile::<2, C>(row, column);
+            row += 2;
+        }
+        if row < self.rows {
+            self.tile::<1, C>(row, column);
+        }
     }
-    c.iter_mut().zip(&sums).for_each(|(to, sum)| *to += factor * sum);
+
+    #[inline(always)]
+    fn tile<const R: usize, const C: usize>(&mut self, row: usize, column: usize) {
+        let mut sums = [[0.0; R]; C];
+        let b = &self.b[column * self.inner..][..C * self.inner];
+        for k in 0..self.inner {
+            let a = &self.a[k * self.rows + row..][..R];
+            for j in 0..C {
+                let x = b[j * self.inner + k];
+                for i in 0..R {
+                    sums[j][i] += a[i] * x;
+                }
+            }
+        }
+        for j in 0..C {
+            let to = &mut self.c[(column + j) * self.rows + row..][..R];
+            for i in 0..R {
+                to[i] += self.factor * sums[j][i];
+            }
+        }
+    }
 }
 
 /// The inverse of a square matrix, by Gauss-Jordan elimination in place with partial pivoting; `None` where it is singular or not finite.
@@ -71,7 +96,7 @@ pub(super) fn inverse(mut a: DMatrix<f64>) -> Option<DMatrix<f64>> {
         }
         a.swap_rows(k, pivot);
         swaps.push(pivot);
-        eliminate(a.as_mut_slice(), dim, k);
+        simd::run(Exchange { a: a.as_mut_slice(), dim, k });
     }
     for (k, &pivot) in swaps.iter().enumerate().rev() {
         a.swap_columns(k, pivot);
@@ -80,18 +105,36 @@ pub(super) fn inverse(mut a: DMatrix<f64>) -> Option<DMatrix<f64>> {
 }
 
 /// Exchanges the `k`-th unknown with the `k`-th right side.
-fn eliminate(a: &mut [f64], dim: usize, k: usize) {
-    let (before, rest) = a.split_at_mut(k * dim);
-    let (own, after) = rest.split_at_mut(dim);
-    let pivot = own[k];
-    own[k] = 0.0;
-    for column in before.chunks_exact_mut(dim).chain(after.chunks_exact_mut(dim)) {
-        let factor = column[k] / pivot;
-        column.iter_mut().zip(&*own).for_each(|(to, by)| *to -= factor * by);
-        column[k] = factor;
+struct Exchange<'m> {
+    a: &'m mut [f64],
+    dim: usize,
+    k: usize,
+}
+
+impl Kernel for Exchange<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { a, dim, k } = self;
+        let (before, rest) = a.split_at_mut(k * dim);
+        let (own, after) = rest.split_at_mut(dim);
+        let pivot = own[k];
+        own[k] = 0.0;
+        for part in [before, after] {
+            for column in part.chunks_exact_mut(dim) {
+                let factor = column[k] / pivot;
+                for (to, by) in column.iter_mut().zip(&*own) {
+                    *to -= factor * by;
+                }
+                column[k] = factor;
+            }
+        }
+        for x in &mut *own {
+            *x /= -pivot;
+        }
+        own[k] = 1.0 / pivot;
     }
-    own.iter_mut().for_each(|x| *x /= -pivot);
-    own[k] = 1.0 / pivot;
 }
 
 #[cfg(test)]

@@ -57,6 +57,7 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
                 *to -= by;
             }
             let moved = change.norm();
+
             if moved <= SOLVED * size || moved <= STALLED * size && moved > 0.2 * last {
                 return true;
             }
