@@ -170,6 +170,7 @@ impl<'j> Blocks<'j> {
     }
 }
 
+#[inline(never)]
 fn add(to: &mut DMatrix<f64>, factor: f64, by: &DMatrix<f64>) {
     // slices: the iterators of matrices are four times slower
     to.as_mut_slice().iter_mut().zip(by.as_slice()).for_each(|(to, by)| *to += factor * by);

@@ -13,6 +13,7 @@ pub(super) fn add_product(c: &mut DMatrix<f64>, factor: f64, a: &DMatrix<f64>, b
 }
 
 /// `a b`.
+#[inline(never)]
 pub(super) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let mut c = DMatrix::zeros(a.nrows(), b.ncols());
     add_product(&mut c, 1.0, a, b);
@@ -85,6 +86,7 @@ impl Product<'_> {
 }
 
 /// The inverse of a square matrix, by Gauss-Jordan elimination in place with partial pivoting; `None` where it is singular or not finite.
+#[inline(never)]
 pub(super) fn inverse(mut a: DMatrix<f64>) -> Option<DMatrix<f64>> {
     let dim = a.nrows();
     let mut swaps = Vec::with_capacity(dim);

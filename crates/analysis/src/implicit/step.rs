@@ -1,15 +1,13 @@
 //! One step of the implicit method.
 
-use super::blocks::Blocks;
 use super::common::Common;
 use super::tableau::{STAGES, Tableau};
+use super::vectors::Vectors;
+use super::{FEW, whole};
 use crate::linear::norm;
 use motiform_dynamics::VectorField;
 use motiform_dynamics::tangent::{Differentiable, jacobian};
-use nalgebra::{DMatrix, Dyn, LU};
-
-/// Up to so many unknowns one matrix for all stages is as quick as several smaller ones.
-const FEW: usize = 12;
+use nalgebra::DMatrix;
 
 /// Iterations that the stages may take.
 const ITERATIONS: usize = 15;
@@ -35,17 +33,17 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
             let guess = step.stages.clone();
             let middle = jacobian(field, guess.column(STAGES / 2).as_slice());
             let common = Common::new(h, &middle);
-            if step.iterate(u, |change| common.solve(change)) {
+            if step.iterate(u, &|change| common.solve(change)) {
                 return Some(step);
             }
             step.stages = guess;
         }
-        let matrix = step.factors();
-        step.iterate(u, |change| matrix.solve_mut(change)).then_some(step)
+        let matrix = whole::factors(h, &step.jacobians());
+        step.iterate(u, &|change| matrix.solve_mut(change)).then_some(step)
     }
 
     /// Newton's method with one matrix, whose equations `solve` solves in place; `false` where the stages are not found.
-    fn iterate(&mut self, u: &[f64], solve: impl Fn(&mut DMatrix<f64>) -> bool) -> bool {
+    fn iterate(&mut self, u: &[f64], solve: &dyn Fn(&mut DMatrix<f64>) -> bool) -> bool {
         let size = norm(u);
         let mut last = f64::INFINITY;
         for count in 0..ITERATIONS {
@@ -57,7 +55,6 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
                 *to -= by;
             }
             let moved = change.norm();
-
             if moved <= SOLVED * size || moved <= STALLED * size && moved > 0.2 * last {
                 return true;
             }
@@ -76,69 +73,21 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
         for (stage, mut rate) in self.stages.column_iter().zip(rates.column_iter_mut()) {
             VectorField::<f64>::eval(self.field, 0.0, stage.as_slice(), rate.as_mut_slice());
         }
-        let weights = &Tableau::get().weights;
-        DMatrix::from_fn(dim * STAGES, 1, |row, _| {
-            let (i, k) = (row / dim, row % dim);
-            let sum: f64 = (0..STAGES).map(|j| weights[i][j] * rates[(k, j)]).sum();
-            self.stages[(k, i)] - u[k] - self.h * sum
-        })
+        left(self.h, u, &self.stages, &rates)
     }
 
-    /// `I - h A (x) J`, each stage with its own Jacobian, as factors.
-    fn factors(&self) -> LU<f64, Dyn, Dyn> {
-        let (dim, weights) = (self.stages.nrows(), &Tableau::get().weights);
-        let mut matrix = DMatrix::identity(dim * STAGES, dim * STAGES);
-        for (j, stage) in self.stages.column_iter().enumerate() {
-            let jacobian = jacobian(self.field, stage.as_slice());
-            for (c, column) in jacobian.chunks_exact(dim).enumerate() {
-                for (i, row) in weights.iter().enumerate() {
-                    let mut to = matrix.view_mut((i * dim, j * dim + c), (dim, 1));
-                    to.iter_mut().zip(column).for_each(|(to, x)| *to -= self.h * row[j] * x);
-                }
-            }
-        }
-        matrix.lu()
+    /// The Jacobians at the stages.
+    fn jacobians(&self) -> Vec<Vec<f64>> {
+        self.stages.column_iter().map(|u| jacobian(self.field, u.as_slice())).collect()
     }
 
-    /// Moves vectors along: `W_i = w + h sum_j a_ij (J_j W_j + g_j)`, with `forced(U_j)` for the last ones. These are the derivatives of
-    /// the step itself, exactly. `false` where they do not exist; the vectors then stay as they are.
+    /// Moves vectors along, with `forced(U_j)` on the last ones. These are the derivatives of the step itself, exactly. `false` where they do not
+    /// exist; the vectors then stay as they are.
     pub(super) fn carry(&self, vectors: &mut DMatrix<f64>, forced: &dyn Fn(&[f64]) -> Vec<Vec<f64>>) -> bool {
-        let forces: Vec<Vec<Vec<f64>>> = self.stages.column_iter().map(|u| forced(u.as_slice())).collect();
-        let last = if vectors.nrows() > FEW { self.by_blocks(vectors, &forces) } else { None };
-        match last.or_else(|| self.at_once(vectors, &forces)) {
-            Some(last) => vectors.copy_from(&last),
-            None => return false,
-        }
-        true
-    }
-
-    /// The last stage of the vectors, stage by stage.
-    fn by_blocks(&self, vectors: &DMatrix<f64>, forces: &[Vec<Vec<f64>>]) -> Option<DMatrix<f64>> {
-        let jacobians: Vec<_> =
-            self.stages.column_iter().map(|u| jacobian(self.field, u.as_slice())).collect();
-        let first = vectors.ncols() - forces[0].len();
-        let side = |i: usize| {
-            let mut side = vectors * Tableau::get().inverse[i].iter().sum::<f64>();
-            for (c, force) in forces[i].iter().enumerate() {
-                side.column_mut(first + c).iter_mut().zip(force).for_each(|(to, x)| *to += self.h * x);
-            }
-            side
-        };
-        Blocks::new(self.h, &jacobians).last_stage(&std::array::from_fn::<_, STAGES, _>(side))
-    }
-
-    /// The same with all equations in one matrix.
-    fn at_once(&self, vectors: &DMatrix<f64>, forces: &[Vec<Vec<f64>>]) -> Option<DMatrix<f64>> {
-        let (dim, count) = vectors.shape();
-        let first = count - forces[0].len();
-        let weights = &Tableau::get().weights;
-        let mut all = DMatrix::from_fn(dim * STAGES, count, |row, c| {
-            let (i, k) = (row / dim, row % dim);
-            let force = |j: usize| weights[i][j] * forces[j][c - first][k];
-            let sum = if c < first { 0.0 } else { (0..STAGES).map(force).sum() };
-            vectors[(k, c)] + self.h * sum
-        });
-        self.factors().solve_mut(&mut all).then(|| all.rows(dim * (STAGES - 1), dim).into_owned())
+        let forces: Vec<_> = self.stages.column_iter().map(|u| forced(u.as_slice())).collect();
+        let step = Vectors { h: self.h, jacobians: &self.jacobians(), forces: &forces };
+        let last = step.carried(vectors);
+        last.inspect(|last| vectors.copy_from(last)).is_some()
     }
 
     /// The state at the end of the step.
@@ -161,6 +110,16 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
         let stage = |k: usize| (0..STAGES).map(|j| factors[j + 1] * self.stages[(k, j)]).sum::<f64>();
         u.iter().enumerate().map(|(k, x)| factors[0] * x + stage(k)).collect()
     }
+}
+
+/// What stages and their rates leave of the equations.
+fn left(h: f64, u: &[f64], stages: &DMatrix<f64>, rates: &DMatrix<f64>) -> DMatrix<f64> {
+    let (dim, weights) = (u.len(), &Tableau::get().weights);
+    DMatrix::from_fn(dim * STAGES, 1, |row, _| {
+        let (i, k) = (row / dim, row % dim);
+        let sum: f64 = (0..STAGES).map(|j| weights[i][j] * rates[(k, j)]).sum();
+        stages[(k, i)] - u[k] - h * sum
+    })
 }
 
 #[cfg(test)]
@@ -223,31 +182,12 @@ mod tests {
 
     /// Rates up to a million times the step: what stays stiff is solved to round-off.
     #[test]
-    fn stages_and_vectors_do_not_depend_on_the_elimination() {
+    fn stages_do_not_depend_on_the_elimination() {
         let stiff = Chain((0..21).map(|k| 1.0 - 10.0 * f64::from(k).powi(4)).collect());
         let (start, mut once) = begun(&stiff, 0.3);
         let quick = Step::solve(&stiff, 0.3, &start, once.stages.clone()).expect("stages");
-        let matrix = once.factors();
-        assert!(once.iterate(&start, |change| matrix.solve_mut(change)));
+        let matrix = whole::factors(0.3, &once.jacobians());
+        assert!(once.iterate(&start, &|change| matrix.solve_mut(change)));
         assert!((&quick.stages - &once.stages).norm() < 1e-13 * once.stages.norm());
-        let vectors = DMatrix::identity(21, 23);
-        let forces = vec![vec![start.clone(), vec![1.0; 21]]; STAGES];
-        let (blocks, all) = (quick.by_blocks(&vectors, &forces), quick.at_once(&vectors, &forces));
-        let (blocks, all) = (blocks.expect("vectors"), all.expect("vectors"));
-        assert!((&blocks - &all).norm() < 1e-13 * all.norm(), "{:e}", (blocks - all).norm());
-    }
-
-    /// A growth at which a stage alone has no solution, or none with many digits: all of them together do.
-    #[test]
-    fn a_small_pivot_costs_no_digits() {
-        for off in [0.0, 1e-13, 1e-9, 1e-5] {
-            let growing = Chain(vec![Tableau::get().inverse[0][0] * (1.0 + off); 13]);
-            let mut step = begun(&growing, 1.0).1;
-            step.stages.fill(0.0);
-            let mut vectors = DMatrix::identity(13, 13);
-            let all = step.at_once(&vectors, &vec![Vec::new(); STAGES]).expect("vectors");
-            assert!(step.carry(&mut vectors, &|_| Vec::new()));
-            assert!((&vectors - &all).norm() < 1e-9 * all.norm(), "{off:e}: {:e}", (vectors - all).norm());
-        }
     }
 }

@@ -1,5 +1,6 @@
 //! The coefficients of Radau IIA methods.
 
+use super::product::inverse;
 use nalgebra::{DMatrix, DVector};
 use std::sync::OnceLock;
 
@@ -40,7 +41,7 @@ impl Tableau {
         let leading = std::array::from_fn(|j| 1.0 / differences(&all, j, all[j]));
         let weights = nodes.map(row);
         let matrix = DMatrix::from_fn(STAGES, STAGES, |i, j| weights[i][j]);
-        let inverse = matrix.try_inverse().unwrap_or_else(|| DMatrix::zeros(STAGES, STAGES));
+        let inverse = inverse(matrix).unwrap_or_else(|| DMatrix::zeros(STAGES, STAGES));
         let inverse = std::array::from_fn(|i| std::array::from_fn(|j| inverse[(i, j)]));
         Self { weights, inverse, leading, nodes }
     }
