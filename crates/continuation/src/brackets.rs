@@ -7,6 +7,7 @@ use super::place::{Before, Place};
 use super::problem::Problem;
 use super::smooth::{Number, Smooth};
 use motiform_dynamics::Watch;
+use std::cell::RefCell;
 
 /// What vanishes at a special point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +69,8 @@ pub(super) fn brackets<P: Problem>(
         if let (Some(low), Some(high)) = (low, high)
             && low.0 < high.0
         {
-            Stretch { problem, step, low, high, is_whole: known.is_empty(), watch }.add(&mut out);
+            let is_whole = known.is_empty();
+            Stretch { problem, step, low, high, is_whole, watch, seen: RefCell::default() }.add(&mut out);
         }
         low = sides.get(place).and_then(|(_, beyond)| beyond.as_ref().map(|(s, place)| (*s, place)));
     }
@@ -88,7 +90,12 @@ struct Stretch<'s, P: Problem> {
     high: (f64, &'s Place<P::Local>),
     is_whole: bool,
     watch: &'s dyn Watch,
+    /// What was seen between them: several functions are looked at in the same places.
+    seen: RefCell<Vec<(f64, Option<Seen>)>>,
 }
+
+/// The slope and the levels at a place.
+type Seen = (f64, Vec<Vec<Level>>);
 
 impl<P: Problem> Stretch<'_, P> {
     /// What changes its sign on it.
@@ -141,6 +148,17 @@ impl<P: Problem> Stretch<'_, P> {
         self.problem.noise(&self.low.1.levels).max(self.problem.noise(&self.high.1.levels))
     }
 
+    /// What is seen at a length; nothing where there is no solution.
+    fn seen(&self, s: f64) -> Option<Seen> {
+        let known = self.seen.borrow().iter().find(|one| one.0 == s).map(|one| one.1.clone());
+        known.unwrap_or_else(|| {
+            let place = between(self.problem, self.step, s, self.watch).ok();
+            let found = place.map(|place| (place.slope(), place.levels));
+            self.seen.borrow_mut().push((s, found.clone()));
+            found
+        })
+    }
+
     /// Tests that have the same signs at both ends and others between: where `value`, which vanishes with them, seems to change its sign twice.
     fn twice(&self, value: &Value<'_>, tests: &[Test], out: &mut Vec<Bracket>) {
         let of = |place: &Place<P::Local>| value(place.slope(), &place.levels);
@@ -149,10 +167,10 @@ impl<P: Problem> Stretch<'_, P> {
         let noise = self.noise();
         let mut found = Vec::new();
         let mut look = |s: f64| {
-            let place = between(self.problem, self.step, s, self.watch).ok()?;
+            let (slope, levels) = self.seen(s)?;
             for &test in tests {
                 let [low, high] = [self.low, self.high].map(|(s, place)| (s, test.of(place)));
-                let middle = (s, test.of(&place));
+                let middle = (s, test.read(slope, &levels));
                 let least = if test == Test::Slope {
                     0.0
                 } else {
@@ -164,7 +182,7 @@ impl<P: Problem> Stretch<'_, P> {
                     found.push(Bracket { test, low: middle, high });
                 }
             }
-            Some(if found.is_empty() { Look::Value(relative(of(&place))) } else { Look::Beyond })
+            Some(if found.is_empty() { Look::Value(relative(value(slope, &levels))) } else { Look::Beyond })
         };
         let middle = 0.5 * (self.low.0 + self.high.0);
         let before = self.step.before.filter(|_| self.low.0 == 0.0).map(|before| {

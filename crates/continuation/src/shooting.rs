@@ -37,7 +37,7 @@ pub(super) fn segment(
     watch: &dyn Watch,
 ) -> Result<Segment, Failure> {
     if matches!(flow.method, Method::Exponential(_)) {
-        return stiff_segment(neighbours, start, span, watch);
+        return Ok(stiff_segment(neighbours, start, (span, None), watch)?.0);
     }
     let dim = start.len();
     let variation = Variation::new(neighbours);
@@ -58,7 +58,13 @@ pub(super) fn segments<'x>(
     watch: &dyn Watch,
 ) -> Result<Vec<Segment>, Failure> {
     if matches!(flow.method, Method::Exponential(_)) {
-        return nodes.map(|node| stiff_segment(neighbours, node, span, watch)).collect();
+        let mut step = None;
+        let next = |node| {
+            let (segment, next) = stiff_segment(neighbours, node, (span, step), watch)?;
+            step = Some(next);
+            Ok(segment)
+        };
+        return nodes.map(next).collect();
     }
     let variation = Variation::new(neighbours);
     let (mut state, mut going, mut before) = (Vec::new(), None, 0);
@@ -98,25 +104,25 @@ fn read(neighbours: &Neighbours, end: &[f64], dim: usize, steps: u64) -> Segment
     Segment { end: shape.to_vec(), slope, tangents, by_parameter: by_parameter.to_vec(), steps }
 }
 
-/// The same by the implicit method, whose steps do not shorten with the stiff parts of vectors.
+/// The same by the implicit method, whose steps do not shorten with the stiff parts of vectors, from the first step to try; and the step that it would take next.
 fn stiff_segment(
     neighbours: &Neighbours,
     start: &[f64],
-    span: f64,
+    (span, first): (f64, Option<f64>),
     watch: &dyn Watch,
-) -> Result<Segment, Failure> {
+) -> Result<(Segment, f64), Failure> {
     let body = neighbours.body.as_ref();
     let (dim, count) = (start.len(), neighbours.sides.len());
     let mut vectors = vec![0.0; dim * (dim + count)];
     (0..dim).for_each(|i| vectors[dim * i + i] = 1.0);
     let forced = |u: &[f64]| neighbours.sides.iter().map(|sides| slope_at(sides, u)).collect();
-    let flowed = implicit_flow(body, start, &vectors, &forced, span, watch).map_err(failure)?;
+    let flowed = implicit_flow(body, start, &vectors, &forced, (span, first), watch).map_err(failure)?;
     let mut slope = vec![0.0; dim];
     VectorField::<f64>::eval(body, 0.0, &flowed.end, &mut slope);
     let by_parameter = flowed.vectors[dim * dim..].to_vec();
     let mut tangents = flowed.vectors;
     tangents.truncate(dim * dim);
-    Ok(Segment { end: flowed.end, slope, tangents, by_parameter, steps: flowed.steps })
+    Ok((Segment { end: flowed.end, slope, tangents, by_parameter, steps: flowed.steps }, flowed.step))
 }
 
 fn failure(outcome: Outcome) -> Failure {
@@ -135,7 +141,7 @@ pub(super) fn shape_after(
     watch: &dyn Watch,
 ) -> Result<Vec<f64>, Failure> {
     if matches!(flow.method, Method::Exponential(_)) {
-        let flowed = implicit_flow(body, start, &[], &|_| Vec::new(), span, watch);
+        let flowed = implicit_flow(body, start, &[], &|_| Vec::new(), (span, None), watch);
         return flowed.map(|flowed| flowed.end).map_err(failure);
     }
     run(body, start, (span, start.len()), (flow, length), watch)

@@ -5,11 +5,20 @@
 //! solves for five stages at once, and the vectors are carried by the derivative of the same equations, so that they are the derivatives of
 //! the computed flow to round-off. Stiff parts of the vectors, which only decay, do not shorten the steps: the method is L-stable.
 //!
+//! The stages are found by Newton's method with one Jacobian for all of them ([`common`]), which gains two digits or more in each iteration; the vectors need that
+//! of every stage ([`blocks`]). Where either fails, all equations are solved at once.
+//!
 //! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, sections IV.5 and IV.8.
 
+mod blocks;
+mod common;
 mod escape;
+mod modes;
+mod product;
 mod step;
 mod tableau;
+mod vectors;
+mod whole;
 
 pub(crate) use escape::Ascent;
 
@@ -23,6 +32,9 @@ use tableau::{STAGES, Tableau};
 /// The size of the fifth power over a step, as part of the size of the state. The error of a step is smaller by many orders: tests state it.
 const ROUGHNESS: f64 = 1e-6;
 
+/// Up to so many unknowns one matrix for all stages is as quick as several smaller ones.
+const FEW: usize = 12;
+
 /// Shortest step, as part of the span.
 const SHORTEST: f64 = 1e-12;
 
@@ -35,10 +47,13 @@ pub struct Flowed {
     pub vectors: Vec<f64>,
     /// Steps taken.
     pub steps: u64,
+    /// The step that would be taken next.
+    pub step: f64,
 }
 
 /// The flow of `field` from `start` over `span`, and of the tangent vectors `vectors`, one after the other. `forced` returns a vector `g` at a state for each
 /// of the last of them: these follow `w' = Df w + g`, the others `w' = Df w`.
+/// `first` is the first step to try, of a flow that goes on ([`Flowed::step`]); without it, one over which the state changes little.
 ///
 /// # Errors
 /// The outcome, where it is not the end of the span: the solution leaves, steps become too short, or `watch` stops it.
@@ -47,7 +62,7 @@ pub fn implicit_flow<F: VectorField<f64> + Differentiable + ?Sized>(
     start: &[f64],
     vectors: &[f64],
     forced: &dyn Fn(&[f64]) -> Vec<Vec<f64>>,
-    span: f64,
+    (span, first): (f64, Option<f64>),
     watch: &dyn Watch,
 ) -> Result<Flowed, Outcome> {
     let dim = start.len();
@@ -55,7 +70,7 @@ pub fn implicit_flow<F: VectorField<f64> + Differentiable + ?Sized>(
         field,
         u: start.to_vec(),
         vectors: DMatrix::from_column_slice(dim, vectors.len() / dim.max(1), vectors),
-        h: first_step(field, start, span),
+        h: first.unwrap_or_else(|| first_step(field, start, span)),
         before: None,
         steps: 0,
     };
@@ -74,7 +89,7 @@ pub fn implicit_flow<F: VectorField<f64> + Differentiable + ?Sized>(
             t = if now == left { span } else { t + now };
         }
     }
-    Ok(Flowed { end: flow.u, vectors: flow.vectors.as_slice().to_vec(), steps: flow.steps })
+    Ok(Flowed { end: flow.u, vectors: flow.vectors.as_slice().to_vec(), steps: flow.steps, step: flow.h })
 }
 
 /// A flow on its way.

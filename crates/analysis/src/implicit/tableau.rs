@@ -1,5 +1,6 @@
 //! The coefficients of Radau IIA methods.
 
+use super::product::inverse;
 use nalgebra::{DMatrix, DVector};
 use std::sync::OnceLock;
 
@@ -14,6 +15,8 @@ pub(super) struct Tableau {
     pub(super) nodes: [f64; STAGES],
     /// `a_ij`: the integral of the `j`-th Lagrange polynomial from 0 to `c_i`.
     pub(super) weights: [[f64; STAGES]; STAGES],
+    /// The inverse of the matrix of the weights.
+    pub(super) inverse: [[f64; STAGES]; STAGES],
     /// The coefficient of the fifth power in the polynomial through the start and the stages, from these six values.
     pub(super) leading: [f64; STAGES + 1],
 }
@@ -36,7 +39,11 @@ impl Tableau {
         };
         let all = with_start(&nodes);
         let leading = std::array::from_fn(|j| 1.0 / differences(&all, j, all[j]));
-        Self { weights: nodes.map(row), leading, nodes }
+        let weights = nodes.map(row);
+        let matrix = DMatrix::from_fn(STAGES, STAGES, |i, j| weights[i][j]);
+        let inverse = inverse(matrix).unwrap_or_else(|| DMatrix::zeros(STAGES, STAGES));
+        let inverse = std::array::from_fn(|i| std::array::from_fn(|j| inverse[(i, j)]));
+        Self { weights, inverse, leading, nodes }
     }
 
     /// The values at time `c` (in steps) of the Lagrange polynomials that belong to the start and the stages.
@@ -110,6 +117,17 @@ mod tests {
             }
         }
         assert!(tableau.weights[STAGES - 1].iter().all(|&b| b > 0.0));
+    }
+
+    #[test]
+    fn the_inverse_of_the_weights_undoes_them() {
+        let tableau = Tableau::get();
+        for (i, row) in tableau.weights.iter().enumerate() {
+            for k in 0..STAGES {
+                let sum: f64 = (0..STAGES).map(|j| row[j] * tableau.inverse[j][k]).sum();
+                assert!((sum - f64::from(u8::from(i == k))).abs() < 1e-13, "{i} {k}: {sum}");
+            }
+        }
     }
 
     #[test]

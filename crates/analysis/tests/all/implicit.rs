@@ -44,7 +44,7 @@ fn reference<F: Equivariant>(
 fn a_limit_cycle_and_its_multipliers_are_exact() {
     let hopf = Hopf { mu: 1.0, omega: 2.0 };
     let time = std::f64::consts::PI;
-    let flowed = implicit_flow(&hopf, &[1.0, 0.0], &units(2), &nothing, time, &()).unwrap();
+    let flowed = implicit_flow(&hopf, &[1.0, 0.0], &units(2), &nothing, (time, None), &()).unwrap();
     assert!(distance(&flowed.end, &[1.0, 0.0]) < 1e-12, "{:?}", flowed.end);
     let exact = [(-2.0 * time).exp(), 0.0, 0.0, 1.0];
     assert!(distance(&flowed.vectors, &exact) < 1e-12, "{:?}", flowed.vectors);
@@ -55,7 +55,7 @@ fn the_flow_of_lorenz_is_that_of_dop853() {
     let lorenz = Lorenz::default();
     let start = [5.0, 6.0, 20.0];
     let (end, vectors) = reference(&lorenz, Method::Explicit(&DOP853), &start, 1.5, 3);
-    let flowed = implicit_flow(&lorenz, &start, &units(3), &nothing, 1.5, &()).unwrap();
+    let flowed = implicit_flow(&lorenz, &start, &units(3), &nothing, (1.5, None), &()).unwrap();
     assert!(distance(&flowed.end, &end) < 1e-10, "{}", distance(&flowed.end, &end));
     let size = distance(&vectors, &[0.0; 9]);
     assert!(distance(&flowed.vectors, &vectors) < 1e-10 * size, "{}", distance(&flowed.vectors, &vectors));
@@ -72,8 +72,12 @@ fn the_flow_of_the_cell_is_that_of_an_exponential_method_in_short_steps() {
     let (end, _) = reference(&cell, Method::Exponential(&KROGSTAD4), &start, 4.0, 0);
     let mut flow = vec![0.0; start.len()];
     VectorField::<f64>::eval(&cell, 0.0, &start, &mut flow);
-    let flowed = implicit_flow(&cell, &start, &flow, &nothing, 4.0, &()).unwrap();
+    let flowed = implicit_flow(&cell, &start, &flow, &nothing, (4.0, None), &()).unwrap();
     assert!(distance(&flowed.end, &end) < 1e-11, "{}", distance(&flowed.end, &end));
+    // with a first step that is given, here a short one
+    let slower = implicit_flow(&cell, &start, &flow, &nothing, (4.0, Some(0.01)), &()).unwrap();
+    assert!(distance(&slower.end, &end) < 1e-11, "{}", distance(&slower.end, &end));
+    assert!(slower.steps > flowed.steps, "{} {}", slower.steps, flowed.steps);
     // the flow moves its own direction along
     VectorField::<f64>::eval(&cell, 0.0, &end, &mut flow);
     assert!(distance(&flowed.vectors, &flow) < 1e-10, "{}", distance(&flowed.vectors, &flow));
@@ -85,7 +89,7 @@ fn vectors_are_the_derivatives_of_the_computed_flow() {
     let cell = Cell::new(&CellParameters { length: 21.8, modes: 16.0, ..CellParameters::default() }).unwrap();
     let start: Vec<f64> =
         (0..cell.dim()).map(|i| 0.2 * (-(i as f64) / 2.0).exp() * (1.0 + i as f64).sin()).collect();
-    let flowed = implicit_flow(&cell, &start, &units(cell.dim()), &nothing, 0.3, &()).unwrap();
+    let flowed = implicit_flow(&cell, &start, &units(cell.dim()), &nothing, (0.3, None), &()).unwrap();
     let size = 1e-4;
     let moved = |by: f64| {
         let start: Vec<f64> = start
@@ -93,7 +97,7 @@ fn vectors_are_the_derivatives_of_the_computed_flow() {
             .enumerate()
             .map(|(i, x)| x + by * size * (i as f64).cos() / (1.0 + i as f64))
             .collect();
-        implicit_flow(&cell, &start, &[], &nothing, 0.3, &()).unwrap().end
+        implicit_flow(&cell, &start, &[], &nothing, (0.3, None), &()).unwrap().end
     };
     let difference: Vec<f64> =
         moved(1.0).iter().zip(moved(-1.0)).map(|(a, b)| (a - b) / (2.0 * size)).collect();
@@ -109,8 +113,8 @@ fn a_force_adds_the_derivative_by_a_parameter() {
     let hopf = |mu: f64| Hopf { mu, omega: 2.0 };
     // u' = f(u, mu), with df/dmu = u
     let force = |u: &[f64]| vec![u.to_vec()];
-    let flowed = implicit_flow(&hopf(0.5), &[0.3, 0.1], &[0.0; 2], &force, 2.0, &()).unwrap();
-    let end = |mu| implicit_flow(&hopf(mu), &[0.3, 0.1], &[], &nothing, 2.0, &()).unwrap().end;
+    let flowed = implicit_flow(&hopf(0.5), &[0.3, 0.1], &[0.0; 2], &force, (2.0, None), &()).unwrap();
+    let end = |mu| implicit_flow(&hopf(mu), &[0.3, 0.1], &[], &nothing, (2.0, None), &()).unwrap().end;
     let slope: Vec<f64> = end(0.501).iter().zip(end(0.499)).map(|(a, b)| (a - b) / 0.002).collect();
     assert!(distance(&slope, &flowed.vectors) < 1e-6, "{slope:?} {:?}", flowed.vectors);
 }
@@ -128,6 +132,6 @@ fn a_flow_that_leaves_says_so() {
             du[0] = u[0] * u[0];
         }
     }
-    let left = implicit_flow(&Leaving, &[1.0], &[], &nothing, 2.0, &());
+    let left = implicit_flow(&Leaving, &[1.0], &[], &nothing, (2.0, None), &());
     assert!(matches!(left, Err(Outcome::StepUnderflow { t, .. }) if (t - 1.0).abs() < 1e-6), "{left:?}");
 }

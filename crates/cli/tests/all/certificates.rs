@@ -164,7 +164,7 @@ fn a_saddle_node_on_a_circle_is_named_where_it_is() {
 #[test]
 fn orbits_of_the_cell_grow_as_the_normal_form_says() {
     let folder = Folder::new();
-    let arguments = "continue cell --set length=12.955 --motion circular --along length=12.955:12.98 --points 45 --no-figures --out here";
+    let arguments = "continue cell --set length=12.955 --motion circular --along length=12.955:12.98 --points 12 --branch-step 0.2 --no-figures --out here";
     folder.run(arguments).expect(0);
     let json = read_json(&folder.path("here/branches.json"));
     let samples = |branch: usize| -> Vec<Value> {

@@ -110,7 +110,7 @@ fn killed_and_resumed_fits_have_the_bytes_of_uninterrupted_ones() {
 fn pages_left_out_are_drawn_by_resume() {
     let folder = Folder::new();
     fs::write(folder.path("cells.csv"), outlines(2)).unwrap();
-    let words = "fit cells.csv --interval 1 --pixel-size 1 --draws 3 --json";
+    let words = "fit cells.csv --interval 1 --pixel-size 1 --draws 3 --modes 2 --json";
     folder.run(&format!("{words} --out whole"));
     let first = folder.run(&format!("{words} --out later --no-report"));
     assert!(!folder.path("later/report.html").exists());

@@ -19,6 +19,9 @@ const MOTIONS: usize = 2;
 /// Looks of the model before a path: the way onto the motion.
 const SETTLED: f64 = 3.0;
 
+/// Most looks of a path: of a body that turns too slowly to close its circle in them a part is shown.
+const LONGEST: f64 = 20.0;
+
 /// Rows of a path.
 const ROWS: f64 = 600.0;
 
@@ -43,7 +46,7 @@ pub(crate) fn insets(folder: &AtlasFolder) -> Result<Vec<MapInset>, Error> {
 fn path(folder: &AtlasFolder, cell: usize, found: &Found) -> Result<Option<Vec<[f64; 2]>>, Error> {
     let (plan, scan) = (&folder.plan, folder.plan.scan());
     let look = plan.info()?.look;
-    let Some(t_end) = time(found, look) else { return Ok(None) };
+    let Some(t_end) = time(found, look).map(|time| time.min(LONGEST * look)) else { return Ok(None) };
     let computation = motiform_study::plan::Computation {
         transient: SETTLED * look,
         t_end,

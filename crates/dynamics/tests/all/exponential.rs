@@ -8,7 +8,7 @@ use common::{Modes, StuartLandau, slope, stuart_landau};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::{DOP853, EXPONENTIAL_STEPPERS, ExponentialTableau, HOCHBRUCK4, KROGSTAD4};
 use motiform_dynamics::{
-    Direction, Error, ExponentialOrbit, Integration, Orbit, Outcome, Request, Section, Semilinear,
+    Direction, Error, ExponentialOrbit, Integration, Orbit, Outcome, Request, Scalar, Section, Semilinear,
     StepControl, System, Trajectory, VectorField,
 };
 
@@ -221,4 +221,34 @@ fn bad_input_is_refused_and_overflow_is_an_outcome() {
         let outcome = drive(&mut orbit, &request, &mut ()).unwrap();
         assert!(!outcome.is_complete() && orbit.state().iter().all(|x| x.is_finite()), "{outcome}");
     }
+}
+
+/// `u' = -u` has decayed to 1e-287 at 660 and to 1e-295 at 680: the one is what it is, the other 0, and not a number that every operation is slow with.
+#[test]
+fn what_has_decayed_to_the_least_numbers_is_0() {
+    struct Decay;
+    impl System for Decay {
+        fn dim(&self) -> usize {
+            1
+        }
+    }
+    impl<T: Scalar> VectorField<T> for Decay {
+        fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+            du[0] = -u[0];
+        }
+    }
+    impl<T: Scalar> Semilinear<T> for Decay {
+        fn linear(&self, lambda: &mut [T::Real]) {
+            lambda[0] = lambda[0].constant(-1.0);
+        }
+        fn nonlinear(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+            du[0] = u[0].constant(0.0);
+        }
+    }
+    let control = StepControl::Fixed { step: 1.0 };
+    let mut orbit = ExponentialOrbit::new(&Decay, &KROGSTAD4, control, 0.0, &[1.0]).unwrap();
+    drive(&mut orbit, &Request::until(660.0, 1), &mut ()).unwrap();
+    assert!((orbit.state()[0] / (-660.0_f64).exp() - 1.0).abs() < 1e-10, "{:e}", orbit.state()[0]);
+    drive(&mut orbit, &Request::until(680.0, 1), &mut ()).unwrap();
+    assert_eq!(orbit.state(), [0.0]);
 }

@@ -64,7 +64,7 @@ pub(crate) const WRITERS: [Writer; 13] = [
     },
     Writer { words: "observe cells.csv --no-report", options: FORCE },
     Writer {
-        words: "fit cells.csv --interval 1 --pixel-size 1 --no-report --simulations 0 --draws 1",
+        words: "fit cells.csv --interval 1 --pixel-size 1 --modes 2 --no-report --simulations 0 --draws 1",
         options: BOTH,
     },
     Writer { words: "reproduce fig3 --quick", options: &[""] },
