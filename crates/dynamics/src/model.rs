@@ -66,11 +66,15 @@ pub trait Model: Equivariant {
     /// The named coordinates of the shape, in file order.
     fn coordinates(&self) -> &[Coordinate];
 
-    /// Coordinates (as in [`Model::coordinates`]) to the internal state: a linear map.
-    fn encode(&self, coordinates: &[f64], shape: &mut [f64]);
+    /// Coordinates (as in [`Model::coordinates`]) to the internal state: a linear map, by default the identity.
+    fn encode(&self, coordinates: &[f64], shape: &mut [f64]) {
+        shape.copy_from_slice(coordinates);
+    }
 
     /// The inverse of [`Model::encode`].
-    fn decode(&self, shape: &[f64], coordinates: &mut [f64]);
+    fn decode(&self, shape: &[f64], coordinates: &mut [f64]) {
+        coordinates.copy_from_slice(shape);
+    }
 
     /// The noise that belongs to the model: none, unless its equations have some. Fields and analyses are those without it.
     fn noise(&self) -> ModelNoise {
@@ -82,11 +86,13 @@ pub trait Model: Equivariant {
         0
     }
 
-    /// The scalars that figures show in addition to speed and turning rate.
-    fn observables(&self) -> &[Observable];
+    /// The scalars that figures show in addition to speed and turning rate; none by default.
+    fn observables(&self) -> &[Observable] {
+        &[]
+    }
 
     /// Writes the observables of a shape.
-    fn observe(&self, shape: &[f64], out: &mut [f64]);
+    fn observe(&self, _shape: &[f64], _out: &mut [f64]) {}
 
     /// Quantities of the boundary that a run reports in addition to the shape (length, area, ...); none by default.
     fn measures(&self) -> &[Observable] {
@@ -107,11 +113,18 @@ pub trait Model: Equivariant {
         None
     }
 
-    /// The boundary for this shape: `points` points around a body of undeformed radius `radius` (model length).
-    fn outline(&self, shape: &[f64], radius: f64, points: usize) -> Outline;
+    /// The boundary for this shape: `points` points around a body of undeformed radius `radius` (model length); by default a circle.
+    fn outline(&self, _shape: &[f64], radius: f64, points: usize) -> Outline {
+        let angle = |k: usize| std::f64::consts::TAU * k as f64 / points as f64;
+        Outline::Curve(
+            (0..points).map(|k| [radius * libm::cos(angle(k)), radius * libm::sin(angle(k))]).collect(),
+        )
+    }
 
-    /// Largest deviation of the boundary from the circle, over all directions (model length).
-    fn deformation(&self, shape: &[f64]) -> f64;
+    /// Largest deviation of the boundary from the circle, over all directions (model length); by default none.
+    fn deformation(&self, _shape: &[f64]) -> f64 {
+        0.0
+    }
 }
 
 /// Velocity and its time derivative along the flow, exactly (duals): `(v, v')`.

@@ -71,13 +71,18 @@ pub trait VectorField<T: Scalar>: System {
 
 /// A field split as `u' = Lambda u + N(t, u)` with a diagonal, real `Lambda`: what exponential steppers need.
 ///
-/// `eval` must equal `Lambda u + N(t, u)`; [`crate::conformance::semilinear_defect`] checks it.
+/// `eval` must equal `Lambda u + N(t, u)`; [`crate::conformance::semilinear_defect`] checks it. By default `Lambda` is 0, and the whole field is
+/// `N`.
 pub trait Semilinear<T: Scalar>: VectorField<T> {
     /// Writes the diagonal of `Lambda` (inverse model time).
-    fn linear(&self, lambda: &mut [T::Real]);
+    fn linear(&self, lambda: &mut [T::Real]) {
+        lambda.iter_mut().for_each(|rate| *rate = rate.zero());
+    }
 
     /// Writes `N(t, u)` into `du`.
-    fn nonlinear(&self, t: T::Real, u: &[T], du: &mut [T]);
+    fn nonlinear(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        self.eval(t, u, du);
+    }
 }
 
 impl<S: System + ?Sized> System for &S {

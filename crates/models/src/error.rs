@@ -19,6 +19,14 @@ pub enum Error {
         "amplitudes are equations of your own: give a study file with [model.amplitudes], or one of their presets"
     )]
     NoEquations,
+    /// A model of one's own that cannot be used.
+    #[error("model {name:?}: {problem}")]
+    OwnModel {
+        /// Its name.
+        name: String,
+        /// The problem and its remedy.
+        problem: String,
+    },
     /// The model has no such parameter.
     #[error("unknown parameter {name:?} of model {model}{}: {}", hint(.nearest), known_parameters(.model, .known))]
     UnknownParameter {

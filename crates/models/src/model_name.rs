@@ -4,7 +4,7 @@ use crate::amplitudes::{self, Definition};
 use crate::{Error, ModelInfo};
 use serde::{Deserialize, Serialize};
 
-/// A model of the registry by its name, or amplitude equations by their definition.
+/// A model of the registry by its name, amplitude equations by their definition, or a model of one's own by its name and equations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum ModelName {
@@ -14,6 +14,13 @@ pub enum ModelName {
     Amplitudes {
         /// The equations.
         amplitudes: Box<Definition>,
+    },
+    /// A model that was [registered](crate::register).
+    Own {
+        /// Its name.
+        own: String,
+        /// Digits that change with its equations ([`ModelInfo::field`]).
+        field: String,
     },
 }
 
@@ -28,6 +35,13 @@ impl ModelName {
             Self::Amplitudes { amplitudes: definition } => {
                 amplitudes::info(definition).map_err(|error| Error::Equations { problem: error.to_string() })
             }
+            Self::Own { own, field } => match ModelInfo::find(own)? {
+                info if info.field() == Some(field) => Ok(info),
+                _ => Err(Error::OwnModel {
+                    name: own.clone(),
+                    problem: "this result was computed with other equations of the same name: register those, or compute it again".to_owned(),
+                }),
+            },
         }
     }
 
@@ -35,7 +49,7 @@ impl ModelName {
     #[must_use]
     pub fn as_str(&self) -> &str {
         match self {
-            Self::BuiltIn(name) => name,
+            Self::BuiltIn(name) | Self::Own { own: name, .. } => name,
             Self::Amplitudes { .. } => amplitudes::NAME,
         }
     }
@@ -44,7 +58,7 @@ impl ModelName {
     #[must_use]
     pub fn definition(&self) -> Option<&Definition> {
         match self {
-            Self::BuiltIn(_) => None,
+            Self::BuiltIn(_) | Self::Own { .. } => None,
             Self::Amplitudes { amplitudes } => Some(amplitudes),
         }
     }
@@ -64,9 +78,10 @@ impl PartialEq<str> for ModelName {
 
 impl From<&ModelInfo> for ModelName {
     fn from(info: &ModelInfo) -> Self {
-        match info.definition() {
-            None => Self::BuiltIn(info.name.to_owned()),
-            Some(definition) => Self::Amplitudes { amplitudes: Box::new(definition.clone()) },
+        match (info.definition(), info.field()) {
+            (Some(definition), _) => Self::Amplitudes { amplitudes: Box::new(definition.clone()) },
+            (None, Some(field)) => Self::Own { own: info.name.to_owned(), field: field.to_owned() },
+            (None, None) => Self::BuiltIn(info.name.to_owned()),
         }
     }
 }

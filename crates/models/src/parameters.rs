@@ -72,7 +72,9 @@ pub fn index_of(specs: &[ParameterSpec], model: &'static str, name: &str) -> Res
 }
 
 /// The range given after `within`, or any number of sensible size.
-pub(crate) const fn allowed(within: &[(f64, f64)]) -> (f64, f64) {
+#[doc(hidden)]
+#[must_use]
+pub const fn allowed(within: &[(f64, f64)]) -> (f64, f64) {
     match within {
         [range, ..] => *range,
         [] => (-1e6, 1e6),
@@ -80,12 +82,15 @@ pub(crate) const fn allowed(within: &[(f64, f64)]) -> (f64, f64) {
 }
 
 /// Whether a parameter was declared as a whole number.
-pub(crate) const fn is_whole(kind: &[&str]) -> bool {
+#[doc(hidden)]
+#[must_use]
+pub const fn is_whole(kind: &[&str]) -> bool {
     !kind.is_empty()
 }
 
 /// Declares a parameter struct together with its registry: `name = default in low .. high`, the range of interest, and
 /// if the model does not allow every number, `within smallest .. largest`; a whole number is declared `as whole`.
+#[macro_export]
 macro_rules! parameters {
     (
         $(#[$doc:meta])* $name:ident for $model:literal {
@@ -141,4 +146,4 @@ macro_rules! parameters {
         }
     };
 }
-pub(crate) use parameters;
+pub use parameters;

@@ -3,6 +3,7 @@
 use crate::amplitudes::{self, Definition, Known};
 use crate::cell::{Cell, CellParameters};
 use crate::error::{Error, nearest};
+use crate::own::{self, Own};
 use crate::parameters::{ParameterSpec, Parameters};
 use crate::tensor::{self, Tensor, TensorParameters};
 use motiform_dynamics::Model;
@@ -55,6 +56,8 @@ pub(crate) enum Source {
     },
     /// From equations given as text.
     Amplitudes(&'static Known),
+    /// From code of others.
+    Own(&'static Own),
 }
 
 /// The initial display of the bodies of a model, unless a preset specifies another.
@@ -120,7 +123,7 @@ pub static MODELS: &[ModelInfo] = &[
 ];
 
 /// The parameters with these values, in registry order; omitted ones have their defaults.
-fn from_values<P: Parameters>(values: &[f64]) -> P {
+pub(crate) fn from_values<P: Parameters>(values: &[f64]) -> P {
     let mut parameters = P::default();
     for (index, &value) in values.iter().enumerate() {
         parameters.set_at(index, value);
@@ -150,14 +153,18 @@ impl ModelInfo {
     /// # Errors
     /// [`Error::UnknownModel`] with the nearest name.
     pub fn find(name: &str) -> Result<&'static Self, Error> {
-        let known: Vec<&'static str> = MODELS.iter().map(|model| model.name).collect();
         if name == amplitudes::NAME {
             return Err(Error::NoEquations);
         }
-        MODELS.iter().find(|model| model.name == name).ok_or_else(|| Error::UnknownModel {
-            name: name.to_owned(),
-            nearest: nearest(name, known.iter().copied()),
-            known,
+        let built_in = MODELS.iter().find(|model| model.name == name);
+        built_in.or_else(|| own::find(name)).ok_or_else(|| {
+            let known: Vec<&'static str> =
+                MODELS.iter().map(|model| model.name).chain(own::names()).collect();
+            Error::UnknownModel {
+                name: name.to_owned(),
+                nearest: nearest(name, known.iter().copied()),
+                known,
+            }
         })
     }
 
@@ -176,6 +183,7 @@ impl ModelInfo {
         match self.inner {
             Source::BuiltIn { parameters, .. } => parameters(),
             Source::Amplitudes(known) => known.parameters(),
+            Source::Own(own) => own.parameters,
         }
     }
 
@@ -185,6 +193,7 @@ impl ModelInfo {
         match self.inner {
             Source::BuiltIn { coordinates, .. } => coordinates(values),
             Source::Amplitudes(known) => known.coordinates(),
+            Source::Own(own) => &own.coordinates,
         }
     }
 
@@ -218,6 +227,7 @@ impl ModelInfo {
         match self.inner {
             Source::BuiltIn { build, .. } => build(values),
             Source::Amplitudes(known) => known.build(values),
+            Source::Own(own) => own.build(values),
         }
     }
 
@@ -225,8 +235,17 @@ impl ModelInfo {
     #[must_use]
     pub fn definition(&self) -> Option<&'static Definition> {
         match self.inner {
-            Source::BuiltIn { .. } => None,
+            Source::BuiltIn { .. } | Source::Own(_) => None,
             Source::Amplitudes(known) => Some(known.definition()),
+        }
+    }
+
+    /// Digits that change with the equations of a model of one's own; `None` for others, whose equations have the version of this library.
+    #[must_use]
+    pub fn field(&self) -> Option<&'static str> {
+        match self.inner {
+            Source::Own(own) => Some(&own.field),
+            Source::BuiltIn { .. } | Source::Amplitudes(_) => None,
         }
     }
 }

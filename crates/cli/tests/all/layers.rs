@@ -27,7 +27,7 @@ const LAYERS: [(&str, &str); 20] = [
     ("web", "explorer lab"),
     (
         "cli",
-        "analysis cells diagrams dynamics explorer figures inference lab models paper report statistics store study tracks",
+        "analysis cells continuation diagrams dynamics explorer figures inference lab models paper report statistics store study tracks",
     ),
     ("python", "analysis cells diagrams dynamics figures lab models statistics store study tracks"),
 ];

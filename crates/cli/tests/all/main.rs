@@ -33,6 +33,7 @@ mod motions;
 mod new_files;
 mod observe;
 mod outcomes;
+mod own_model;
 mod ownership;
 mod planes;
 mod scan;

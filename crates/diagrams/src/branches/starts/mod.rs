@@ -120,7 +120,7 @@ impl StartPoint {
 
     fn other_model(&self, study: &Study) -> String {
         let named = |model: &ModelName| match model {
-            ModelName::BuiltIn(name) => format!("the {name} model"),
+            ModelName::BuiltIn(name) | ModelName::Own { own: name, .. } => format!("the {name} model"),
             ModelName::Amplitudes { .. } => "equations of its own".to_owned(),
         };
         let there = self.model.as_ref().map_or_else(String::new, named);

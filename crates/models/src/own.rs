@@ -1,0 +1,176 @@
+//! Models of one's own: an implementation of [`Model`] in Rust, made known by name, so that studies, scans, branches and figures take it as they take those
+//! that are built in.
+
+use crate::registry::{Display, Source};
+use crate::{Error, MODELS, ModelInfo, ParameterSpec, Parameters, amplitudes};
+use motiform_dynamics::model::Coordinate;
+use motiform_dynamics::{Model, Shape, VectorField};
+use std::fmt;
+use std::sync::{Mutex, PoisonError};
+
+/// What the library is told of a model of one's own.
+#[derive(Clone, Copy, Debug)]
+pub struct About {
+    /// Its name, for study files, folders and titles: letters, digits and `-`.
+    pub name: &'static str,
+    /// One line on what it is.
+    pub title: &'static str,
+    /// Its equations, as text.
+    pub equations: &'static str,
+    /// Where they come from.
+    pub source: &'static str,
+    /// Some tens of its slowest ordinary time scale (model time): the length of the first look at a motion.
+    pub look: f64,
+    /// Typical size of its shapes: the norm of their coordinates, to one digit.
+    pub size: f64,
+    /// The stepper to use by default: an exponential one (`krogstad4`) where the linear part is stiff.
+    pub stepper: &'static str,
+}
+
+impl Default for About {
+    fn default() -> Self {
+        Self {
+            name: "",
+            title: "a model of one's own",
+            equations: "given as code",
+            source: "given as code",
+            look: 200.0,
+            size: 1.0,
+            stepper: "dop853",
+        }
+    }
+}
+
+/// Makes a model from parameter values in registry order.
+type Build = dyn Fn(&[f64]) -> Result<Box<dyn Model>, Error> + Send + Sync;
+
+/// The names and the construction of a model of one's own.
+pub(crate) struct Own {
+    pub(crate) parameters: &'static [ParameterSpec],
+    pub(crate) coordinates: Vec<Coordinate>,
+    build: Box<Build>,
+    /// See [`fingerprint`].
+    pub(crate) field: String,
+}
+
+impl Own {
+    pub(crate) fn build(&self, values: &[f64]) -> Result<Box<dyn Model>, Error> {
+        (self.build)(values)
+    }
+}
+
+impl fmt::Debug for Own {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Own").field("field", &self.field).finish_non_exhaustive()
+    }
+}
+
+/// All models of one's own of this process. An entry lives as long as the process, so that its names are static as those of other models.
+static ALL: Mutex<Vec<&'static ModelInfo>> = Mutex::new(Vec::new());
+
+/// Makes a model known by its name. `build` makes it from its parameters, which [`parameters!`](crate::parameters!) declares.
+///
+/// The same name with the same equations gives the same entry again.
+///
+/// # Errors
+/// [`Error::OwnModel`]: a name that is not usable or taken, or a model that `build` refuses at its default parameters.
+pub fn register<P, M>(
+    about: &About,
+    build: impl Fn(&P) -> Result<M, Error> + Send + Sync + 'static,
+) -> Result<&'static ModelInfo, Error>
+where
+    P: Parameters,
+    M: Model + 'static,
+{
+    let refuse = |problem: String| Error::OwnModel { name: about.name.to_owned(), problem };
+    let usable = |c: char| c.is_ascii_alphanumeric() || c == '-';
+    if about.name.is_empty() || !about.name.chars().all(usable) {
+        return Err(refuse("give a name of letters, digits and '-'".to_owned()));
+    }
+    if about.name == amplitudes::NAME || MODELS.iter().any(|known| known.name == about.name) {
+        return Err(refuse("a model that is built in has this name: give another one".to_owned()));
+    }
+    let make = move |values: &[f64]| -> Result<Box<dyn Model>, Error> {
+        Ok(Box::new(build(&crate::registry::from_values::<P>(values))?))
+    };
+    let defaults = P::default().values();
+    let body = make(&defaults).map_err(|error| refuse(format!("at its default parameters: {error}")))?;
+    let field = fingerprint(P::specs(), &defaults, &make);
+    let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = all.iter().find(|info| info.name == about.name) {
+        let same = matches!(&known.inner, Source::Own(own) if own.field == field);
+        return if same {
+            Ok(known)
+        } else {
+            Err(refuse("another model has this name: give another one".to_owned()))
+        };
+    }
+    let coordinates = body.coordinates().to_vec();
+    let own = Own { parameters: P::specs(), coordinates, build: Box::new(make), field };
+    let info: &'static ModelInfo = Box::leak(Box::new(info(about, own)));
+    all.push(info);
+    Ok(info)
+}
+
+/// The entry of a name, if it was registered.
+pub(crate) fn find(name: &str) -> Option<&'static ModelInfo> {
+    let all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
+    all.iter().copied().find(|info| info.name == name)
+}
+
+/// The names that were registered.
+pub(crate) fn names() -> Vec<&'static str> {
+    ALL.lock().unwrap_or_else(PoisonError::into_inner).iter().map(|info| info.name).collect()
+}
+
+fn info(about: &About, own: Own) -> ModelInfo {
+    let sides = own.parameters.iter().take(2).map(|spec| (spec.name, spec.range.0, spec.range.1));
+    let plane: &'static [(&'static str, f64, f64)] = Vec::leak(sides.collect());
+    ModelInfo {
+        name: about.name,
+        title: about.title,
+        equations: about.equations,
+        source: about.source,
+        stepper: about.stepper,
+        rtol: 1e-9,
+        tolerance_ratio: 1e3,
+        look: about.look,
+        budget: 200.0 * about.look,
+        size: about.size,
+        display: Display { sample: about.look / 4000.0, speed: about.look / 25.0, plane },
+        weight: |_| 1.0,
+        resolution: None,
+        inner: Source::Own(Box::leak(Box::new(own))),
+    }
+}
+
+/// Digits that change with the equations: a hash of the bits of the field and the velocity at a few states, for the default parameters and for others. A result
+/// states them, so that it is not continued with other equations of the same name.
+fn fingerprint(
+    specs: &[ParameterSpec],
+    defaults: &[f64],
+    make: &impl Fn(&[f64]) -> Result<Box<dyn Model>, Error>,
+) -> String {
+    let other = |spec: &ParameterSpec| {
+        let value = spec.range.0 + 0.618 * (spec.range.1 - spec.range.0);
+        if spec.whole { spec.default } else { value }
+    };
+    let others: Vec<f64> = specs.iter().map(other).collect();
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a
+    let mut add = |value: f64| {
+        for byte in value.to_bits().to_le_bytes() {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    };
+    for values in [defaults, &others] {
+        let Ok(body) = make(values) else { continue };
+        let mut rate = vec![0.0; body.dim()];
+        for k in 1..=3 {
+            let state: Vec<f64> = (1..=body.dim()).map(|i| 0.3 * f64::from(k) / i as f64 - 0.2).collect();
+            VectorField::<f64>::eval(body.as_ref(), 0.0, &state, &mut rate);
+            let velocity = Shape::<f64>::velocity(body.as_ref(), &state);
+            rate.iter().chain(&velocity).copied().for_each(&mut add);
+        }
+    }
+    format!("{hash:016x}")
+}
