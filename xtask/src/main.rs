@@ -10,6 +10,7 @@ mod harness;
 mod mutants;
 mod parts;
 mod python;
+mod validate;
 mod web;
 
 use anyhow::{Context, Result, bail};
@@ -40,6 +41,7 @@ usage: cargo xtask COMMAND
            (needs qemu-user)
   build-cost [--runs N] [--write]: a build from an empty cargo folder to the first picture, beside `cargo install ripgrep`, compared
            with budgets.toml; --write renews the table in CONTRIBUTING.md. Needs a quiet machine: six minutes for each run
+  validate [--list] [RUN..]: the science runs of minutes to hours, of which every push has a sample; each writes its result to validation/
   mutants  [K/N] [OPTION..]: changes the mathematics in small ways, every N-th possible one from the K-th (0/100), and asks
            the tests to notice; see docs/records/mutants.md (needs `cargo install --locked cargo-mutants`)
   deny     licences, advisories and sources of the dependencies (needs `cargo install --locked cargo-deny`)";
@@ -87,6 +89,7 @@ fn run() -> Result<()> {
         Some("dist") => dist::run(),
         Some("emulated") => emulated::run(),
         Some("build-cost") => build_cost::run(&std::env::args().skip(2).collect::<Vec<_>>()),
+        Some("validate") => validate::run(&std::env::args().skip(2).collect::<Vec<_>>()),
         Some("deny") => cargo("dependencies", &["deny", "check"]),
         Some(name) => harness::run(name, &std::env::args().skip(2).collect::<Vec<_>>()).unwrap_or_else(help),
         None => help(),
