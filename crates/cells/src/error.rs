@@ -12,7 +12,7 @@ pub enum Error {
     #[error(transparent)]
     Inference(motiform_inference::Error),
     /// A folder without fits to continue.
-    #[error("{} contains no fits to continue: {reason}; give a folder written by `motiform fit`, or begin without --resume", .path.display())]
+    #[error("{} contains no fits to continue: {reason}", .path.display())]
     NoFits {
         /// The folder.
         path: PathBuf,
@@ -20,7 +20,7 @@ pub enum Error {
         reason: String,
     },
     /// A folder with fits of other cells or with other settings.
-    #[error("{} contains other fits than those requested ({differences}); choose another --out, or --force to replace it", .path.display())]
+    #[error("{} contains other fits than those requested ({differences})", .path.display())]
     OtherFits {
         /// The folder.
         path: PathBuf,

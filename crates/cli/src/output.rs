@@ -1,10 +1,9 @@
 //! Output for the user, and the exit code.
 
-use crate::remedy::{in_place, remedy};
+use crate::remedy;
 use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
 use motiform_figures::Label;
-use motiform_store::Error as StoreError;
 use motiform_study::Error;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -95,11 +94,7 @@ impl std::error::Error for StdoutFailed {}
 /// there and only a figure cannot be drawn; 130 if it was a stop.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     // Standard error is the last resort: nothing is left to say if it fails too.
-    let remedy = match error.downcast_ref::<StoreError>() {
-        Some(error) => in_place(error),
-        None => error.downcast_ref().and_then(remedy),
-    };
-    let remedy = remedy.unwrap_or_default();
+    let remedy = remedy::end(error);
     let _ = writeln!(io::stderr(), "error: {error:#}{remedy}");
     match error.downcast_ref() {
         Some(Error::Interrupted) => End::Interrupted.into(),

@@ -1,10 +1,39 @@
 //! What to type after an error: the library speaks of values, the command line of its options.
 
+use motiform_cells::Error as CellError;
 use motiform_store::Error as StoreError;
 use motiform_study::Error;
+use motiform_tracks::Error as TrackError;
 
-/// The options that mend an error, where there are some: the end of its sentence.
-pub(crate) fn remedy(error: &Error) -> Option<&'static str> {
+/// The options that mend an error of any kind, where there are some: the end of its sentence.
+pub(crate) fn end(error: &anyhow::Error) -> String {
+    let known = error.downcast_ref().and_then(remedy);
+    let known = known.or_else(|| error.downcast_ref().and_then(in_place)).map(str::to_owned);
+    let of_tracks = || error.downcast_ref().and_then(of_tracks);
+    known.or_else(of_tracks).or_else(|| error.downcast_ref().and_then(of_cells)).unwrap_or_default()
+}
+
+fn of_cells(error: &CellError) -> Option<String> {
+    match error {
+        CellError::Tracks(error) => of_tracks(error),
+        CellError::Study(error) => remedy(error).map(str::to_owned),
+        CellError::NoFits { .. } => {
+            Some("; give a folder written by `motiform fit`, or begin without --resume".to_owned())
+        }
+        CellError::OtherFits { .. } => Some("; choose another --out, or --force to replace it".to_owned()),
+        CellError::Inference(_) => None,
+    }
+}
+
+fn of_tracks(error: &TrackError) -> Option<String> {
+    match error {
+        TrackError::Column { wanted, .. } => Some(format!(": --column {wanted}=HEADER")),
+        _ => None,
+    }
+}
+
+/// The options that mend an error of a study or a plan.
+fn remedy(error: &Error) -> Option<&'static str> {
     Some(match error {
         Error::NoAxis { .. } => "; give --axis NAME=LOW:HIGH:COUNT, or axes in [scan]",
         Error::NoAlong => ": --along NAME=LOW:HIGH, or along in [continue]",
@@ -20,7 +49,7 @@ pub(crate) fn remedy(error: &Error) -> Option<&'static str> {
 }
 
 /// The options that mend an error of the place of a result.
-pub(crate) fn in_place(error: &StoreError) -> Option<&'static str> {
+fn in_place(error: &StoreError) -> Option<&'static str> {
     Some(match error {
         StoreError::Resumable { .. } => {
             "; --resume continues it, --force replaces it; or choose another --out"

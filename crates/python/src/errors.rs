@@ -60,13 +60,22 @@ pub(crate) fn of_cells(error: motiform_cells::Error) -> PyErr {
     match error {
         CellError::Study(error) => python(error),
         CellError::Tracks(error) => of_tracks(error),
-        other => PyValueError::new_err(other.to_string()),
+        CellError::NoFits { .. } => {
+            PyValueError::new_err(format!("{error}; give a folder of fits, or begin without resume=True"))
+        }
+        CellError::OtherFits { .. } => {
+            PyValueError::new_err(format!("{error}; choose another one, or overwrite=True to replace it"))
+        }
+        CellError::Inference(error) => PyValueError::new_err(error.to_string()),
     }
 }
 
 /// As [`python()`], for errors of files with outlines.
 pub(crate) fn of_tracks(error: motiform_tracks::Error) -> PyErr {
-    let text = error.to_string();
+    let text = match &error {
+        motiform_tracks::Error::Column { wanted, .. } => format!("{error}: columns={{'{wanted}': HEADER}}"),
+        _ => error.to_string(),
+    };
     match error {
         motiform_tracks::Error::Io { reason, .. } if reason.kind() == std::io::ErrorKind::NotFound => {
             PyFileNotFoundError::new_err(text)

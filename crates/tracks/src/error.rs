@@ -59,7 +59,7 @@ pub enum Error {
         missing: String,
     },
     /// A column is not there, or several could be meant.
-    #[error("{}: {found} for {wanted} among the columns {}; name it: --column {wanted}=HEADER, in Python columns={{'{wanted}': HEADER}}", .file.display(), .known.join(", "))]
+    #[error("{}: {found} for {wanted} among the columns {}; name it", .file.display(), .known.join(", "))]
     Column {
         /// The file.
         file: PathBuf,

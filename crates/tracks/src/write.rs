@@ -36,7 +36,7 @@ pub fn write_amoepy(tracks: &Tracks, cell: &Cell, path: &Path) -> Result<()> {
     let units = (tracks.length_unit.as_str(), tracks.time_unit.as_str());
     if units != ("um", "s") {
         let reason = format!(
-            "lengths are in {}, times in {}; it needs um and s: give pixel size and interval when they are read (--pixel-size and --interval, in Python pixel_size and interval)",
+            "lengths are in {}, times in {}; it needs um and s: give pixel size and interval when they are read",
             units.0, units.1
         );
         return Err(Error::Unwritable { format: Format::AmoePy, reason });
