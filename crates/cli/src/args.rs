@@ -12,6 +12,7 @@ mod lifetimes;
 mod motions;
 mod renamed;
 mod scan;
+mod settings;
 mod statistics;
 mod subject;
 mod tools;
@@ -34,6 +35,7 @@ use motiform_study::Random;
 pub(crate) use motions::{ContinueOptions, Crossing, EquilibriaOptions, Observable, SectionOptions};
 pub(crate) use renamed::old_names;
 pub(crate) use scan::{MergeOptions, ScanOptions};
+pub(crate) use settings::{Method, Recording, RunOptions, Span};
 pub(crate) use statistics::StatisticsOptions;
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, ParameterOptions, SamplesOptions, SubjectOptions};
@@ -140,24 +142,8 @@ pub(crate) struct SimulateOptions {
     pub(crate) subject: SubjectOptions,
     #[command(flatten)]
     pub(crate) method: MethodOptions,
-    /// Model time to record
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) t_end: Option<f64>,
-    /// Model time to integrate before recording
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) transient: Option<f64>,
-    /// Model time between recorded states (default: t-end / 2000)
-    #[arg(long, value_name = "D", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) dt_out: Option<f64>,
-    /// Amplitude of additive white noise on the shape, and on the velocity if it is an unknown: see below
-    #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) noise: Option<f64>,
-    /// Amplitude of the noise on the velocity, instead of that of --noise (tensor)
-    #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) noise_velocity: Option<f64>,
-    /// Maximum number of steps
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) max_steps: Option<u64>,
+    #[command(flatten)]
+    pub(crate) run: RunOptions<Recording>,
     /// Output folder (default: MODEL-PRESET in the current folder), or a single table if it ends in .parquet or .csv
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -6,7 +6,8 @@ use motiform_dynamics::steppers::Method;
 use motiform_figures::regime_mark;
 use motiform_models::{MODELS, ModelInfo};
 use motiform_study::presets::{PRESETS, find};
-use motiform_study::{Error, Study, dataset};
+use motiform_study::study::RunSettings;
+use motiform_study::{Error, Key, Study, dataset};
 use serde_json::{Value, json};
 
 /// The registry.
@@ -22,6 +23,7 @@ pub fn registry() -> Result<Value, Error> {
         "models": MODELS.iter().map(entry).collect::<Result<Vec<_>, _>>()?,
         "presets": PRESETS.iter().map(|preset| self::preset(preset.model, preset.name)).collect::<Result<Vec<_>, _>>()?,
         "steppers": Method::names(),
+        "run_settings": RunSettings::keys().iter().map(Key::name).collect::<Vec<_>>(),
         "regimes": Regime::ALL.map(regime),
         "attractors": Attractor::ALL.map(Attractor::name),
         "courses": Course::ALL.map(Course::name),

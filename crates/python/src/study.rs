@@ -5,7 +5,7 @@ use motiform_dynamics::model::Coordinate;
 use motiform_models::ModelInfo;
 use motiform_study::study::RunSettings;
 use motiform_study::{Error, Random, presets};
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyType};
 use std::collections::BTreeMap;
@@ -191,34 +191,24 @@ fn random(value: &Bound<'_, PyAny>) -> PyResult<Random> {
 
 /// Sets one setting of a study.
 fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
-    let run: &mut RunSettings = &mut study.run;
     match name {
-        "seed" => run.seed = whole(name, value)?,
-        "noise" => run.noise = number(name, value)?,
-        "noise_velocity" => run.noise_velocity = Some(number(name, value)?),
         "random" => study.random = Some(random(value)?),
         "perturb" => study.perturb = number(name, value)?,
-        _ if set_run(run, name, value)? => {}
+        _ if set_run(&mut study.run, name, value)? => {}
         _ => return Err(PyTypeError::new_err(format!("unknown setting {name:?}"))),
     }
     Ok(())
 }
 
-/// Sets one setting that belongs to any orbit; `false` if this is none of them.
+/// Sets one run setting; `false` if this is none of them.
 pub(crate) fn set_run(run: &mut RunSettings, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
-    match name {
-        "t_end" => run.t_end = number(name, value)?,
-        "transient" => run.transient = number(name, value)?,
-        "dt_out" => run.dt_out = number(name, value)?,
-        "stepper" => run.stepper = value.extract()?,
-        "rtol" => run.rtol = number(name, value)?,
-        "atol" => run.atol = Some(number(name, value)?),
-        "step" => run.step = Some(number(name, value)?),
-        "max_steps" => run.max_steps = whole(name, value)?,
-        "escape_norm" => run.escape_norm = number(name, value)?,
-        _ => return Ok(false),
-    }
-    Ok(true)
+    let Some(key) = RunSettings::keys().iter().find(|key| key.name() == name) else { return Ok(false) };
+    let value = match key.kind().as_str() {
+        "number" => number(name, value)?.into(),
+        "integer" => whole(name, value)?.into(),
+        _ => value.extract::<String>()?.into(),
+    };
+    run.set(name, &value).map_err(|expected| PyValueError::new_err(format!("{name}: give {expected}")))
 }
 
 /// The plan of a study.

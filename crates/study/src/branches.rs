@@ -144,8 +144,7 @@ impl Along {
         if !(from..=to).contains(&value) {
             let name = &self.name;
             return refuse(format!(
-                "the start, {name} = {value}, is outside: give a range that holds it, or start inside with \
-                 --set {name}=VALUE"
+                "the start, {name} = {value}, is outside: give a range that holds it, or a value of {name} inside"
             ));
         }
         Ok(())

@@ -1,18 +1,37 @@
-//! Settings that describe themselves: the JSON schema of a table follows from the struct and its doc comments.
+//! Settings declared once: from the struct and its doc comments follow the JSON schema of a table, its reader, and the options of the command line and of
+//! Python.
 
-use crate::Towards;
-use crate::branches::Along;
-use crate::curves::{CurveKind, Plane};
-use crate::scan::Axis;
-use motiform_analysis::Regime;
+use crate::Error;
+use crate::toml_reader::{self, Table};
 use serde_json::{Map, Value, json};
 
 /// Settings whose keys are the fields of a struct.
-pub(crate) trait Described {
+pub(crate) trait Described: Sized {
     /// One sentence on the table.
     const ABOUT: &'static [&'static str];
     /// Its keys, in order.
     const KEYS: &'static [Key];
+
+    /// Takes the value of a key from a study file.
+    fn take(&mut self, key: &str, value: &toml_reader::Value<'_>) -> Result<(), Error>;
+
+    /// Takes the value of a key as JSON: `None` for a name that is no key, otherwise the type that was expected.
+    fn give(&mut self, key: &str, value: &Value) -> Option<Result<(), &'static str>>;
+
+    /// Reads the keys that are given, each followed by `check`; refuses others.
+    fn read(
+        &mut self,
+        mut table: Table<'_>,
+        check: &dyn Fn(&Self, &str) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        for key in Self::KEYS {
+            if let Some(value) = table.take(key.name) {
+                self.take(key.name, &value)?;
+                check(self, key.name).map_err(|error| value.error(error))?;
+            }
+        }
+        table.finish()
+    }
 
     /// The schema of the table; every key is optional.
     fn schema() -> Value {
@@ -31,67 +50,38 @@ pub(crate) trait Described {
     }
 }
 
-/// A key of a table.
-pub(crate) struct Key {
+/// A key of a table of settings.
+pub struct Key {
     pub(crate) name: &'static str,
-    /// What it means: the lines of the doc comment.
+    /// The lines of the doc comment.
     pub(crate) meaning: &'static [&'static str],
     /// The schema of its value.
     pub(crate) kind: fn() -> Value,
 }
 
+impl Key {
+    /// Its name in study files.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// Its meaning, with its default.
+    #[must_use]
+    pub fn meaning(&self) -> String {
+        joined(self.meaning)
+    }
+
+    /// The type of its value in the words of JSON: `number`, `integer`, `string` or `boolean`.
+    #[must_use]
+    pub fn kind(&self) -> String {
+        (self.kind)()["type"].as_str().unwrap_or_default().to_owned()
+    }
+}
+
 /// The lines of a doc comment as one text.
 fn joined(lines: &[&str]) -> String {
     lines.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ")
-}
-
-/// How a value is written in a study file.
-pub(crate) trait Written {
-    /// The schema of the value.
-    fn kind() -> Value;
-}
-
-impl Written for f64 {
-    fn kind() -> Value {
-        json!({ "type": "number", "format": "double" })
-    }
-}
-
-impl Written for u64 {
-    fn kind() -> Value {
-        json!({ "type": "integer", "format": "uint64", "minimum": 0 })
-    }
-}
-
-impl Written for bool {
-    fn kind() -> Value {
-        json!({ "type": "boolean" })
-    }
-}
-
-/// Types that are written as text.
-macro_rules! texts {
-    ($($type:ty),*) => {$(
-        impl Written for $type {
-            fn kind() -> Value {
-                json!({ "type": "string" })
-            }
-        }
-    )*};
-}
-
-texts!(String, Along, Axis, CurveKind, Plane, Regime, Towards);
-
-impl<T: Written> Written for Option<T> {
-    fn kind() -> Value {
-        T::kind()
-    }
-}
-
-impl<T: Written> Written for Vec<T> {
-    fn kind() -> Value {
-        json!({ "type": "array", "items": T::kind() })
-    }
 }
 
 /// Declares a struct of settings and implements [`Described`] for it. A key whose name is no identifier: `pub field as "key": Type`.
@@ -113,9 +103,23 @@ macro_rules! settings {
                 $($crate::described::Key {
                     name: $crate::described::key!($field $($key)?),
                     meaning: $crate::described::lines!([] $(#[$($meaning)*])*),
-                    kind: <$type as $crate::described::Written>::kind,
+                    kind: <$type as $crate::written::Written>::kind,
                 }),*
             ];
+
+            fn take(&mut self, key: &str, value: &$crate::toml_reader::Value<'_>) -> Result<(), $crate::Error> {
+                $(if key == $crate::described::key!($field $($key)?) {
+                    self.$field = $crate::written::Written::read(value)?;
+                })*
+                Ok(())
+            }
+
+            fn give(&mut self, key: &str, value: &serde_json::Value) -> Option<Result<(), &'static str>> {
+                $(if key == $crate::described::key!($field $($key)?) {
+                    return Some($crate::written::Written::given(value).map(|value| self.$field = value));
+                })*
+                None
+            }
         }
     };
 }

@@ -1,10 +1,9 @@
 //! The settings of branches and curves in a study: the table `[continue]`.
 
 use crate::Error;
-use crate::branches::{Along, BranchSettings, origin};
+use crate::branches::{Along, BranchSettings};
 use crate::curves::{CurveKind, CurveSettings, Plane};
 use crate::described::settings;
-use crate::toml_reader::Table;
 use crate::{Stride, Towards};
 use motiform_analysis::Regime;
 use motiform_models::ModelInfo;
@@ -105,56 +104,15 @@ impl FollowSettings {
         }
     }
 
-    /// Reads the table; what it does not set is left as it is.
-    pub(crate) fn read(&mut self, info: &ModelInfo, mut table: Table<'_>) -> Result<(), Error> {
-        let known = |name: &str| index_of(info.parameters(), info.name, name);
-        if let Some(value) = table.take("along") {
-            let read = |text: String| {
-                let along = Along::parse(&text)?;
-                known(&along.name)?;
-                Ok::<_, Error>(along)
-            };
-            self.along = Some(read(value.text()?).map_err(|error| value.error(error))?);
+    /// Refuses parameters that the model does not have.
+    pub(crate) fn check(&self, info: &ModelInfo, key: &str) -> Result<(), Error> {
+        let known = |name: &str| index_of(info.parameters(), info.name, name).map(|_| ());
+        match key {
+            "along" => self.along.as_ref().map_or(Ok(()), |along| known(&along.name))?,
+            "in" => self.plane.iter().flat_map(|plane| &plane.0).try_for_each(|side| known(&side.0))?,
+            _ => {}
         }
-        if let Some(value) = table.take("from") {
-            self.from = Some(origin(&value.text()?).map_err(|error| value.error(error))?);
-        }
-        if let Some(value) = table.take("curve") {
-            let names = value.text().map(|one| vec![one]).or_else(|_| value.texts())?;
-            let kinds = CurveKind::list(&names.join(","));
-            self.curve = kinds.map_err(|error| value.error(error))?;
-        }
-        if let Some(value) = table.take("in") {
-            let read = |text: String| {
-                let plane = Plane::parse(&text)?;
-                plane.0.iter().try_for_each(|side| known(&side.0).map(|_| ()))?;
-                Ok::<_, Error>(plane)
-            };
-            self.plane = Some(read(value.text()?).map_err(|error| value.error(error))?);
-        }
-        table.whole("points", &mut self.points)?;
-        table.whole("branches", &mut self.branches)?;
-        table.whole("samples", &mut self.samples)?;
-        self.read_stride(&mut table)?;
-        table.finish()
-    }
-
-    /// Reads the keys of the stride.
-    fn read_stride(&mut self, table: &mut Table<'_>) -> Result<(), Error> {
-        let numbers = [
-            ("first_step", &mut self.first_step),
-            ("branch_step", &mut self.branch_step),
-            ("tolerance", &mut self.tolerance),
-        ];
-        for (key, place) in numbers {
-            if let Some(value) = table.take(key) {
-                *place = Some(value.number()?);
-            }
-        }
-        if let Some(value) = table.take("direction") {
-            self.direction = Some(Towards::find(&value.text()?).map_err(|error| value.error(error))?);
-        }
-        table.switch("steady", &mut self.steady)
+        Ok(())
     }
 
     /// The table that reads back as these settings: what differs from the default.

@@ -31,10 +31,12 @@ mod ties;
 pub mod titles;
 mod toml_reader;
 mod units;
+mod written;
 
 pub use branches::BranchPlan;
 pub use curves::CurvePlan;
 pub use dataset::{Dataset, Manifest};
+pub use described::Key;
 pub use ending::Ending;
 pub use error::Error;
 pub use given::Given;

@@ -1,9 +1,8 @@
 //! How to run, as typed.
 
-use crate::Error;
-use crate::described::settings;
-use crate::toml_reader::Table;
+use crate::described::{Described, Key, settings};
 use serde::Serialize;
+use serde_json::Value;
 
 settings! {
     /// How to run.
@@ -47,23 +46,18 @@ impl RunSettings {
         self.noise.max(self.noise_velocity.unwrap_or(0.0))
     }
 
-    /// Reads the keys of `[run]` that are given.
-    pub(crate) fn read(&mut self, mut table: Table<'_>) -> Result<(), Error> {
-        table.number("t_end", &mut self.t_end)?;
-        table.number("transient", &mut self.transient)?;
-        table.number("dt_out", &mut self.dt_out)?;
-        if let Some(stepper) = table.text("stepper")? {
-            self.stepper = stepper;
-        }
-        table.number("rtol", &mut self.rtol)?;
-        optional(&mut table, "atol", &mut self.atol)?;
-        optional(&mut table, "step", &mut self.step)?;
-        table.whole("seed", &mut self.seed)?;
-        table.whole("max_steps", &mut self.max_steps)?;
-        table.number("escape_norm", &mut self.escape_norm)?;
-        table.number("noise", &mut self.noise)?;
-        optional(&mut table, "noise_velocity", &mut self.noise_velocity)?;
-        table.finish()
+    /// Its keys, in order.
+    #[must_use]
+    pub const fn keys() -> &'static [Key] {
+        <Self as Described>::KEYS
+    }
+
+    /// Sets the value of a key, which is a number, a whole number or a text. False for a name that is no key.
+    ///
+    /// # Errors
+    /// A value of another type: what was expected.
+    pub fn set(&mut self, key: &str, value: &Value) -> Result<bool, &'static str> {
+        self.give(key, value).map_or(Ok(false), |set| set.map(|()| true))
     }
 
     /// Removes the noise.
@@ -89,12 +83,4 @@ impl Default for RunSettings {
             noise_velocity: None,
         }
     }
-}
-
-/// A number without a default.
-fn optional(table: &mut Table<'_>, key: &'static str, place: &mut Option<f64>) -> Result<(), Error> {
-    if let Some(value) = table.take(key) {
-        *place = Some(value.number()?);
-    }
-    Ok(())
 }

@@ -4,7 +4,6 @@ use crate::checks::{check_display, check_plane};
 use crate::described::Described;
 use crate::random::Random;
 use crate::run_settings::RunSettings;
-use crate::scan::Axis;
 use crate::study::{DisplaySettings, FigureSettings, FollowSettings, ReturnMapSettings, ScanSettings, Study};
 use crate::toml_reader::{Source, Table, Value};
 use crate::{Error, amplitudes, presets};
@@ -40,21 +39,21 @@ impl Study {
             }
         }
         if let Some(table) = top.table("run")? {
-            study.run.read(table)?;
+            study.run.read(table, &|_, _| Ok(()))?;
         }
         if let Some(table) = top.table("scan")? {
             study.scan = read_scan(&study, table)?;
         }
         if let Some(table) = top.table("continue")? {
             let info = study.info()?;
-            study.follow.read(info, table)?;
+            study.follow.read(table, &|follow, key| follow.check(info, key))?;
         }
         if let Some(table) = top.table("return_map")? {
             let preset = study.return_map.take();
             study.return_map = Some(read_return_map(preset, table)?);
         }
         if let Some(table) = top.table("figure")? {
-            read_figure(&mut study.figure, table)?;
+            study.figure.read(table, &|_, _| Ok(()))?;
         }
         if let Some(table) = top.table("display")? {
             study.display = read_display(&study, table)?;
@@ -170,69 +169,37 @@ fn read_random(value: &Value<'_>) -> Result<Random, Error> {
     Random::parse(&text).map_err(|error| value.error(error))
 }
 
-fn read_scan(study: &Study, mut table: Table<'_>) -> Result<ScanSettings, Error> {
-    let (info, mut scan) = (study.info()?, study.scan.clone());
-    if let Some(value) = table.take("axes") {
-        let values = study.values()?;
-        scan.axes = read_axes(&value, |axis| axis.varies_start(info, &values).map(|_| ()))?;
-    }
-    table.whole("samples", &mut scan.samples)?;
-    table.number("budget", &mut scan.budget)?;
-    table.finish()?;
+fn read_scan(study: &Study, table: Table<'_>) -> Result<ScanSettings, Error> {
+    let (info, values, mut scan) = (study.info()?, study.values()?, study.scan.clone());
+    let check = |scan: &ScanSettings, key: &str| match key {
+        "axes" => scan.axes.iter().try_for_each(|axis| axis.varies_start(info, &values).map(|_| ())),
+        _ => Ok(()),
+    };
+    scan.read(table, &check)?;
     Ok(scan)
 }
 
-/// Axes with names that are right.
-fn read_axes(value: &Value<'_>, check: impl Fn(&Axis) -> Result<(), Error>) -> Result<Vec<Axis>, Error> {
-    let axis = |text: &String| {
-        let axis = Axis::parse(text)?;
-        check(&axis)?;
-        Ok(axis)
+fn read_display(study: &Study, table: Table<'_>) -> Result<DisplaySettings, Error> {
+    let (info, mut display) = (study.info()?, study.display.clone());
+    let check = |display: &DisplaySettings, key: &str| {
+        if key == "plane" {
+            for axis in &display.plane {
+                motiform_models::parameters::index_of(info.parameters(), info.name, &axis.name)?;
+            }
+            check_plane(info, &display.plane)?;
+        }
+        Ok(())
     };
-    value.texts()?.iter().map(axis).collect::<Result<_, Error>>().map_err(|error| value.error(error))
-}
-
-fn read_display(study: &Study, mut table: Table<'_>) -> Result<DisplaySettings, Error> {
-    let mut display = study.display.clone();
-    table.number("sample", &mut display.sample)?;
-    table.number("speed", &mut display.speed)?;
-    if let Some(value) = table.take("plane") {
-        let info = study.info()?;
-        let parameter = |axis: &Axis| {
-            motiform_models::parameters::index_of(info.parameters(), info.name, &axis.name)?;
-            Ok(())
-        };
-        display.plane = read_axes(&value, parameter)?;
-        check_plane(info, &display.plane).map_err(|error| value.error(error))?;
-    }
-    table.finish()?;
+    display.read(table, &check)?;
     check_display(&display)?;
     Ok(display)
 }
 
-fn read_return_map(
-    preset: Option<ReturnMapSettings>,
-    mut table: Table<'_>,
-) -> Result<ReturnMapSettings, Error> {
+fn read_return_map(preset: Option<ReturnMapSettings>, table: Table<'_>) -> Result<ReturnMapSettings, Error> {
     let whole_line = ReturnMapSettings { y: 0.0, x_min: -1e300, x_max: 1e300, centre: false };
     let mut settings = preset.unwrap_or(whole_line);
-    table.number("y", &mut settings.y)?;
-    table.number("x_min", &mut settings.x_min)?;
-    table.number("x_max", &mut settings.x_max)?;
-    table.switch("centre", &mut settings.centre)?;
-    table.finish()?;
+    settings.read(table, &|_, _| Ok(()))?;
     Ok(settings)
-}
-
-fn read_figure(figure: &mut FigureSettings, mut table: Table<'_>) -> Result<(), Error> {
-    table.number("radius", &mut figure.radius)?;
-    table.number("scale", &mut figure.scale)?;
-    table.whole("outlines", &mut figure.outlines)?;
-    table.number("from", &mut figure.from)?;
-    table.number("to", &mut figure.to)?;
-    table.switch("animation", &mut figure.animation)?;
-    figure.units = table.text("units")?.unwrap_or_default();
-    table.finish()
 }
 
 /// The JSON schema of study files.

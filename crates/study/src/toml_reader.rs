@@ -109,22 +109,6 @@ impl<'i> Table<'i> {
         Ok(())
     }
 
-    /// Takes a whole number of at least 0 into `place`, if it exists.
-    pub(crate) fn whole(&mut self, key: &str, place: &mut u64) -> Result<(), Error> {
-        if let Some(value) = self.take(key) {
-            *place = value.whole()?;
-        }
-        Ok(())
-    }
-
-    /// Takes a switch into `place`, if it exists.
-    pub(crate) fn switch(&mut self, key: &str, place: &mut bool) -> Result<(), Error> {
-        if let Some(value) = self.take(key) {
-            *place = value.switch()?;
-        }
-        Ok(())
-    }
-
     /// Takes a string, if it exists.
     pub(crate) fn text(&mut self, key: &str) -> Result<Option<String>, Error> {
         self.take(key).map(|value| value.text()).transpose()

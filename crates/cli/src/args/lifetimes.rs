@@ -1,6 +1,6 @@
 //! Options of `lifetimes`.
 
-use super::{StyleOptions, SubjectOptions, number, random, whole};
+use super::{Method, RunOptions, StyleOptions, SubjectOptions, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -25,12 +25,8 @@ pub(crate) struct LifetimesOptions {
     /// (default: 0.01 to 1 times the model's typical size)
     #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
     pub(crate) random: Option<Random>,
-    /// Seed of the random initial states
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) seed: Option<u64>,
-    /// Relative tolerance of the integration
-    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) rtol: Option<f64>,
+    #[command(flatten)]
+    pub(crate) run: RunOptions<Method>,
     /// Number of threads (default: all cores); does not affect the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
     pub(crate) threads: Option<u16>,

@@ -1,6 +1,6 @@
 //! The words of `continue`, `equilibria` and `section`: commands about motions that may be unstable.
 
-use super::{MethodOptions, MotionOptions, StyleOptions, SubjectOptions, number, whole};
+use super::{MethodOptions, MotionOptions, RunOptions, Span, StyleOptions, SubjectOptions, number, whole};
 use clap::{Args, ValueEnum};
 use motiform_diagrams::draw::Ordinate;
 use std::path::PathBuf;
@@ -131,12 +131,8 @@ pub(crate) struct SectionOptions {
     /// Which crossings count
     #[arg(long = "crossings", alias = "direction", value_enum, default_value_t = Crossing::Rising)]
     pub(crate) direction: Crossing,
-    /// Model time to record
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) t_end: Option<f64>,
-    /// Model time to run before recording
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) transient: Option<f64>,
+    #[command(flatten)]
+    pub(crate) run: RunOptions<Span>,
 }
 
 /// Which crossings count.

@@ -1,6 +1,6 @@
 //! Options of `scan` and `merge`.
 
-use super::{StyleOptions, SubjectOptions, assignment, number, random, whole};
+use super::{Method, RunOptions, StyleOptions, SubjectOptions, assignment, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -24,9 +24,8 @@ pub(crate) struct ScanOptions {
     /// MIN:MAX is all directions and log-uniform sizes (default for several: 0.01 to 1 times the model's typical size)
     #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
     pub(crate) random: Option<Random>,
-    /// Seed of the random initial states
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) run: RunOptions<Method>,
     /// Replace zeros of a given start by random values within SIZE times its largest value (default: 1e-6), because an
     /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]

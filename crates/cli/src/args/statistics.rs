@@ -1,10 +1,11 @@
 //! Options of `statistics`.
 
-use super::{MethodOptions, ParameterOptions, StyleOptions, number, whole};
+use super::{MethodOptions, ParameterOptions, Recording, RunOptions, StyleOptions, number, whole};
 use clap::Args;
 use std::path::PathBuf;
 
 #[derive(Args)]
+#[command(mut_arg("transient", |transient| transient.help("Model time to leave out: integrated before recording; of datasets, rows before this time")))]
 pub(crate) struct StatisticsOptions {
     /// A model or a preset (`motiform models` lists them), a study file ending in .toml, or folders written by `motiform simulate`, one body each
     #[arg(value_name = "MODEL|STUDY.toml|DATASET", required_unless_present = "preset")]
@@ -19,21 +20,8 @@ pub(crate) struct StatisticsOptions {
     /// Number of bodies to simulate (default: 100): body k has the seed --seed + k, so another random start and other noise
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) bodies: Option<u64>,
-    /// Model time to record of each body
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) t_end: Option<f64>,
-    /// Model time to leave out: integrated before recording; of datasets, rows before this time
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) transient: Option<f64>,
-    /// Model time between samples (default: t-end / 2000)
-    #[arg(long, value_name = "D", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) dt_out: Option<f64>,
-    /// Amplitude of additive white noise on the shape, and on the velocity if it is an unknown: see `motiform simulate --help`
-    #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) noise: Option<f64>,
-    /// Amplitude of the noise on the velocity, instead of that of --noise (tensor)
-    #[arg(long, value_name = "ETA", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) noise_velocity: Option<f64>,
+    #[command(flatten)]
+    pub(crate) run: RunOptions<Recording>,
     /// Radius of a disc for first-passage times (repeatable; default: six, from the displacements)
     #[arg(long = "disc", alias = "radius", value_name = "R", value_parser = number, allow_hyphen_values = true)]
     pub(crate) radius: Vec<f64>,

@@ -1,6 +1,6 @@
 //! Options that several commands share: the subject of the computation, and the method.
 
-use super::{assignment, number, random, tie, whole};
+use super::{Method, RunOptions, assignment, random, tie};
 use clap::Args;
 use motiform_study::Random;
 
@@ -49,20 +49,6 @@ pub(crate) struct MethodOptions {
     /// is all directions and log-uniform sizes (default for --samples: 0.01 to 1 times the model's typical size)
     #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
     pub(crate) random: Option<Random>,
-    /// euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for the stiff cell model ifrk4 (fixed step), etdrk4,
-    /// hochbruck4, krogstad4 (adaptive). Default: dop853 for tensor, krogstad4 for cell
-    #[arg(long, value_name = "NAME")]
-    pub(crate) stepper: Option<String>,
-    /// Fixed step (default: adaptive steppers control their step; the others use 1e-3)
-    #[arg(long, value_name = "H", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) step: Option<f64>,
-    /// Relative tolerance of adaptive steppers: sets the accuracy of the run
-    #[arg(long, value_name = "R", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) rtol: Option<f64>,
-    /// Absolute tolerance of adaptive steppers (default: a thousandth of --rtol for tensor, a tenth for cell)
-    #[arg(long, value_name = "A", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) atol: Option<f64>,
-    /// Seed of the random start, and of noise
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) run: RunOptions<Method>,
 }

@@ -104,8 +104,7 @@ fn plan(options: &LifetimesOptions) -> Result<ScanPlan, Error> {
     study.scan.budget = options.until.unwrap_or(0.0);
     study.initial.clear();
     study.random = Some(options.random.or(study.random).unwrap_or(Random::basins(study.info()?)));
-    study.run.seed = options.seed.unwrap_or(study.run.seed);
-    study.run.rtol = options.rtol.unwrap_or(study.run.rtol);
+    options.run.apply(&mut study.run)?;
     ties(&study, &of_scan(&study))?;
     ScanPlan::new(&study)
 }

@@ -67,7 +67,7 @@ fn study(options: &ScanOptions) -> Result<Study, Error> {
     scan.samples = options.samples.unwrap_or(scan.samples);
     scan.budget = options.budget.unwrap_or(scan.budget);
     study.random = options.random.or(study.random);
-    study.run.seed = options.seed.unwrap_or(study.run.seed);
+    options.run.apply(&mut study.run)?;
     study.perturb = options.perturb.unwrap_or(study.perturb);
     ties(&study, &of_scan(&study))?;
     if let Some(perturbation) = ScanPlan::perturbation(&study)? {

@@ -43,8 +43,7 @@ pub(crate) fn run(options: &SectionOptions) -> anyhow::Result<End> {
 
 fn plan(options: &SectionOptions) -> Result<Plan, Error> {
     let mut study = subject::motion(&options.motion)?;
-    study.run.t_end = options.t_end.unwrap_or(study.run.t_end);
-    study.run.transient = options.transient.unwrap_or(study.run.transient);
+    options.run.apply(&mut study.run)?;
     study.run.dt_out = 0.0; // there are no rows: those of a preset may be too many for this span
     Plan::new(&study)
 }

@@ -65,23 +65,10 @@ const COARSE: f64 = 1e-4;
 fn study(options: &SimulateOptions) -> Result<Study, Error> {
     let mut study = subject::study(&options.subject)?;
     subject::apply(&options.method, &mut study)?;
-    let run = &mut study.run;
-    let numbers = [
-        (options.t_end, &mut run.t_end),
-        (options.transient, &mut run.transient),
-        (options.dt_out, &mut run.dt_out),
-        (options.noise, &mut run.noise),
-    ];
-    for (given, place) in numbers {
-        if let Some(value) = given {
-            *place = value;
-        }
-    }
-    if options.dt_out == Some(0.0) {
+    options.run.apply(&mut study.run)?;
+    if options.run.get("dt_out").is_some_and(|value| value.as_f64() == Some(0.0)) {
         return Err(Error::Setting { key: "dt_out", value: "0".into(), remedy: "give a time above 0" });
     }
-    run.noise_velocity = options.noise_velocity.or(run.noise_velocity);
-    run.max_steps = options.max_steps.unwrap_or(run.max_steps);
     figure::apply(&options.drawing, &mut study.figure);
     remark(&study, &[])?;
     Ok(study)

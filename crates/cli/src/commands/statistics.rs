@@ -67,16 +67,17 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
         ("--preset", options.preset.is_some()),
         ("--set", !options.parameters.set.is_empty()),
         ("--tie", !options.parameters.ties.is_empty()),
-        ("--t-end", options.t_end.is_some()),
-        ("--dt-out", options.dt_out.is_some()),
-        ("--noise", options.noise.is_some() || options.noise_velocity.is_some()),
+        ("--t-end", options.run.get("t_end").is_some()),
+        ("--dt-out", options.run.get("dt_out").is_some()),
+        ("--noise", options.run.get("noise").or(options.run.get("noise_velocity")).is_some()),
         ("--resume", options.resume),
     ];
     if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
         let remedy = "datasets are recorded already: leave it out, or give a model or a study";
         return Err(Error::Setting { key, value: "given".into(), remedy }.into());
     }
-    read(&options.subjects, options.transient.unwrap_or(0.0), &settings(options)).map_err(plain_error)
+    let transient = options.run.get("transient").and_then(serde_json::Value::as_f64).unwrap_or(0.0);
+    read(&options.subjects, transient, &settings(options)).map_err(plain_error)
 }
 
 /// Opens the output before any computing.
@@ -118,20 +119,10 @@ fn study(options: &StatisticsOptions) -> Result<Study, Error> {
     let subject = SubjectOptions { subject, preset, parameters };
     let mut study = subject::study(&subject)?;
     subject::apply(&options.method, &mut study)?;
-    let run = &mut study.run;
-    let numbers = [
-        (options.t_end, &mut run.t_end),
-        (options.transient, &mut run.transient),
-        (options.dt_out, &mut run.dt_out),
-        (options.noise, &mut run.noise),
-    ];
-    for (value, place) in numbers.into_iter().filter_map(|(given, place)| Some((given?, place))) {
-        *place = value;
+    options.run.apply(&mut study.run)?;
+    if options.run.get("t_end").is_some() && options.run.get("dt_out").is_none() {
+        study.run.dt_out = 0.0; // that of a preset is for its own time
     }
-    if options.t_end.is_some() && options.dt_out.is_none() {
-        run.dt_out = 0.0; // that of a preset is for its own time
-    }
-    run.noise_velocity = options.noise_velocity.or(run.noise_velocity);
     remark(&study, &[])?;
     Ok(study)
 }

@@ -53,15 +53,7 @@ pub(crate) fn apply(options: &MethodOptions, study: &mut Study) -> Result<(), Er
         study.set_initial(name, *value)?;
     }
     study.random = options.random.or(study.random);
-    let run = &mut study.run;
-    run.rtol = options.rtol.unwrap_or(run.rtol);
-    run.atol = options.atol.or(run.atol);
-    run.step = options.step.or(run.step);
-    run.seed = options.seed.unwrap_or(run.seed);
-    if let Some(stepper) = &options.stepper {
-        run.stepper.clone_from(stepper);
-    }
-    Ok(())
+    options.run.apply(&mut study.run)
 }
 
 /// The study of a model's name or a study file, or of a preset of any model, with parameters.

@@ -98,6 +98,7 @@ PRESETS: dict[str, Preset] = {
     raw["name"]: Preset(**{**raw, "free": tuple(raw["free"])}) for raw in _RAW["presets"]
 }
 STEPPERS: tuple[str, ...] = tuple(_RAW["steppers"])
+RUN_SETTINGS: tuple[str, ...] = tuple(_RAW["run_settings"])
 REGIMES: tuple[Regime, ...] = tuple(Regime(**raw) for raw in _RAW["regimes"])
 ATTRACTORS: tuple[str, ...] = tuple(_RAW["attractors"])
 COURSES: tuple[str, ...] = tuple(_RAW["courses"])

@@ -7,17 +7,14 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import _motiform
-from ._registry import MODELS, ModelInfo, info_of
+from ._registry import MODELS, RUN_SETTINGS, ModelInfo, info_of
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
 D = TypeVar("D", bound="Described")
 
-_SETTINGS = frozenset({
-    "t_end", "transient", "dt_out", "random", "seed", "noise", "noise_velocity", "stepper", "rtol", "atol", "step", "max_steps",
-    "escape_norm",
-})  # fmt: skip
+_SETTINGS = frozenset({"random", *RUN_SETTINGS})
 
 
 class Described:
