@@ -1,5 +1,6 @@
 //! Development tasks: `cargo xtask test`, `cargo xtask deny`.
 
+mod beside;
 mod book;
 mod browser;
 mod build_cost;
@@ -14,6 +15,7 @@ mod validate;
 mod web;
 
 use anyhow::{Context, Result, bail};
+use beside::Beside;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
@@ -80,7 +82,11 @@ fn run() -> Result<()> {
         Some("quick") => cargo("tests", TESTS),
         Some("explorer") => explorer::test(),
         Some("firefox") => explorer::test_in_firefox(),
-        Some("python") => python::test(),
+        Some("python") => {
+            let done = python::test();
+            parts::print();
+            done
+        }
         Some("web") => web::run(),
         Some("book") => book::build(),
         Some("documents") => book::documents(),
@@ -98,8 +104,11 @@ fn run() -> Result<()> {
 
 fn everything() -> Result<()> {
     STEPS.iter().try_for_each(|(name, arguments)| cargo(name, arguments))?;
-    explorer::test_built()?; // the tests have built the program
-    python::test()?;
+    // Browsers wait for most of their time.
+    let python = Beside::begin("python")?;
+    let page = explorer::test_built(); // the tests have built the program
+    python.end()?;
+    page?;
     book::build() // in the environment of the Python tests
 }
 

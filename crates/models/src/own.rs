@@ -118,9 +118,9 @@ pub(crate) fn find(name: &str) -> Option<&'static ModelInfo> {
     all.iter().copied().find(|info| info.name == name)
 }
 
-/// The names that were registered.
-pub(crate) fn names() -> Vec<&'static str> {
-    ALL.lock().unwrap_or_else(PoisonError::into_inner).iter().map(|info| info.name).collect()
+/// What was registered.
+pub(crate) fn all() -> Vec<&'static ModelInfo> {
+    ALL.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
 fn info(about: &About, own: Own) -> ModelInfo {

@@ -158,14 +158,18 @@ impl ModelInfo {
         }
         let built_in = MODELS.iter().find(|model| model.name == name);
         built_in.or_else(|| own::find(name)).ok_or_else(|| {
-            let known: Vec<&'static str> =
-                MODELS.iter().map(|model| model.name).chain(own::names()).collect();
+            let known: Vec<&'static str> = Self::all().map(|model| model.name).collect();
             Error::UnknownModel {
                 name: name.to_owned(),
                 nearest: nearest(name, known.iter().copied()),
                 known,
             }
         })
+    }
+
+    /// The models that are built in, then those of one's own ([`register`](crate::register)).
+    pub fn all() -> impl Iterator<Item = &'static Self> {
+        MODELS.iter().chain(own::all())
     }
 
     /// The absolute tolerance for a relative one, if none is given: `rtol / tolerance_ratio`. Thus `rtol` alone sets the accuracy

@@ -82,7 +82,7 @@ fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
         return read_amplitudes(preset.as_ref(), value);
     }
     let mut found = None;
-    for info in MODELS {
+    for info in ModelInfo::all() {
         if let Some(table) = models.table(info.name)? {
             found = Some((info, table));
         }
@@ -133,7 +133,7 @@ fn read_amplitudes(preset: Option<&Value<'_>>, value: Value<'_>) -> Result<Study
 }
 
 fn names() -> Vec<&'static str> {
-    MODELS.iter().map(|info| info.name).chain([NAME]).collect()
+    ModelInfo::all().map(|info| info.name).chain([NAME]).collect()
 }
 
 fn from_preset(value: &Value<'_>, info: Option<&'static ModelInfo>) -> Result<Study, Error> {

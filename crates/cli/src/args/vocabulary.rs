@@ -29,6 +29,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("draws", "models drawn from the estimate"),
     ("dt-out", "model time between recorded states"),
     ("equations", "write equations as text"),
+    ("escape-norm", "a shape of a larger norm has escaped"),
     ("film", "also write the animation in this format"),
     ("first-step", "first step along a branch or curve"),
     ("force", "replace an earlier result; what motiform did not write stays"),

@@ -46,6 +46,15 @@ fn its_motions_are_named() {
     }
 }
 
+/// Its studies are files, as those of other models are.
+#[test]
+fn its_studies_are_files() {
+    let text = study(0.3).to_toml().unwrap();
+    assert!(text.contains("[model.memory]"), "{text}");
+    let read = Study::parse(&text, "memory.toml", "memory").unwrap();
+    assert_eq!(Plan::new(&read).unwrap().hash(), Plan::new(&study(0.3)).unwrap().hash());
+}
+
 /// On the circle: 0 along the orbit (its heading), and none above.
 #[test]
 fn its_exponents_are_computed() {
