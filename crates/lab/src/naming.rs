@@ -56,7 +56,7 @@ fn unstable_at(model: &dyn Model, shape: &[f64], size: f64) -> Option<(Regime, f
 
 /// The plan of a run with its end as the start; `None` for a run that did not complete, or is under noise.
 fn from_its_end(manifest: &Manifest) -> Option<Plan> {
-    let complete = matches!(*manifest.outcome, Outcome::Completed { .. });
+    let complete = matches!(manifest.outcome.outcome, Outcome::Completed { .. });
     let mut plan = manifest.plan.clone();
     for (entry, state) in plan.computation.initial.0.iter_mut().zip(&manifest.state.0) {
         entry.1 = state.1;

@@ -327,6 +327,6 @@ mod tests {
         let short = plan("tensor", "fig5a", |study| (study.run.transient, study.run.t_end) = (0.0, 4.0));
         let mut rows = Failing(columns(&short).unwrap(), 100);
         let run = simulate_into(&short, &mut rows, &()).unwrap();
-        assert!(matches!(*run.manifest.outcome, Outcome::Completed { .. }));
+        assert!(matches!(run.manifest.outcome.outcome, Outcome::Completed { .. }));
     }
 }

@@ -145,7 +145,7 @@ impl Simulation<'_> {
     fn before(&self, ending: Ending, record: &mut dyn Record) -> Result<(), Error> {
         let c = self.computation;
         let lasted = ending.t_last();
-        if c.noise.is_some() || matches!(*ending, Outcome::Interrupted { .. }) || lasted == 0.0 {
+        if c.noise.is_some() || matches!(ending.outcome, Outcome::Interrupted { .. }) || lasted == 0.0 {
             return Ok(());
         }
         let from = (lasted - c.t_end).max(0.0);

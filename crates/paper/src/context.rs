@@ -71,7 +71,7 @@ impl Context<'_> {
         let plan = Plan::new(study)?;
         let run = || {
             let dataset = simulate(&plan, &StopOnly(self.watch))?;
-            match *dataset.manifest.outcome {
+            match dataset.manifest.outcome.outcome {
                 Outcome::Interrupted { .. } => Err(Error::Interrupted),
                 _ => Ok(dataset),
             }

@@ -2,7 +2,6 @@
 
 use motiform_dynamics::Outcome;
 use serde::{Deserialize, Serialize};
-use std::ops::Deref;
 
 /// The outcome of a run, with a note if it ended during its transient. Times are model times since the start of
 /// the recording or, for a run that ended during the transient, since the start of the transient. They are never negative.
@@ -31,19 +30,23 @@ impl Ending {
     pub fn of_transient(outcome: Outcome, length: f64) -> Self {
         Self { outcome: outcome.later(length), during: Some(Part::Transient) }
     }
+
+    /// Whether the run came to its end.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.outcome.is_complete()
+    }
+
+    /// The time at which it ended.
+    #[must_use]
+    pub fn t_last(&self) -> f64 {
+        self.outcome.t_last()
+    }
 }
 
 impl From<Outcome> for Ending {
     fn from(outcome: Outcome) -> Self {
         Self { outcome, during: None }
-    }
-}
-
-impl Deref for Ending {
-    type Target = Outcome;
-
-    fn deref(&self) -> &Outcome {
-        &self.outcome
     }
 }
 

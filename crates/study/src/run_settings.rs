@@ -8,27 +8,27 @@ settings! {
     /// How to run.
     #[derive(Clone, Debug, PartialEq, Serialize)]
     pub struct RunSettings {
-        /// Recorded time (model time), above 0.
+        /// Recorded time (model time), above 0; by default 200.
         pub t_end: f64,
         /// Time before the recording starts; the position is reset to the start after it.
         pub transient: f64,
-        /// Time between recorded states; 0 chooses t_end / 2000.
+        /// Time between recorded states; 0, the default, chooses `t_end` / 2000.
         pub dt_out: f64,
         /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for stiff models ifrk4 (fixed step),
-        /// etdrk4, hochbruck4, krogstad4 (adaptive).
+        /// etdrk4, hochbruck4, krogstad4 (adaptive). By default dop853 for tensor, krogstad4 for cell.
         pub stepper: String,
-        /// Relative tolerance of adaptive steppers, 1e-14 to 0.1: sets the accuracy of the run.
+        /// Relative tolerance of adaptive steppers, 1e-14 to 0.1: sets the accuracy of the run. By default 1e-9 for tensor, 1e-6 for cell.
         pub rtol: f64,
         /// Absolute tolerance of adaptive steppers. By default a thousandth of `rtol` for tensor, a tenth for cell.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub atol: Option<f64>,
         /// Fixed step. By default adaptive steppers control their step, and the others use 1e-3.
         pub step: Option<f64>,
-        /// Seed of all random numbers.
+        /// Seed of all random numbers: of the random start, and of noise.
         pub seed: u64,
-        /// Maximum number of steps of a run.
+        /// Maximum number of steps of a run; by default 1e8.
         pub max_steps: u64,
-        /// A shape whose norm exceeds this has escaped.
+        /// A shape whose norm exceeds this has escaped; by default 1e6.
         pub escape_norm: f64,
         /// Amplitude eta of additive white noise (0 for none): du = f(u) dt + eta dW for every coordinate u of the shape (s11, s12,
         /// u111, u222; c1, s1, c2, ...), and for v1, v2 unless `noise_velocity` is given. Unit of u per square root of model time.

@@ -38,7 +38,7 @@ pub(crate) fn run(options: &SectionOptions) -> anyhow::Result<End> {
     if !ending.is_complete() {
         warn(&format!("the run {ending}"));
     }
-    Ok(End::from(&*ending))
+    Ok(End::from(&ending.outcome))
 }
 
 fn plan(options: &SectionOptions) -> Result<Plan, Error> {

@@ -55,7 +55,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     if let Some(error) = undrawn {
         return Err(error);
     }
-    Ok(End::from(&*run.manifest.outcome))
+    Ok(End::from(&run.manifest.outcome.outcome))
 }
 
 /// A fixed step whose error is a larger fraction of the state than this gives a warning.

@@ -24,7 +24,7 @@ pub fn start(plan: &Plan, model: &dyn Model) -> Vec<f64> {
 /// Input that only the numerics can reject.
 pub fn settled(plan: &Plan, model: &dyn Model, within: Duration) -> Result<Vec<f64>, Error> {
     let (ended, state) = after_transient(plan, model, &Patience { begun: Moment::now(), within })?;
-    let usable = ended.is_none_or(|ending| matches!(*ending, Outcome::Interrupted { .. }));
+    let usable = ended.is_none_or(|ending| matches!(ending.outcome, Outcome::Interrupted { .. }));
     Ok(if usable { state } else { start(plan, model) })
 }
 

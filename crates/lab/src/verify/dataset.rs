@@ -41,7 +41,7 @@ pub fn verify_dataset(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Opt
             return Ok(None);
         }
         let mut found = judged(rows, is_whole(&there), most, &enough)?;
-        if !matches!(*again.manifest.outcome, Outcome::Interrupted { .. }) {
+        if !matches!(again.manifest.outcome.outcome, Outcome::Interrupted { .. }) {
             crossings(&there, again.crossings.as_ref(), &mut found.different);
         }
         Ok(Some(found))
@@ -50,7 +50,7 @@ pub fn verify_dataset(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Opt
 
 /// Whether nobody interrupted it: what an interrupted run has is compared, and what it lacks is no difference.
 fn is_whole(dataset: &Dataset) -> bool {
-    !matches!(*dataset.manifest.outcome, Outcome::Interrupted { .. })
+    !matches!(dataset.manifest.outcome.outcome, Outcome::Interrupted { .. })
 }
 
 /// What was found, with the number of rows of a run that was not interrupted.

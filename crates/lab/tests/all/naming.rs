@@ -80,9 +80,12 @@ fn doomed(transient: f64) -> Study {
 fn a_blow_up_in_the_transient_has_a_positive_time_and_a_picture() {
     let (at_once, early) = (run(&doomed(0.0)), run(&doomed(1000.0)));
     let (expected, outcome) = (at_once.manifest.outcome, early.manifest.outcome);
-    assert!(expected.during.is_none() && matches!(*outcome, Outcome::Escaped { singular: true, .. }));
+    assert!(expected.during.is_none() && matches!(outcome.outcome, Outcome::Escaped { singular: true, .. }));
     // the shape's own run, without a position in its error norm: times agree to what tolerance 1e-9 leaves
-    assert!((outcome.t() - expected.t()).abs() < 1e-6 && outcome.t() > 0.0, "{outcome} {expected}");
+    assert!(
+        (outcome.outcome.t() - expected.outcome.t()).abs() < 1e-6 && outcome.outcome.t() > 0.0,
+        "{outcome} {expected}"
+    );
     assert!(outcome.to_string().ends_with(", during the transient"), "{outcome}");
     let json = serde_json::to_value(&early.manifest).unwrap();
     assert_eq!(
@@ -93,7 +96,10 @@ fn a_blow_up_in_the_transient_has_a_positive_time_and_a_picture() {
     assert_eq!(back, early.manifest);
     assert!(early.manifest.steps > 10);
     let times = column(&early, "t");
-    assert!(times.len() > 20 && times[0] == 0.0 && times[times.len() - 1] <= outcome.t(), "{times:?}");
+    assert!(
+        times.len() > 20 && times[0] == 0.0 && times[times.len() - 1] <= outcome.outcome.t(),
+        "{times:?}"
+    );
     let path = draw::still(&early, "path").unwrap().unwrap();
     assert!(path.contains("did not survive"), "{path}");
 }
@@ -109,7 +115,7 @@ fn the_end_of_a_long_transient_is_shown() {
     });
     let dataset = run(&study);
     let outcome = dataset.manifest.outcome;
-    assert!(!outcome.is_complete() && outcome.during.is_some() && outcome.t() > 20.0, "{outcome}");
+    assert!(!outcome.is_complete() && outcome.during.is_some() && outcome.outcome.t() > 20.0, "{outcome}");
     let times = column(&dataset, "t");
     assert!((times[0] - (outcome.t_last() - 20.0)).abs() < 1e-6, "{} {outcome}", times[0]);
     assert!(times[times.len() - 1] - times[0] > 19.0);

@@ -22,7 +22,7 @@ fn every_preset_plans_says_what_it_is_and_runs() {
             assert!(study.parameters.iter().any(|(name, _)| name == free), "{}: {free}", known.name);
         }
         let dataset = run(&study);
-        assert_eq!(*dataset.manifest.outcome, Outcome::Completed { t: 5.0 }, "{}", known.name);
+        assert_eq!(dataset.manifest.outcome.outcome, Outcome::Completed { t: 5.0 }, "{}", known.name);
         assert_eq!(dataset.trajectory.rows(), 2001, "{}", known.name);
         Plan::new(&preset(known.name, |_| {})).unwrap();
     }

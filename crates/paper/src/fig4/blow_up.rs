@@ -76,7 +76,7 @@ fn start(context: &Context<'_>) -> Result<Option<Study>, Error> {
         study.run.seed = seed;
         (study.run.transient, study.run.t_end, study.run.dt_out) = (0.0, 2000.0, 1.0);
         let dataset = context.simulate(&study)?;
-        let Outcome::Escaped { t, .. } = *dataset.manifest.outcome else { continue };
+        let Outcome::Escaped { t, .. } = dataset.manifest.outcome.outcome else { continue };
         let table = &dataset.trajectory;
         let row = table.get("t").unwrap_or(&[]).partition_point(|time| *time < t - BEFORE);
         if t < 100.0 || row >= table.rows() {
@@ -115,7 +115,7 @@ fn times(context: &Context<'_>, start: &Study, methods: &[(&str, f64)]) -> Resul
             study.run.step = Some(*accuracy);
         }
         let dataset = context.simulate(&study)?;
-        let t = match *dataset.manifest.outcome {
+        let t = match dataset.manifest.outcome.outcome {
             Outcome::Escaped { t, .. } => Some(t),
             _ => None,
         };

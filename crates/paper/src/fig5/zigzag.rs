@@ -68,7 +68,7 @@ fn rightwards(dataset: &Dataset) -> Claim {
         "The domain is travelling from the left to the right.",
         format!(
             "It moves by ({x:.1}, {y:.1}) within the {:.0} time units shown, at {:.0}° to the x axis.",
-            dataset.manifest.outcome.t(),
+            dataset.manifest.outcome.outcome.t(),
             libm::atan2(y, x).to_degrees()
         ),
         "the displacement over the recording, more to the right than sideways by a factor of 2; any direction is a \
