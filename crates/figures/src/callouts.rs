@@ -16,7 +16,7 @@ const GAPS: [f64; 5] = [2.0, 5.0, 10.0, 16.0, 24.0];
 /// How many of the distances are near enough for words.
 const NEAR: usize = 2;
 /// From this distance on a line leads from the point to its number, in pixels.
-const LED: f64 = 8.0;
+const LED: f64 = 4.0;
 
 /// What labels must not hide.
 #[derive(Debug, Clone)]
@@ -105,13 +105,15 @@ impl Callouts {
 
     /// Draws the labels, then the points, so that no label hides one. `corner` is where the frame lies on the sheet.
     pub(crate) fn draw(&self, svg: &mut Svg, [dx, dy]: Point) {
-        for Placed { point: [x, y], words, place, gap } in &self.labels {
-            let place = Rect { x: place.x + dx, y: place.y + dy, ..*place };
-            if *gap > LED {
-                let end = [place.x + 0.5 * place.w, place.y + 0.5 * place.h];
-                svg.line([x + dx, y + dy], end, &Paint::stroke(WHITE, 3.0).opacity(0.85));
-                svg.line([x + dx, y + dy], end, &Paint::stroke(INK, 1.0));
-            }
+        let moved = |place: &Rect| Rect { x: place.x + dx, y: place.y + dy, ..*place };
+        for Placed { point: [x, y], place, .. } in self.labels.iter().filter(|label| label.gap > LED) {
+            let place = moved(place);
+            let line = [[x + dx, y + dy], [place.x + 0.5 * place.w, place.y + 0.5 * place.h]];
+            svg.line(line[0], line[1], &Paint::stroke(WHITE, 3.0).opacity(0.85));
+            svg.line(line[0], line[1], &Paint::stroke(INK, 1.0));
+        }
+        for Placed { words, place, .. } in &self.labels {
+            let place = moved(place);
             svg.rect(place, &Paint::fill(WHITE).opacity(0.85));
             let at = [place.x + 2.0, place.y + 0.5 * place.h + 0.36 * SIZE];
             svg.text(at, SIZE, Anchor::Start, words);

@@ -216,7 +216,7 @@ impl CurveMap {
             }
         }
         if !self.marks.is_empty() {
-            entries.push(Entry::new(Mark::Point(Glyph::Ring, INK, false), "point of codimension two"));
+            entries.push(Entry::new(Mark::Point(Glyph::Ring, INK, false), "codimension two"));
         }
         Ok(entries)
     }

@@ -81,7 +81,9 @@ fn packed_by(entries: Vec<Entry>, width: f64, gap: f64) -> Vec<Entry> {
     let mut rows: Vec<(f64, Vec<Entry>)> = Vec::new();
     for entry in entries {
         let wide = entry.width();
-        match rows.iter_mut().find(|(used, _)| used + gap + wide <= width) {
+        // a key in words stays together, at the end
+        let first = if matches!(entry.mark, Mark::Words) { rows.len().saturating_sub(1) } else { 0 };
+        match rows.iter_mut().skip(first).find(|(used, _)| used + gap + wide <= width) {
             Some((used, row)) => {
                 *used += gap + wide;
                 row.push(entry);
