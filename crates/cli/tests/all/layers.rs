@@ -173,6 +173,7 @@ const LAYERS: [(&str, &[&str]); 27] = [
         "motiform-py",
         &[
             "motiform-analysis",
+            "motiform-atlas",
             "motiform-branching",
             "motiform-cells",
             "motiform-dynamics",
