@@ -1,6 +1,6 @@
 //! Options of `lifetimes`.
 
-use super::{StyleOptions, SubjectOptions, number, random, whole};
+use super::{StyleOptions, SubjectOptions, UnitsOptions, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -45,6 +45,8 @@ pub(crate) struct LifetimesOptions {
     pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
+    #[command(flatten)]
+    pub(crate) units: UnitsOptions,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,6 +1,6 @@
 //! Options of `scan` and `merge`.
 
-use super::{StyleOptions, SubjectOptions, assignment, number, random, whole};
+use super::{StyleOptions, SubjectOptions, UnitsOptions, assignment, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -51,6 +51,8 @@ pub(crate) struct ScanOptions {
     pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
+    #[command(flatten)]
+    pub(crate) units: UnitsOptions,
     /// Do not draw figures
     #[arg(long)]
     pub(crate) no_figures: bool,
