@@ -22,7 +22,7 @@ mod vocabulary;
 pub(crate) use atlas::AtlasOptions;
 pub(crate) use cells::{CellsOptions, FitCellsOptions, ObserveOptions};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-pub(crate) use drawing::{DrawingOptions, FilmFormat, StyleOptions};
+pub(crate) use drawing::{DrawingOptions, FilmFormat, StyleOptions, UnitsOptions};
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
 use help::{

@@ -1,26 +1,23 @@
 //! Curves of bifurcations in a plane of two parameters, over the regimes if these are known.
 
 use super::axes::{AxisKind, Scale};
-use super::beside::beside;
+use super::callouts::{Around, Callouts, taken};
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
 use super::figure::{Csv, figure};
 use super::framed::Framed;
 use super::geometry::{Point, Range, Rect};
 use super::glyph::Glyph;
-use super::legend::{Entry, Mark};
+use super::legend::{Entry, Mark, packed};
 use super::line_style::LineStyle;
 use super::paint::Paint;
 use super::palette::{INK, WHITE};
-use super::phase_diagram::{MapInset, PhaseDiagram};
+use super::phase_diagram::{MapInset, Names, PhaseDiagram};
 use super::room::Room;
-use super::svg::{Anchor, Svg};
-use super::text::Label;
+use super::svg::Svg;
 
 const WIDTH: f64 = 600.0;
 const HEIGHT: f64 = 420.0;
-/// Size of the words beside a mark, in pixels.
-const WORDS: f64 = 11.5;
 
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,6 +71,14 @@ pub struct MapEnd {
     pub at: Point,
 }
 
+/// What is written into the frame of a map, with its places.
+struct Words {
+    names: Option<Names>,
+    callouts: Callouts,
+    /// The ends that are shown.
+    ends: Vec<Point>,
+}
+
 /// Curves of bifurcations in a plane of two parameters, with their points of codimension two.
 ///
 /// # Units   those of the labels; texts are markup (see [`super::Label`])
@@ -124,10 +129,10 @@ impl CurveMap {
         let (x, y) = (range(self.x, 0)?, range(self.y, 1)?);
         let frame = Rect { x: 0.0, y: 0.0, w: WIDTH, h: HEIGHT };
         let scale = Scale { frame, x: x.padded(0.0), y: y.padded(0.0) };
-        let sheet = Framed {
+        let mut sheet = Framed {
             title: &self.title,
             caption: &self.caption,
-            legend: self.legend(room)?,
+            legend: Vec::new(),
             scale,
             kinds: [AxisKind::Linear; 2],
             labels: [&self.x_label, &self.y_label],
@@ -135,10 +140,40 @@ impl CurveMap {
             grid: self.under.is_none(),
             head: 0.0,
         };
-        sheet.svg(|svg, scale| self.draw(svg, scale, room))
+        let (scale, width) = sheet.layout();
+        let words = self.words_in(&scale)?;
+        sheet.legend = packed(self.legend(room, &words)?, width);
+        let key = words.callouts.key.iter().zip(1..);
+        sheet.legend.extend(key.map(|(text, number)| Entry::new(Mark::Words, &format!("{number}: {text}"))));
+        sheet.svg(|svg, scale| self.draw(svg, scale, room, &words))
     }
 
-    fn draw(&self, svg: &mut Svg, scale: &Scale, room: Room) -> Result<()> {
+    /// What is written into the frame: first the labels of points, then the names of regions, none on another, on a point or, if that can be, on a boundary.
+    fn words_in(&self, scale: &Scale) -> Result<Words> {
+        let shown = |at: &Point| {
+            let ([x, y], frame) = (scale.map(*at), scale.frame);
+            (frame.x..=frame.right()).contains(&x) && (frame.y..=frame.bottom()).contains(&y)
+        };
+        let marks: Vec<&MapMark> = self.marks.iter().filter(|mark| shown(&mark.at)).collect();
+        let ends: Vec<Point> = self.ends.iter().map(|end| end.at).filter(shown).collect();
+        let points = marks.iter().map(|mark| mark.at).chain(ends.iter().copied());
+        let lines: Vec<_> =
+            self.curves.iter().filter(|curve| curve.bounds).flat_map(|curve| curve.pieces(scale)).collect();
+        let taken = points.map(|at| taken(scale.map(at))).collect();
+        let mut around = Around { frame: scale.frame, taken, lines: &lines };
+        let labels: Vec<_> = marks.iter().map(|mark| (scale.map(mark.at), mark.label.as_str())).collect();
+        // a label lies beside its point, a name anywhere in its region
+        let callouts = Callouts::new(&labels, &mut around);
+        let names = match &self.under {
+            Some(under) if self.named => {
+                Some(under.names(scale, &self.insets, &|place| around.is_clear(place))?)
+            }
+            _ => None,
+        };
+        Ok(Words { callouts, names, ends })
+    }
+
+    fn draw(&self, svg: &mut Svg, scale: &Scale, room: Room, words: &Words) -> Result<()> {
         if let Some(under) = &self.under {
             under.draw_under(svg, scale, room, self.named)?;
         }
@@ -149,27 +184,20 @@ impl CurveMap {
             curves().filter(|curve| curve.bounds).for_each(|curve| curve.draw_ground(svg, scale));
             curves().for_each(|curve| curve.draw(svg, scale));
         }
-        let inside = |at: Point| {
-            let ([x, y], frame) = (scale.map(at), scale.frame);
-            (frame.x..=frame.right()).contains(&x) && (frame.y..=frame.bottom()).contains(&y)
-        };
-        let mut taken: Vec<Rect> = match &self.under {
-            Some(under) if self.named => under.draw_names(svg, scale, &self.insets)?,
-            _ => Vec::new(),
-        };
-        for end in self.ends.iter().filter(|end| inside(end.at)) {
-            svg.circle(scale.map(end.at), 5.0, &Paint::fill(WHITE).opacity(0.85));
-            Glyph::Cross.draw(svg, scale.map(end.at), 3.6, INK);
+        let corner = [scale.frame.x, scale.frame.y];
+        words.names.iter().for_each(|names| names.draw(svg, corner));
+        for at in &words.ends {
+            svg.circle(scale.map(*at), 5.0, &Paint::fill(WHITE).opacity(0.85));
+            Glyph::Cross.draw(svg, scale.map(*at), 3.6, INK);
         }
-        for mark in self.marks.iter().filter(|mark| inside(mark.at)) {
-            mark.draw(svg, scale, &mut taken);
-        }
+        words.callouts.draw(svg, corner);
         Ok(())
     }
 
-    fn legend(&self, room: Room) -> Result<Vec<Entry>> {
+    fn legend(&self, room: Room, words: &Words) -> Result<Vec<Entry>> {
+        let under = self.under.as_ref();
         let mut entries =
-            self.under.as_ref().map_or(Ok(Vec::new()), |under| under.key_under(room, self.named))?;
+            under.map_or(Ok(Vec::new()), |under| under.key_under(room, words.names.as_ref()))?;
         let mut seen: Vec<&str> = Vec::new();
         for curve in &self.curves {
             if !seen.contains(&curve.label.as_str()) {
@@ -188,7 +216,7 @@ impl CurveMap {
             }
         }
         if !self.marks.is_empty() {
-            entries.push(Entry::new(Mark::Point(Glyph::Ring, INK, false), "point of codimension two"));
+            entries.push(Entry::new(Mark::Point(Glyph::Ring, INK, false), "codimension two"));
         }
         Ok(entries)
     }
@@ -238,19 +266,5 @@ impl MapCurve {
         let paint = self.style.paint();
         let paint = if self.bounds { paint } else { paint.opacity(PALE) };
         self.pieces(scale).iter().for_each(|piece| svg.polyline(piece, false, &paint));
-    }
-}
-
-impl MapMark {
-    /// The mark with its words: to the right and above, or where there is room.
-    fn draw(&self, svg: &mut Svg, scale: &Scale, taken: &mut Vec<Rect>) {
-        let [x, y] = scale.map(self.at);
-        let label = Label::parse(&self.label);
-        let (w, h) = (label.width(WORDS) + 4.0, WORDS + 4.0);
-        let place = beside([x, y], [w, h], 7.0, (scale.frame, taken));
-        svg.rect(place, &Paint::fill(WHITE).opacity(0.85));
-        svg.text([place.x + 2.0, place.y + 0.5 * h + 0.36 * WORDS], WORDS, Anchor::Start, &label);
-        Glyph::Ring.draw(svg, [x, y], 4.2, INK);
-        taken.push(place);
     }
 }

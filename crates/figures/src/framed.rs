@@ -57,6 +57,14 @@ impl Framed<'_> {
         Ok(begun.finish())
     }
 
+    /// The scale of the frame as it will be, its upper left corner at the origin, and the width that the legend has.
+    pub(super) fn layout(&self) -> (Scale, f64) {
+        let axes = self.axes();
+        let Rect { w, .. } = axes.scale.frame;
+        let width = self.room.width().map_or(w, |_| left_of(&axes) - MARGIN + w + RIGHT);
+        (axes.scale, width)
+    }
+
     /// The sheet up to its data: what is the same code for all figures.
     fn begin(self) -> Begun {
         let axes = self.axes();
@@ -67,7 +75,10 @@ impl Framed<'_> {
         let (title, caption) = (Block::title(self.title, inner), Block::caption(self.caption, inner));
         // a narrow sheet has no room to spare above the numbers of the y axis
         let (key_left, key_width) = self.room.width().map_or((left, width), |_| (MARGIN, inner));
-        let legend = Legend::flowed(self.legend, key_width);
+        let legend = match self.room.width() {
+            Some(_) => Legend::narrow(self.legend, key_width),
+            None => Legend::flowed(self.legend, key_width),
+        };
         let key = MARGIN + title.height() + 4.0;
         axes.scale.frame.y = (key + legend.height() + 4.0 + self.head).ceil();
         let foot = axes.scale.frame.bottom() + BELOW + 8.0;

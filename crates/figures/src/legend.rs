@@ -15,6 +15,11 @@ const GAP: f64 = 18.0;
 /// Height of a row, in pixels.
 pub(crate) const ROW: f64 = 19.0;
 
+/// More rows than this are packed more densely on a narrow sheet.
+const MANY: f64 = 3.0;
+/// Gap between entries and height of a row there, in pixels.
+const DENSE: [f64; 2] = [11.0, 16.0];
+
 /// The mark before the label.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Mark {
@@ -40,6 +45,8 @@ pub(crate) enum Mark {
     Stripes(Colour, Colour),
     /// A line on a band of the same colour.
     Band(Colour),
+    /// None: the label says it all.
+    Words,
 }
 
 /// A mark and its label.
@@ -56,8 +63,35 @@ impl Entry {
     }
 
     fn width(&self) -> f64 {
-        MARK + 6.0 + self.label.width(SIZE)
+        self.indent() + self.label.width(SIZE)
     }
+
+    /// Where the label begins.
+    fn indent(&self) -> f64 {
+        if matches!(self.mark, Mark::Words) { 0.0 } else { MARK + 6.0 }
+    }
+}
+
+/// The entries in an order in which they fill fewer rows of a width: each fills up the first row that has room for it.
+pub(crate) fn packed(entries: Vec<Entry>, width: f64) -> Vec<Entry> {
+    packed_by(entries, width, GAP)
+}
+
+fn packed_by(entries: Vec<Entry>, width: f64, gap: f64) -> Vec<Entry> {
+    let mut rows: Vec<(f64, Vec<Entry>)> = Vec::new();
+    for entry in entries {
+        let wide = entry.width();
+        // a key in words stays together, at the end
+        let first = if matches!(entry.mark, Mark::Words) { rows.len().saturating_sub(1) } else { 0 };
+        match rows.iter_mut().skip(first).find(|(used, _)| used + gap + wide <= width) {
+            Some((used, row)) => {
+                *used += gap + wide;
+                row.push(entry);
+            }
+            None => rows.push((wide, vec![entry])),
+        }
+    }
+    rows.into_iter().flat_map(|row| row.1).collect()
 }
 
 /// Entries with their places.
@@ -66,20 +100,36 @@ pub(crate) struct Legend {
     placed: Vec<(Point, Entry)>,
     width: f64,
     height: f64,
+    /// Height of a row.
+    row: f64,
 }
 
 impl Legend {
     /// Flows the entries into rows of at most `width` pixels; one a row if the width is 0.
     pub(crate) fn flowed(entries: Vec<Entry>, width: f64) -> Self {
-        let mut legend = Self { placed: Vec::new(), width: 0.0, height: 0.0 };
+        Self::spaced(entries, width, [GAP, ROW])
+    }
+
+    /// The same on a narrow sheet: entries that fill many rows are packed more densely.
+    pub(crate) fn narrow(entries: Vec<Entry>, width: f64) -> Self {
+        let usual = Self::flowed(entries, width);
+        if usual.height <= MANY * ROW {
+            return usual;
+        }
+        let entries = usual.placed.into_iter().map(|placed| placed.1).collect();
+        Self::spaced(packed_by(entries, width, DENSE[0]), width, DENSE)
+    }
+
+    fn spaced(entries: Vec<Entry>, width: f64, [gap, row]: [f64; 2]) -> Self {
+        let mut legend = Self { placed: Vec::new(), width: 0.0, height: 0.0, row };
         let (mut x, mut y) = (0.0, 0.0);
         for entry in entries {
             if x > 0.0 && x + entry.width() > width {
-                (x, y) = (0.0, y + ROW);
+                (x, y) = (0.0, y + row);
             }
             legend.width = legend.width.max(x + entry.width());
-            legend.height = y + ROW;
-            let next = x + entry.width() + GAP;
+            legend.height = y + row;
+            let next = x + entry.width() + gap;
             legend.placed.push(([x, y], entry));
             x = next;
         }
@@ -99,9 +149,9 @@ impl Legend {
     /// Draws with the top left corner at `at`.
     pub(crate) fn draw(&self, svg: &mut Svg, at: Point) {
         for ([x, y], entry) in &self.placed {
-            let (left, middle) = (at[0] + x, at[1] + y + 0.5 * ROW);
+            let (left, middle) = (at[0] + x, at[1] + y + 0.5 * self.row);
             draw_mark(svg, entry.mark, [left + 0.5 * MARK, middle]);
-            svg.text([left + MARK + 6.0, middle + 0.36 * SIZE], SIZE, Anchor::Start, &entry.label);
+            svg.text([left + entry.indent(), middle + 0.36 * SIZE], SIZE, Anchor::Start, &entry.label);
         }
     }
 }
@@ -109,6 +159,7 @@ impl Legend {
 fn draw_mark(svg: &mut Svg, mark: Mark, [x, y]: Point) {
     let (left, right) = ([x - 0.5 * MARK, y], [x + 0.5 * MARK, y]);
     match mark {
+        Mark::Words => {}
         Mark::Line(paint) => svg.line(left, right, &paint),
         Mark::Arrow(paint, colour) => {
             svg.line(left, [x + 3.0, y], &paint);

@@ -12,6 +12,7 @@ mod bands;
 mod beside;
 mod block;
 mod branches;
+mod callouts;
 mod clip;
 mod colour_bar;
 mod curve_map;

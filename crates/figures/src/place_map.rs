@@ -106,7 +106,7 @@ impl PlaceMap {
     }
 
     fn legend(&self, room: Room) -> Result<Vec<Entry>> {
-        let mut entries = self.under.key_under(room, false)?;
+        let mut entries = self.under.key_under(room, None)?;
         entries.extend(self.under.line_entries());
         entries.push(Entry::new(Mark::Point(Glyph::Diamond, BLACK, false), "the cell"));
         if self.places.iter().any(|place| !place.region.is_empty()) {

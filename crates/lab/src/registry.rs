@@ -27,7 +27,7 @@ pub fn registry() -> Result<Value, Error> {
         "regimes": Regime::ALL.map(regime),
         "attractors": Attractor::ALL.map(Attractor::name),
         "courses": Course::ALL.map(Course::name),
-        "numbers": named(&NUMBERS),
+        "numbers": named(&NUMBERS.map(|(name, meaning, _)| (name, meaning))),
     }))
 }
 

@@ -5,6 +5,7 @@
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
 mod analyse;
+mod atlas;
 mod branches;
 mod cells;
 mod chunks;
@@ -31,6 +32,8 @@ use pyo3::prelude::*;
 mod _motiform {
     #[pymodule_export]
     use super::analyse::{classify, equilibria, lyapunov, motions, section};
+    #[pymodule_export]
+    use super::atlas::{Atlas, make_atlas, read_atlas};
     #[pymodule_export]
     use super::branches::{follow_branches, read_branches};
     #[pymodule_export]

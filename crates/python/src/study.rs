@@ -4,7 +4,7 @@ use crate::errors::{of_keywords, python};
 use motiform_dynamics::model::Coordinate;
 use motiform_models::ModelInfo;
 use motiform_study::study::RunSettings;
-use motiform_study::{Error, Random, presets};
+use motiform_study::{Error, Random, presets, remarks};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyType};
@@ -50,6 +50,12 @@ impl Study {
             study.tie(&name, &formula).map_err(of_keywords)?;
         }
         Ok(Self(study))
+    }
+
+    /// What is allowed and probably not meant, where these parameters are varied: a sentence each.
+    fn remarks(&self, varied: Vec<String>) -> PyResult<Vec<String>> {
+        let varied: Vec<&str> = varied.iter().map(String::as_str).collect();
+        remarks(&self.0, &varied).map_err(python)
     }
 
     /// A copy with other parameters, initial values and run settings.

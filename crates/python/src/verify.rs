@@ -2,7 +2,6 @@
 
 use crate::errors::python;
 use crate::watch::Caller;
-use motiform_diagrams::Verification;
 use motiform_study::Error;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -16,7 +15,7 @@ pub(crate) fn verify(
     all: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let (found, raised) = Caller::beside(py, progress, |watch| Verification::of(&path, all, watch));
+    let (found, raised) = Caller::beside(py, progress, |watch| motiform_diagrams::atlas::verify(&path, all, watch));
     match (found.map_err(python)?, raised) {
         (_, Some(error)) => Err(error),
         (Some(found), None) => Ok(found.json().to_string()),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -103,3 +104,19 @@ def test_results_state_their_accuracy(binary: Path) -> None:
     assert str(found.accuracy) == "dop853, rtol 1e-09, atol 1e-12" and str(found).startswith("λ1 = ")
     assert body.classify().accuracy == found.accuracy
     assert all(verdict.accuracy == found.accuracy for verdict in body.motions(2).verdicts)
+
+
+def test_what_is_probably_not_meant_is_a_warning() -> None:
+    tied = motiform.preset("fig4").tie(b3="d3")
+    says = "the tie b3 = d3 says 0 = 0 everywhere here: d3 is 0 and is not varied"
+    with pytest.warns(motiform.Doubtful, match=says) as caught:
+        tied.classify()
+    assert caught[0].filename == __file__
+    with pytest.warns(motiform.Doubtful, match=says):
+        motiform.scan(tied, {"kappa2": "0.5:0.6:2"}, progress=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        motiform.scan(tied, {"d3": "0.05:0.06:2"}, progress=False)
+        tied.replace(d3=0.05).classify()
+    with pytest.warns(motiform.Doubtful, match="the equations of cell are stiff, and dop853 is an explicit method"):
+        motiform.preset("fig6a").simulate(0.01, stepper="dop853", max_steps=50, transient=0.0)

@@ -4,6 +4,7 @@ use super::{number, whole};
 use clap::{Args, ValueEnum};
 use motiform_figures::{Medium, Style, Width};
 use motiform_lab::draw::FigureFormat;
+use motiform_study::{Error, Shown, Study};
 
 #[derive(Args)]
 pub(crate) struct DrawingOptions {
@@ -25,14 +26,33 @@ pub(crate) struct DrawingOptions {
     /// Draw to this time
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) to: Option<f64>,
-    /// Axes in physical units: what a unit of length and one of time are, such as 20um,1min (docs/units.md)
-    #[arg(long, value_name = "LENGTH,TIME")]
-    pub(crate) units: Option<String>,
+    #[command(flatten)]
+    pub(crate) units: UnitsOptions,
     /// Also write the animation in this format (needs ffmpeg); give it twice for both
     #[arg(long, value_name = "FORMAT", conflicts_with = "no_animation")]
     pub(crate) film: Vec<FilmFormat>,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
+}
+
+/// Units of figures and of what is printed.
+#[derive(Args)]
+pub(crate) struct UnitsOptions {
+    /// Axes and printed results in physical units: what a unit of length and one of time are, such as 20um,1min; parameters, tables and
+    /// JSON keep model units (docs/units.md)
+    #[arg(long = "units", value_name = "LENGTH,TIME")]
+    pub(crate) given: Option<String>,
+}
+
+impl UnitsOptions {
+    /// The units that are given, or those of a study.
+    ///
+    /// # Errors
+    /// Units that cannot be read.
+    pub(crate) fn of(&self, study: Option<&Study>) -> Result<Shown, Error> {
+        let own = study.map_or("", |study| study.figure.units.as_str());
+        Shown::parse(self.given.as_deref().unwrap_or(own))
+    }
 }
 
 /// Options of every command that draws.
@@ -67,7 +87,6 @@ impl DrawingOptions {
             ("--outlines", self.outlines.is_some()),
             ("--from", self.from.is_some()),
             ("--to", self.to.is_some()),
-            ("--units", self.units.is_some()),
             ("--film", !self.film.is_empty()),
         ];
         given.into_iter().find(|(_, given)| *given).map(|(name, _)| name)
@@ -75,15 +94,20 @@ impl DrawingOptions {
 }
 
 impl StyleOptions {
-    /// How the figures become files.
+    /// How the figures become files, in model units.
     pub(crate) fn format(&self) -> FigureFormat {
+        self.format_in(Shown::default())
+    }
+
+    /// How the figures become files, in these units.
+    pub(crate) fn format_in(&self, units: Shown) -> FigureFormat {
         let medium = self.medium.map(|shown| match shown {
             ShownIn::Journal => Medium::Journal,
             ShownIn::Slide => Medium::Slide,
         });
         let style =
             Style { medium, title: self.title.clone(), no_caption: self.no_caption, width: self.width };
-        FigureFormat { pdf: self.pdf, style }
+        FigureFormat { pdf: self.pdf, style, units }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Options of `lifetimes`.
 
-use super::{Method, RunOptions, StyleOptions, SubjectOptions, number, random, whole};
+use super::{Method, RunOptions, StyleOptions, SubjectOptions, UnitsOptions, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -41,6 +41,8 @@ pub(crate) struct LifetimesOptions {
     pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
+    #[command(flatten)]
+    pub(crate) units: UnitsOptions,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

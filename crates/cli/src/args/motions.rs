@@ -1,6 +1,6 @@
 //! The words of `continue`, `equilibria` and `section`: commands about motions that may be unstable.
 
-use super::{MethodOptions, MotionOptions, RunOptions, Span, StyleOptions, SubjectOptions, number, whole};
+use super::{MethodOptions, MotionOptions, RunOptions, Span, StyleOptions, SubjectOptions, UnitsOptions, number, whole};
 use clap::{Args, ValueEnum};
 use motiform_diagrams::draw::Ordinate;
 use std::path::PathBuf;
@@ -79,6 +79,8 @@ pub(crate) struct ContinueOptions {
     pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
+    #[command(flatten)]
+    pub(crate) units: UnitsOptions,
     /// Leave the figures out
     #[arg(long)]
     pub(crate) no_figures: bool,

@@ -1,6 +1,6 @@
 //! Options of `scan` and `merge`.
 
-use super::{Method, RunOptions, StyleOptions, SubjectOptions, assignment, number, random, whole};
+use super::{Method, RunOptions, StyleOptions, SubjectOptions, UnitsOptions, assignment, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -50,6 +50,8 @@ pub(crate) struct ScanOptions {
     pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
+    #[command(flatten)]
+    pub(crate) units: UnitsOptions,
     /// Do not draw figures
     #[arg(long)]
     pub(crate) no_figures: bool,

@@ -1,6 +1,6 @@
 //! Options of `statistics`.
 
-use super::{MethodOptions, ParameterOptions, Recording, RunOptions, StyleOptions, number, whole};
+use super::{MethodOptions, ParameterOptions, Recording, RunOptions, StyleOptions, UnitsOptions, number, whole};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -43,6 +43,8 @@ pub(crate) struct StatisticsOptions {
     pub(crate) resume: bool,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
+    #[command(flatten)]
+    pub(crate) units: UnitsOptions,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

@@ -95,7 +95,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("token", "the secret part of the explorer's address"),
     ("tolerance", "tolerance of Newton's method on a branch"),
     ("transient", "model time to leave out at the beginning"),
-    ("units", "physical units of the axes"),
+    ("units", "physical units of axes and printed results"),
     ("until", "longest model time for which an orbit is followed"),
     ("width", "width of the figures"),
     ("write-outlines", "also write the outlines, for other programs"),

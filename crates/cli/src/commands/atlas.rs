@@ -7,12 +7,10 @@ use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::Regime;
 use motiform_diagrams::atlas::{
-    AtlasFolder, AtlasPlan, AtlasSettings, Boundary, Grid, Line, atlas_summary, boundaries,
-    default_atlas_folder, regions, survey, trace,
+    AtlasFolder, AtlasPlan, AtlasSettings, Boundary, Grid, Line, atlas_summary, axis, boundaries,
+    default_atlas_folder, regions, samples, survey, trace,
 };
-use motiform_lab::scan::Axis;
 use motiform_store::{Folder, Opening};
-use motiform_study::branches::Along;
 use motiform_study::{Error, Study};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -77,27 +75,11 @@ fn study(options: &AtlasOptions) -> Result<Study, Error> {
     if !options.axes.is_empty() {
         study.scan.axes = options.axes.iter().map(|text| axis(text)).collect::<Result<_, _>>()?;
     }
-    study.scan.samples = match (options.samples, study.scan.samples) {
-        (Some(given), _) => given,
-        (None, 1) => SAMPLES,
-        (None, own) => own,
-    };
+    study.scan.samples = samples(&study, options.samples);
     study.scan.budget = options.budget.unwrap_or(study.scan.budget);
     study.random = options.random.or(study.random);
     study.run.seed = options.seed.unwrap_or(study.run.seed);
     Ok(study.perturbed()?.0)
-}
-
-/// Initial states of each cell, if neither the command nor the study says how many.
-const SAMPLES: u64 = 3;
-
-/// An axis, with its ends alone where their number is not given.
-fn axis(text: &str) -> Result<Axis, Error> {
-    if text.matches(':').count() != 1 {
-        return Axis::parse(text);
-    }
-    let Along { name, from, to } = Along::parse(text)?;
-    Ok(Axis { name, values: vec![from, to] })
 }
 
 fn text(atlas: &AtlasFolder, written: &str) -> anyhow::Result<String> {

@@ -16,7 +16,8 @@ use motiform_store::{Folder, Journal, Opening};
 use motiform_study::branches::{Along, BranchSettings, origin};
 use motiform_study::curves::{CurveKind, Plane};
 use motiform_study::study::FollowSettings;
-use motiform_study::{BranchPlan, CurvePlan, Error, Given, Study, Towards};
+use motiform_study::units::TIME;
+use motiform_study::{BranchPlan, CurvePlan, Error, Given, Shown, Study, Towards};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -24,12 +25,19 @@ pub(crate) fn run(options: &ContinueOptions) -> anyhow::Result<End> {
     let (study, given) = study(options)?;
     let plan = BranchPlan::new(&study, &BranchSettings { given, ..study.follow.branches()? })?;
     match study.follow.curves()? {
+        Some(_) if options.units.given.is_some() => Err(no_units("--curve").into()),
         Some(settings) => curves::run(options, &CurvePlan::new(&study, plan, &settings)?),
-        None => branches(options, plan),
+        None => branches(options, plan, &options.units.of(Some(&study))?),
     }
 }
 
-fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> {
+/// Refuses units where both axes are parameters.
+pub(super) fn no_units(of: &str) -> Error {
+    let remedy = "both axes of this figure are parameters, which stay those of the model: leave it out";
+    Error::Setting { key: "--units", value: format!("given with {of}"), remedy }
+}
+
+fn branches(options: &ContinueOptions, plan: BranchPlan, units: &Shown) -> anyhow::Result<End> {
     let out = output(options, default_folder(&plan));
     let (files, before) = prepare(options, out, |path, opening| BranchFolder::open(path, &plan, opening))?;
     let watch = Progress::new(plan.computation.branches as f64, "branches");
@@ -40,12 +48,12 @@ fn branches(options: &ContinueOptions, plan: BranchPlan) -> anyhow::Result<End> 
     let (files, found) = or_abandon(files, found)?;
     let folder = BranchFolder { plan, found };
     let ordinate = options.observable.ordinate();
-    let drawn = || branch_figures(&folder.plan, &folder.found, ordinate);
+    let drawn = || branch_figures(&folder.plan, &folder.found, ordinate, units);
     let (written, undrawn) = write(options, files, drawn, |pictures, to| folder.write(pictures, to))?;
     print(&if options.json {
         serde_json::to_string(&summary(&folder.plan, &folder.found))?
     } else {
-        text(&folder, written.as_deref())?
+        text(&folder, written.as_deref(), units)?
     })?;
     end(undrawn, folder.found.complete)
 }
@@ -175,12 +183,12 @@ pub(super) fn end(undrawn: Option<Error>, complete: bool) -> anyhow::Result<End>
     Ok(End::Done)
 }
 
-fn text(folder: &BranchFolder, written: Option<&str>) -> anyhow::Result<String> {
+fn text(folder: &BranchFolder, written: Option<&str>, units: &Shown) -> anyhow::Result<String> {
     let BranchFolder { plan, found } = folder;
     let along = &plan.computation.along;
     let mut text = format!("{}, {} = {}..{}\n", plain(&plan.title()), along.name, along.from, along.to);
     for (number, followed) in found.branches.iter().enumerate() {
-        branch(&mut text, folder, (number, followed))?;
+        branch(&mut text, folder, (number, followed), units)?;
     }
     if found.left > 0 {
         writeln!(text, "more       begins at {} of these points; --branches N follows more", found.left)?;
@@ -195,6 +203,7 @@ fn branch(
     text: &mut String,
     folder: &BranchFolder,
     (number, followed): (usize, &Followed),
+    units: &Shown,
 ) -> std::fmt::Result {
     let (motion, form) = followed.motion();
     let motion = motion.map_or("", |motion| motion.name());
@@ -206,7 +215,7 @@ fn branch(
         writeln!(text, "           stable from {from} to {to}")?;
     }
     for special in folder.found.special(number) {
-        writeln!(text, "           {}", line(&special))?;
+        writeln!(text, "           {}", line(&special, units))?;
     }
     for leg in &followed.legs {
         writeln!(text, "           ends: {}", leg.end)?;
@@ -243,13 +252,14 @@ fn six(found: Coefficient) -> String {
 /// An error below this one is not shown: all nine decimals are right.
 const SHOWN: f64 = 5e-10;
 
-fn line(special: &SpecialEntry) -> String {
+fn line(special: &SpecialEntry, units: &Shown) -> String {
     let value = match special.error {
         Some(error) if error > SHOWN => stated(special.parameter, error),
         _ => nine(special.parameter),
     };
     let mut line = format!("{:<17} {value}", special.kind);
-    let period = special.period.map(|period| format!("period {period:.6}"));
+    let unit = if units.is_physical() { format!(" {}", plain(&units.name(TIME, ""))) } else { String::new() };
+    let period = special.period.map(|period| format!("period {:.6}{unit}", period * units.factor(TIME)));
     let words = special.criticality.map(|word| match &special.undecided {
         Some(why) => format!("{word} ({why})"),
         None => word.to_owned(),

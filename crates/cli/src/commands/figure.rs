@@ -1,5 +1,6 @@
 //! `motiform figure`, and the drawing that `simulate` shares with it.
 
+use super::continuation::no_units;
 use super::film;
 use crate::args::{DrawingOptions, FigureOptions, Observable};
 use crate::output::{End, print, warn};
@@ -84,6 +85,9 @@ fn check(kind: Option<Kind>, options: &FigureOptions) -> Result<(), Error> {
         let given = options.observable.map(|_| "--observable");
         refuse(given, "only diagrams of branches have it: leave it out")?;
     }
+    if matches!(kind, Some(Kind::Curves | Kind::Atlas)) && options.drawing.units.given.is_some() {
+        return Err(no_units("a map of curves"));
+    }
     if has_no_body(kind) {
         refuse(options.drawing.of_bodies(), "only figures of a body have it: leave it out")?;
     }
@@ -153,11 +157,17 @@ impl Content {
     /// The content of a folder, whatever is in it.
     fn read(path: &Path, options: &FigureOptions) -> anyhow::Result<Self> {
         Ok(match kind_of(path) {
-            Some(Kind::Scan) => Self::Figures(scan_figures(&ScanFolder::read(path)?)?, false),
+            Some(Kind::Scan) => Self::Figures(
+                scan_figures(&ScanFolder::read(path)?, &options.drawing.units.of(None)?)?,
+                false,
+            ),
             Some(Kind::Branches) => {
                 let BranchFolder { plan, found } = BranchFolder::read(path)?;
                 let ordinate = options.observable.unwrap_or(Observable::Speed).ordinate();
-                Self::Figures(branch_figures(&plan, &found, ordinate)?, true)
+                Self::Figures(
+                    branch_figures(&plan, &found, ordinate, &options.drawing.units.of(None)?)?,
+                    true,
+                )
             }
             Some(Kind::Curves) => {
                 let CurveFolder { plan, found } = CurveFolder::read(path)?;
@@ -215,7 +225,7 @@ pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
     settings.from = options.from.unwrap_or(settings.from);
     settings.to = options.to.unwrap_or(settings.to);
     settings.animation &= !options.no_animation;
-    if let Some(units) = &options.units {
+    if let Some(units) = &options.units.given {
         settings.units.clone_from(units);
     }
 }

@@ -3,14 +3,14 @@
 use crate::args::LifetimesOptions;
 use crate::commands::remarks::{of_scan, ties};
 use crate::commands::subject;
-use crate::output::{End, print, warn};
+use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::LifeLaws;
 use motiform_lab::draw::lifetimes::draw_lifetimes;
-use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
+use motiform_lab::lifetimes::{LIFE, LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::Axis;
 use motiform_store::{Folder, Kind, Opening};
-use motiform_study::{Error, Random, ScanPlan};
+use motiform_study::{Error, Random, ScanPlan, Shown};
 use serde_json::json;
 use std::fmt::Write;
 
@@ -21,7 +21,7 @@ const FILE: &str = "lifetimes.json";
 const ORBITS: &str = "orbits.json";
 
 pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
-    let plan = plan(options)?;
+    let (plan, units) = plan(options)?;
     let (files, before) = open(options, &plan)?;
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = options.threads.map_or_else(all, usize::from);
@@ -47,13 +47,17 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
         let mut text = serde_json::to_vec_pretty(&json(&plan, &found)?)?;
         text.push(b'\n');
         files.put(FILE, &text)?;
-        for picture in draw_lifetimes(&plan, &found, &options.style.format())? {
+        for picture in draw_lifetimes(&plan, &found, &options.style.format_in(units.clone()))? {
             files.put(&picture.name, &picture.bytes)?;
         }
         files.complete()?;
         files.notes().iter().for_each(|note| warn(note));
     }
-    print(&if options.json { json(&plan, &found)?.to_string() } else { summary(&plan, &found, options)? })?;
+    print(&if options.json {
+        json(&plan, &found)?.to_string()
+    } else {
+        summary(&plan, &found, (options, &units))?
+    })?;
     let answered = !matches!(found.laws, LifeLaws::TooFew { .. } | LifeLaws::Neither { .. });
     Ok(if answered { End::Done } else { End::NotAsAsked })
 }
@@ -89,8 +93,8 @@ fn interrupted(files: Option<Folder>) -> anyhow::Result<End> {
     Ok(End::Interrupted)
 }
 
-/// The plan that the options describe: all starts are random.
-fn plan(options: &LifetimesOptions) -> Result<ScanPlan, Error> {
+/// The plan that the options describe, and the units of its results: all starts are random.
+fn plan(options: &LifetimesOptions) -> Result<(ScanPlan, Shown), Error> {
     let mut study = subject::study(&options.subject)?;
     subject::note_noise(&mut study);
     for (key, value) in [("until", options.until), ("transient", options.transient)] {
@@ -106,7 +110,7 @@ fn plan(options: &LifetimesOptions) -> Result<ScanPlan, Error> {
     study.random = Some(options.random.or(study.random).unwrap_or(Random::basins(study.info()?)));
     options.run.apply(&mut study.run)?;
     ties(&study, &of_scan(&study))?;
-    ScanPlan::new(&study)
+    Ok((ScanPlan::new(&study)?, options.units.of(Some(&study))?))
 }
 
 fn json(plan: &ScanPlan, found: &Lifetimes) -> anyhow::Result<serde_json::Value> {
@@ -121,19 +125,33 @@ fn json(plan: &ScanPlan, found: &Lifetimes) -> anyhow::Result<serde_json::Value>
     Ok(object)
 }
 
-fn summary(plan: &ScanPlan, found: &Lifetimes, options: &LifetimesOptions) -> anyhow::Result<String> {
+fn summary(
+    plan: &ScanPlan,
+    found: &Lifetimes,
+    (options, units): (&LifetimesOptions, &Shown),
+) -> anyhow::Result<String> {
     let c = &plan.computation;
     let mut text = format!("{} ({}, {})\n", plan.title, c.model, plan.name);
     let starts = format!("{} starts each, {}, seed {}", c.samples, c.random.words(), c.seed);
-    writeln!(text, "{starts}, followed to {}", found.until)?;
+    let until = if units.is_physical() {
+        plain(&units.words(found.until, LIFE, ""))
+    } else {
+        found.until.to_string()
+    };
+    writeln!(text, "{starts}, followed to {until}")?;
     let head = ["blew up", "captured", "lasting", "delay", "events", "watched", "mean life"];
+    let unit = if units.is_physical() {
+        format!(", times in {}", plain(&units.name(LIFE, "")))
+    } else {
+        String::new()
+    };
     write!(text, "{:>12}", found.parameter)?;
     for title in head {
         write!(text, " {title:>10}")?;
     }
-    writeln!(text, "  95 % limits")?;
+    writeln!(text, "  95 % limits{unit}")?;
     for at in &found.values {
-        writeln!(text, "{}", row(at))?;
+        writeln!(text, "{}", row(at, units.factor(LIFE)))?;
     }
     for note in found.notes() {
         writeln!(text, "note      {note}")?;
@@ -145,22 +163,22 @@ fn summary(plan: &ScanPlan, found: &Lifetimes, options: &LifetimesOptions) -> an
     Ok(text)
 }
 
-fn row(at: &LifeAt) -> String {
+fn row(at: &LifeAt, factor: f64) -> String {
     let life = &at.life;
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3e}"));
     let limits = match life.upper {
-        Some(upper) => format!("{:.3e} to {upper:.3e}", life.lower),
-        None if life.lower > 0.0 => format!("above {:.3e}", life.lower),
+        Some(upper) => format!("{:.3e} to {:.3e}", factor * life.lower, factor * upper),
+        None if life.lower > 0.0 => format!("above {:.3e}", factor * life.lower),
         None => "-".to_owned(),
     };
     let value = format!("{:.9e}", at.value).parse().unwrap_or(at.value); // without the last digits of an evenly spaced axis
-    let (delay, watched) = (at.delay, number(Some(life.watched)));
+    let (delay, watched) = (factor * at.delay, number(Some(factor * life.watched)));
     format!(
         "{value:>12} {:>10} {:>10} {:>10} {delay:>10.0} {:>10} {watched:>10} {:>10}  {limits}",
         at.blew_up,
         at.captured,
         at.lasting,
         life.events,
-        number(life.value)
+        number(life.value.map(|value| factor * value))
     )
 }

@@ -13,7 +13,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
-    let plan = ScanPlan::new(&study(options)?)?;
+    let study = study(options)?;
+    let (plan, units) = (ScanPlan::new(&study)?, options.units.of(Some(&study))?);
     let shard = options.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse)?;
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from(default_folder(&plan)));
     let scan = Scan::open(&out, &plan, shard, Opening::of(options.resume, options.force))?;
@@ -27,7 +28,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     watch.finish();
     let ended = ended?;
     if !options.no_figures {
-        let pictures = files(scan_figures(scan.folder())?, false, &options.style.format())?;
+        let pictures = files(scan_figures(scan.folder(), &units)?, false, &options.style.format())?;
         scan.draw(pictures.iter().map(|picture| (picture.name.as_str(), picture.bytes.as_slice())))?;
     }
     scan.notes().iter().for_each(|note| warn(note));

@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use motiform_lab::statistics::{Measurement, read, sentences, simulated_kept, summary, write};
 use motiform_statistics::Settings;
 use motiform_store::{Folder, Journal, Opening};
-use motiform_study::{Error, Plan, Study};
+use motiform_study::{Error, Plan, Shown, Study};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -17,10 +17,12 @@ const BODIES: u64 = 100;
 
 pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
     let datasets = !options.subjects.is_empty() && options.subjects.iter().all(|path| is_dataset(path));
+    let mut units = options.units.of(None)?;
     let (folder, found) = if datasets {
         (open(options, None)?, recorded(options).map(Some))
     } else {
         let (study, count) = (study(options)?, options.bodies.unwrap_or(BODIES));
+        units = options.units.of(Some(&study))?;
         let folder = open(options, Some((&Plan::new(&study)?, count)))?;
         let found = bodies(options, &study, count, folder.as_ref());
         (folder, found)
@@ -39,7 +41,7 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
     };
     let json = options.json.then(|| summary(&found).to_string());
     if let Some(folder) = &folder {
-        write(&found, &options.style.format(), folder).map_err(plain_error)?;
+        write(&found, &options.style.format_in(units.clone()), folder).map_err(plain_error)?;
         folder.notes().iter().for_each(|note| warn(note));
         if !found.complete {
             warn(
@@ -50,7 +52,7 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
     let written = folder.map(|folder| folder.shown().display().to_string());
     print(&match json {
         Some(json) => json,
-        None => text(&found, written.as_deref())?,
+        None => text(&found, written.as_deref(), &units)?,
     })?;
     found.notes.iter().for_each(|note| warn(note));
     Ok(if found.complete { End::Done } else { End::Interrupted })
@@ -131,9 +133,9 @@ fn settings(options: &StatisticsOptions) -> Settings {
     Settings { radii: options.radius.clone(), threshold: options.threshold.clone() }
 }
 
-fn text(found: &Measurement, written: Option<&str>) -> anyhow::Result<String> {
+fn text(found: &Measurement, written: Option<&str>, units: &Shown) -> anyhow::Result<String> {
     let mut text = format!("{}\n", plain(&found.title));
-    for (label, sentence) in sentences(found) {
+    for (label, sentence) in sentences(found, units) {
         writeln!(text, "{label:<12} {sentence}")?;
     }
     if let Some(written) = written {

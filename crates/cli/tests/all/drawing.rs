@@ -108,6 +108,48 @@ fn panels_are_one_figure() {
     }
 }
 
+/// Speeds, periods and exponents of scans, branches, lives and statistics are converted like those of a body; parameters are not.
+#[test]
+fn results_of_every_kind_have_physical_units() {
+    let folder = Folder::new();
+    let number = |text: &str, before: &str| -> f64 {
+        let rest = text.split(before).nth(1).unwrap_or_else(|| panic!("no {before} in {text}")).trim_start();
+        rest.split(' ').next().unwrap().trim_end_matches([',', ')']).parse().unwrap()
+    };
+    let both = |command: &str, file: &str, label: &str| {
+        let model = folder.run(&format!("{command} --out model")).expect(0);
+        let physical = folder.run(&format!("{command} --units 20um,3min --out physical")).expect(0);
+        let svg = fs::read_to_string(folder.path(&format!("physical/{file}.svg"))).unwrap();
+        let plain = fs::read_to_string(folder.path(&format!("model/{file}.svg"))).unwrap();
+        assert!(svg.contains(label) && !plain.contains(label), "{command}: {label}");
+        assert!(!svg.contains("in model units") && plain.contains("in model units"), "{command}: caption");
+        for name in ["model", "physical"] {
+            fs::remove_dir_all(folder.path(name)).unwrap();
+        }
+        (model.stdout, physical.stdout)
+    };
+    let walk =
+        "statistics tensor --set gamma=1 --set kappa2=2 --set kappa3=2 --noise 0.3 --t-end 100 --bodies 10";
+    let (model, physical) = both(walk, "msd", "µm");
+    let ratio = |before: &str| number(&physical, before) / number(&model, before);
+    assert!((ratio("speed        mean ") - 20.0 / 3.0).abs() < 0.01, "{model}{physical}");
+    assert!(
+        (ratio("time of speed: ") - 3.0).abs() < 0.05 && physical.contains("of radius 3.979 µm"),
+        "{physical}"
+    );
+    let zigzag = "continue tensor --preset fig5a --along kappa2=0.75:0.95 --branches 1";
+    let (model, physical) = both(zigzag, "period", "period (min)");
+    let ratio = number(&physical, "period ") / number(&model, "period ");
+    assert!((ratio - 3.0).abs() < 1e-5 && physical.contains(" min  "), "{physical}");
+    let kappa = |text: &str| number(text, "symmetry-breaking ");
+    assert_eq!(kappa(&model), kappa(&physical), "parameters stay those of the model");
+    both("scan tensor --preset fig4 --axis kappa2=0.5:0.55:2", "_exponent", "1/min");
+    let curve =
+        "continue tensor --preset fig5a --along kappa2=0.85:0.95 --in kappa2,kappa3=0.1:0.2 --curve fold";
+    let done = folder.run(&format!("{curve} --units 20um,3min")).expect(2);
+    assert!(done.stderr.contains("both axes of this figure are parameters"), "{}", done.stderr);
+}
+
 /// A study that says what its units are has axes in these.
 #[test]
 fn axes_are_physical_where_units_are_given() {

@@ -3,8 +3,9 @@
 use crate::atlas::boundary::connection_words;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::inset::insets;
-use crate::branches::draw::{curve_mark, curve_stretches, marks_together};
-use crate::curves::codimension_2;
+use crate::branches::draw::{curve_mark, curve_stretches, marks_together, unlocated};
+use crate::curves::{CurveSample, codimension_2};
+use motiform_continuation::Degenerate;
 use motiform_figures::{Cell, CurveMap, MapEnd, PhaseDiagram};
 use motiform_lab::draw::{FigureFormat, Picture, files, symbol, words};
 use motiform_study::Error;
@@ -27,7 +28,6 @@ pub fn atlas_map(folder: &AtlasFolder) -> Result<CurveMap, Error> {
     let [x, y] = plane.each_ref().map(|side| [side.from, side.to]);
     let curves = || lines.iter().flat_map(|line| &line.curves).map(|one| &one.curve);
     let stretches = curves().flat_map(curve_stretches).filter(|stretch| stretch.bounds);
-    let bounding = curves().flat_map(codimension_2).filter(|(_, sample)| sample.unstable == 0);
     let ends = lines.iter().flat_map(|line| &line.ends);
     Ok(CurveMap {
         title: plan.title.clone(),
@@ -41,8 +41,14 @@ pub fn atlas_map(folder: &AtlasFolder) -> Result<CurveMap, Error> {
         insets: insets(folder)?,
         curves: stretches.collect(),
         ends: ends.map(|end| MapEnd { label: connection_words(end.kind).to_owned(), at: end.at }).collect(),
-        marks: marks_together(bounding.map(curve_mark), [x, y]),
+        marks: marks_together(points(folder).filter_map(curve_mark), [x, y]),
     })
+}
+
+/// The points of codimension two on curves that bound regions.
+fn points(folder: &AtlasFolder) -> impl Iterator<Item = (Degenerate, &CurveSample)> {
+    let curves = folder.lines.iter().flat_map(|line| &line.curves);
+    curves.flat_map(|one| codimension_2(&one.curve)).filter(|(_, sample)| sample.unstable == 0)
 }
 
 /// The motions of the cells.
@@ -68,7 +74,7 @@ fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
     let c = &plan.computation.scan;
     let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
     let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
-    Ok(vec![
+    let mut all = vec![
         words::named(plan.info()?, &c.parameters, &varied, &c.ties),
         format!(
             "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. Stability limits: {curves} curves by pseudo-arclength continuation. Below the names of wide regions: paths of the motions, not to one scale.",
@@ -79,5 +85,7 @@ fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
             grid.computed(),
             grid.places.len(),
         ),
-    ])
+    ];
+    all.extend(unlocated(points(folder)));
+    Ok(all)
 }

@@ -20,6 +20,31 @@ const LINE_STEPS: u64 = 1_000_000;
 /// Values of an axis whose number is not given: of models that are classified in the lanes of vector registers, and of others.
 const VALUES: [usize; 2] = [65, 17];
 
+/// Initial states of each cell, if nobody says how many.
+const SAMPLES: u64 = 3;
+
+/// An axis of a plane from text, as [`Axis::parse`] reads it, or by its ends alone, `NAME=LOW:HIGH`: the number of values is then that of the model.
+///
+/// # Errors
+/// [`Error::Axis`].
+pub fn axis(text: &str) -> Result<Axis, Error> {
+    if text.matches(':').count() != 1 {
+        return Axis::parse(text);
+    }
+    let Along { name, from, to } = Along::parse(text)?;
+    Ok(Axis { name, values: vec![from, to] })
+}
+
+/// Initial states of each cell: those asked for, or those of the study.
+#[must_use]
+pub fn samples(study: &Study, asked: Option<u64>) -> u64 {
+    match (asked, study.scan.samples) {
+        (Some(asked), _) => asked,
+        (None, 1) => SAMPLES,
+        (None, own) => own,
+    }
+}
+
 /// How much is followed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AtlasSettings {

@@ -120,7 +120,7 @@ fn read(bytes: &[u8], cells: &[usize]) -> Option<Vec<(usize, Place)>> {
 }
 
 /// A cell with its number, from its rows.
-fn place(rows: &[Row]) -> (usize, Place) {
+pub(crate) fn place(rows: &[Row]) -> (usize, Place) {
     let cell = rows.first().map_or(0, |row| row.cell);
     let found = CellSummary::of(cell, rows).motions.into_iter().map(|motion| Found {
         regime: motion.regime,

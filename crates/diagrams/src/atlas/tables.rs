@@ -10,7 +10,8 @@ fn whole(values: impl Iterator<Item = usize>) -> Values {
 }
 
 /// A row per cell and motion.
-pub(crate) fn cell_columns(plan: &AtlasPlan, grid: &Grid) -> Vec<Column> {
+#[must_use]
+pub fn cell_columns(plan: &AtlasPlan, grid: &Grid) -> Vec<Column> {
     let scan = plan.scan();
     let rows: Vec<_> = grid
         .places
@@ -41,7 +42,8 @@ pub(crate) fn cell_columns(plan: &AtlasPlan, grid: &Grid) -> Vec<Column> {
 }
 
 /// A row per point of each curve.
-pub(crate) fn curve_columns(plan: &AtlasPlan, lines: &[Line]) -> Vec<Column> {
+#[must_use]
+pub fn curve_columns(plan: &AtlasPlan, lines: &[Line]) -> Vec<Column> {
     let curves = lines.iter().flat_map(|line| &line.curves).enumerate();
     let rows: Vec<_> = curves
         .flat_map(|(number, one)| one.curve.samples().map(move |sample| (number, one, sample)))

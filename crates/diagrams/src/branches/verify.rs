@@ -21,6 +21,9 @@ pub struct Verification {
     pub found: Repeated,
 }
 
+/// What was computed again; `None` if a watch stopped it.
+type Found = Result<Option<Repeated>, Error>;
+
 impl Verification {
     /// Checks digests and plan hashes, and computes numbers again where this costs no more than computing them did: all of them with `all`, otherwise a
     /// sample. `None` if the watch stopped it.
@@ -28,8 +31,22 @@ impl Verification {
     /// # Errors
     /// [`Error::Store`] for a folder without an inventory, or one that cannot be read.
     pub fn of(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Option<Self>, Error> {
+        Self::with(folder, all, watch, &|_| None)
+    }
+
+    /// As [`Self::of`], with the check of a kind that crates above know: what is checked, in a sentence, and what was found.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn with(
+        folder: &Path,
+        all: bool,
+        watch: &dyn Watch,
+        other: &dyn Fn(Kind) -> Option<(&'static str, Found)>,
+    ) -> Result<Option<Self>, Error> {
         let audit = Audit::of(folder)?;
-        let (checked, found) = match Kind::of_name(&audit.inventory.kind) {
+        let kind = Kind::of_name(&audit.inventory.kind);
+        let (checked, found) = match kind {
             Some(Kind::Dataset) => {
                 ("plan hash; rows of the trajectory computed again", verify_dataset(folder, all, watch))
             }
@@ -42,7 +59,9 @@ impl Verification {
             Some(Kind::Curves) => {
                 ("plan hash; points are not computed again", readable(CurveFolder::read(folder)))
             }
-            _ => ("digests only: numbers of this kind are not computed again", readable(Ok(()))),
+            _ => kind.and_then(other).unwrap_or_else(|| {
+                ("digests only: numbers of this kind are not computed again", readable(Ok(())))
+            }),
         };
         let found = match found {
             Err(Error::Interrupted) => None,

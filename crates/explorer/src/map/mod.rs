@@ -20,7 +20,7 @@ pub(crate) use map_state::FARTHEST;
 use map_state::MapState;
 use motiform_lab::draw::{exponents, phase_diagram, sheet};
 use motiform_lab::scan::{CellSummary, Row, rows_to_csv};
-use motiform_study::Study;
+use motiform_study::{Shown, Study};
 use pool::{Cells, Pool};
 use serde_json::json;
 use std::sync::{Arc, Mutex};
@@ -138,7 +138,7 @@ impl Map {
             Ok(match file {
                 MapFile::Csv => Some(Made::Bytes(rows_to_csv(&plan, &rows))),
                 MapFile::Diagram => Some(Made::Svg(sheet(&phase_diagram(&plan, &cells())?)?.svg)),
-                MapFile::Exponents => match exponents(&plan, &cells())? {
+                MapFile::Exponents => match exponents(&plan, &cells(), &Shown::default())? {
                     Some(figure) => Some(Made::Svg(sheet(&figure)?.svg)),
                     None => None,
                 },
@@ -159,7 +159,7 @@ pub(crate) enum MapFile {
 /// The numbers of a row that are defined.
 pub(crate) fn numbers(row: &Row) -> Values {
     let defined = motiform_lab::scan::NUMBERS.iter().zip(row.numbers).filter(|entry| entry.1.is_finite());
-    defined.map(|((name, _), value)| ((*name).to_owned(), json!(value))).collect()
+    defined.map(|((name, ..), value)| ((*name).to_owned(), json!(value))).collect()
 }
 
 type Done = Result<(), Gone>;

@@ -23,6 +23,7 @@ use super::room::Room;
 use super::svg::Svg;
 use cells::Cells;
 pub use inset::MapInset;
+pub(crate) use names::Names;
 
 /// Most cells a side that get markers.
 const TILES: usize = 40;
@@ -95,7 +96,7 @@ impl PhaseDiagram {
         let sheet = Framed {
             title: &self.title,
             caption: &self.caption,
-            legend: self.legend(&cells, look),
+            legend: self.legend(&cells, look, None),
             scale,
             kinds: [AxisKind::Linear; 2],
             labels: [&self.x_label, y_label],
@@ -106,7 +107,7 @@ impl PhaseDiagram {
         sheet.svg(|svg, scale| self.draw(svg, scale, &cells, look))
     }
 
-    /// Draws the cells into the frame of another figure, with their markers unless they have names ([`Self::draw_names`]); what lies outside is cut off.
+    /// Draws the cells into the frame of another figure, with their markers unless they have names ([`Self::names`]); what lies outside is cut off.
     pub(crate) fn draw_under(&self, svg: &mut Svg, scale: &Scale, room: Room, named: bool) -> Result<()> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
         let [x, y] = cells.ranges();
@@ -127,10 +128,15 @@ impl PhaseDiagram {
         drawn
     }
 
-    /// Writes the names of wide regions into the frame of another figure, with their paths; the places that they take.
-    pub(crate) fn draw_names(&self, svg: &mut Svg, scale: &Scale, insets: &[MapInset]) -> Result<Vec<Rect>> {
+    /// The names of wide regions for the frame of another figure whose corner is the origin, with their paths, where `clear` has nothing against a place.
+    pub(crate) fn names(
+        &self,
+        scale: &Scale,
+        insets: &[MapInset],
+        clear: &dyn Fn(&Rect) -> bool,
+    ) -> Result<Names> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
-        Ok(names::draw(svg, scale, &cells, insets))
+        Ok(names::places(scale, &cells, insets, clear))
     }
 
     /// What the cells cover, across and upwards.
@@ -138,11 +144,11 @@ impl PhaseDiagram {
         Ok(Cells::new(&self.x, &self.y, &self.cells)?.ranges())
     }
 
-    /// The part of the legend that explains the cells.
-    pub(crate) fn key_under(&self, room: Room, named: bool) -> Result<Vec<Entry>> {
+    /// The part of the legend that explains the cells: without the motions whose names stand in the plane.
+    pub(crate) fn key_under(&self, room: Room, names: Option<&Names>) -> Result<Vec<Entry>> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
-        let look = if named { Look::Mosaic } else { Look::of(false, cells.size(), room) };
-        Ok(Self::default().legend(&cells, look))
+        let look = if names.is_some() { Look::Mosaic } else { Look::of(false, cells.size(), room) };
+        Ok(Self::default().legend(&cells, look, names))
     }
 
     fn draw(&self, svg: &mut Svg, scale: &Scale, cells: &Cells, look: Look) -> Result<()> {
@@ -160,8 +166,9 @@ impl PhaseDiagram {
         Ok(())
     }
 
-    fn legend(&self, cells: &Cells, look: Look) -> Vec<Entry> {
-        let present = REGIMES.iter().enumerate().filter(|(rank, _)| cells.has(*rank));
+    fn legend(&self, cells: &Cells, look: Look, names: Option<&Names>) -> Vec<Entry> {
+        let told = |rank| names.is_some_and(|names| names.tell(rank));
+        let present = REGIMES.iter().enumerate().filter(|(rank, _)| cells.has(*rank) && !told(*rank));
         let mut entries: Vec<_> = present.map(|(_, mark)| Entry::new(look.key(*mark), mark.name)).collect();
         if let (Some([one, other]), true) = (cells.first_pair(), look != Look::Strip) {
             let stripes = Mark::Stripes(look.ground(&REGIMES[one]), look.ground(&REGIMES[other]));

@@ -1,6 +1,6 @@
 //! The names of wide regions, written into them; smaller ones have their markers.
 
-use super::super::geometry::Rect;
+use super::super::geometry::{Point, Rect};
 use super::super::marks::REGIMES;
 use super::super::svg::Anchor;
 use super::super::text::Label;
@@ -20,6 +20,9 @@ const GROUND: f64 = 0.8;
 /// Room for a marker where there is none for a name, in pixels.
 const MARKER: f64 = 18.0;
 
+/// Where a name is tried, as parts of the room that it leaves in a row.
+const STEPS: [f64; 7] = [0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9];
+
 /// Names of more motions than this are no names.
 const MOST: usize = 2;
 
@@ -30,43 +33,88 @@ struct Run {
     to: usize,
 }
 
-/// Writes the names of the regions that have room for them, and below a name the paths of its motions; the places that they take.
-pub(super) fn draw(svg: &mut Svg, scale: &Scale, cells: &Cells, insets: &[MapInset]) -> Vec<Rect> {
-    let mut taken = Vec::new();
-    for (motions, region) in regions(cells) {
-        let words: Vec<&str> = motions.iter().map(|rank| REGIMES[*rank].name).collect();
-        let label = Label::parse(&words.join(" + "));
-        let size = [label.width(SIZE) + 2.0 * ROOM, SIZE + 2.0 * ROOM];
-        if motions.len() > MOST {
-            continue;
-        }
-        let own = |inset: &&MapInset| {
-            cells.number(inset.cell).is_some_and(|cell| region.binary_search(&cell).is_ok())
-        };
-        let paths = insets.iter().find(own).map_or(&[][..], |inset| &inset.paths);
-        let below =
-            [inset::SIZE[0] * paths.len() as f64, if paths.is_empty() { 0.0 } else { inset::SIZE[1] }];
-        if let Some(whole) = place(scale, cells, &region, [size[0].max(below[0]), size[1] + below[1]]) {
-            name(svg, Rect { h: size[1], ..whole }, &label);
-            let left = whole.x + 0.5 * (whole.w - below[0]);
+/// The name of a region, or the marker of its motion, with its place.
+#[derive(Debug, Clone)]
+struct Name {
+    place: Rect,
+    motions: Vec<usize>,
+    label: Option<Label>,
+    paths: Vec<Vec<Point>>,
+}
+
+/// The names of regions with their places, which are those of a frame whose corner is the origin.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Names(Vec<Name>);
+
+/// Places the names of the regions that have room for them, below a name the paths of its motions, where `clear` has nothing against it; a marker
+/// where one motion has no room for its name.
+pub(super) fn places(
+    scale: &Scale,
+    cells: &Cells,
+    insets: &[MapInset],
+    clear: &dyn Fn(&Rect) -> bool,
+) -> Names {
+    let all = regions(cells).into_iter().filter(|(motions, _)| motions.len() <= MOST);
+    Names(
+        all.filter_map(|(motions, region)| {
+            let own = |inset: &&MapInset| {
+                cells.number(inset.cell).is_some_and(|cell| region.binary_search(&cell).is_ok())
+            };
+            let paths = insets.iter().find(own).map_or(Vec::new(), |inset| inset.paths.clone());
+            let words: Vec<&str> = motions.iter().map(|rank| REGIMES[*rank].name).collect();
+            let label = Label::parse(&words.join(" + "));
+            let found = |size: [f64; 2]| place(scale, cells, &region, size, clear);
+            let size = [label.width(SIZE) + 2.0 * ROOM, SIZE + 2.0 * ROOM];
+            let [w, h] = inset::SIZE;
+            let large = [size[0].max(w * paths.len() as f64), size[1] + h];
+            let whole = if paths.is_empty() { None } else { found(large) };
+            let marker = || if motions.len() == 1 { found([MARKER; 2]) } else { None };
+            if let Some(place) = whole {
+                return Some(Name { place, motions, label: Some(label), paths });
+            }
+            match found(size) {
+                Some(place) => Some(Name { place, motions, label: Some(label), paths: Vec::new() }),
+                None => marker().map(|place| Name { place, motions, label: None, paths: Vec::new() }),
+            }
+        })
+        .collect(),
+    )
+}
+
+impl Names {
+    /// The places that they take.
+    #[cfg(test)]
+    fn taken(&self) -> impl Iterator<Item = Rect> + '_ {
+        self.0.iter().map(|name| name.place)
+    }
+
+    /// Whether a motion stands in the plane by its name, alone, and nowhere by its marker.
+    pub(super) fn tell(&self, rank: usize) -> bool {
+        let own = || self.0.iter().filter(|name| name.motions == [rank]);
+        own().any(|name| name.label.is_some()) && own().all(|name| name.label.is_some())
+    }
+
+    /// Draws them; `corner` is where the frame lies on the sheet.
+    pub(crate) fn draw(&self, svg: &mut Svg, [dx, dy]: Point) {
+        for Name { place, motions, label, paths } in &self.0 {
+            let whole = Rect { x: place.x + dx, y: place.y + dy, ..*place };
+            let Some(label) = label else {
+                let at = [whole.x + 0.5 * whole.w, whole.y + 0.5 * whole.h];
+                svg.circle(at, 8.0, &Paint::fill(WHITE).opacity(0.85));
+                motions.iter().for_each(|rank| REGIMES[*rank].draw(svg, at, 4.6));
+                continue;
+            };
+            let [w, h] = inset::SIZE;
+            let below = if paths.is_empty() { 0.0 } else { h };
+            name(svg, Rect { h: whole.h - below, ..whole }, label);
+            let left = whole.x + 0.5 * (whole.w - w * paths.len() as f64);
             for (number, path) in paths.iter().enumerate() {
-                let [w, h] = inset::SIZE;
-                let place = Rect { x: left + w * number as f64, y: whole.y + size[1], w, h };
+                let place = Rect { x: left + w * number as f64, y: whole.bottom() - h, w, h };
                 svg.rect(place, &Paint::fill(WHITE).opacity(GROUND));
                 inset::draw(svg, place, path);
             }
-            taken.push(whole);
-        } else if let Some(place) = place(scale, cells, &region, size) {
-            name(svg, place, &label);
-            taken.push(place);
-        } else if let ([rank], Some(place)) = (&motions[..], place(scale, cells, &region, [MARKER; 2])) {
-            let at = [place.x + 0.5 * place.w, place.y + 0.5 * place.h];
-            svg.circle(at, 8.0, &Paint::fill(WHITE).opacity(0.85));
-            REGIMES[*rank].draw(svg, at, 4.6);
-            taken.push(place);
         }
     }
-    taken
 }
 
 /// A name on a pale ground.
@@ -79,7 +127,13 @@ fn name(svg: &mut Svg, place: Rect, label: &Label) {
 }
 
 /// The place in a region with the most room around a name of this size; `None` if it fits nowhere.
-fn place(scale: &Scale, cells: &Cells, region: &[usize], [w, h]: [f64; 2]) -> Option<Rect> {
+fn place(
+    scale: &Scale,
+    cells: &Cells,
+    region: &[usize],
+    [w, h]: [f64; 2],
+    clear: &dyn Fn(&Rect) -> bool,
+) -> Option<Rect> {
     let columns = cells.size().0;
     let is_own = |[column, row]: [usize; 2]| region.binary_search(&(row * columns + column)).is_ok();
     let mut best: Option<(f64, Rect)> = None;
@@ -88,7 +142,10 @@ fn place(scale: &Scale, cells: &Cells, region: &[usize], [w, h]: [f64; 2]) -> Op
             (scale.map([cells.column(from)[0], 0.0])[0], scale.map([cells.column(to)[1], 0.0])[0]);
         let [low, high] = cells.row(row);
         let middle = scale.map([0.0, 0.5 * (low + high)])[1];
-        let at = Rect { x: 0.5 * (left + right - w), y: middle - 0.5 * h, w, h };
+        let spare = right - left - w;
+        let at = |part: f64| Rect { x: left + part * spare, y: middle - 0.5 * h, w, h };
+        // in the middle of the row, or as near to it as nothing is in the way
+        let Some(at) = STEPS.map(at).into_iter().find(|at| spare >= 0.0 && clear(at)) else { continue };
         // how far the rows above and below have room for it, too
         let mut free = 0.0;
         for beyond in 0.. {
@@ -102,8 +159,8 @@ fn place(scale: &Scale, cells: &Cells, region: &[usize], [w, h]: [f64; 2]) -> Op
             let [low, high] = cells.row(row + beyond);
             free = 2.0 * (middle - scale.map([0.0, low.max(high)])[1]).abs();
         }
-        let score = free + 0.2 * (right - left - w);
-        if free >= h && right - left >= w && best.as_ref().is_none_or(|known| score > known.0) {
+        let score = free + 0.2 * spare;
+        if free >= h && best.as_ref().is_none_or(|known| score > known.0) {
             best = Some((score, at));
         }
     }
@@ -189,12 +246,17 @@ mod tests {
         let cells = Cells::new(&axis, &axis, &all).expect("cells");
         let frame = Rect { x: 0.0, y: 0.0, w: 400.0, h: 300.0 };
         let range = Range { min: -0.5, max: 19.5 };
-        let mut svg = Svg::new(400.0, 300.0);
-        let taken = draw(&mut svg, &Scale { frame, x: range, y: range }, &cells, &[]);
+        let scale = Scale { frame, x: range, y: range };
+        let found = |insets: &[MapInset], clear: &dyn Fn(&Rect) -> bool| {
+            super::places(&scale, &cells, insets, clear).taken().collect::<Vec<_>>()
+        };
+        let taken = found(&[], &|_| true);
         let [marker, name] = &taken[..] else { panic!("{taken:?}") };
         let path = (0..50).map(|i| [f64::from(i), f64::from(i % 9)]).collect();
-        let inset = MapInset { cell: [10.0, 10.0], paths: vec![path] };
-        let with = draw(&mut svg, &Scale { frame, x: range, y: range }, &cells, &[inset]);
+        let with = found(&[MapInset { cell: [10.0, 10.0], paths: vec![path] }], &|_| true);
+        // what is in the way in the middle moves it
+        let away = found(&[], &|place| place.y > 160.0 || place.bottom() < 140.0);
+        assert!(away[1].y > 160.0 || away[1].bottom() < 140.0, "{away:?}");
         assert!(with[0] == *marker && with[1].h > name.h + 30.0, "{with:?}");
         assert!(with[1].x >= 40.0 && with[1].right() <= 400.0, "{with:?}");
         assert!(marker.x >= 0.0 && marker.right() <= 40.0, "{marker:?}");

@@ -4,8 +4,8 @@ use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Model, Outcome, Outline};
 use motiform_models::ModelInfo;
 use motiform_store::table::Table;
-use motiform_study::titles::number;
-use motiform_study::{Dataset, Dimension, Error, Units};
+pub(super) use motiform_study::units::{LENGTH, RATE, TIME};
+use motiform_study::{Dataset, Dimension, Error, Shown};
 use std::ops::Range;
 
 /// A dataset with its model, and the choices that all figures share.
@@ -17,17 +17,12 @@ pub(super) struct Body<'d> {
     /// Whether the last rows before a blow-up are left out.
     cut: bool,
     /// Physical units, if the study has them.
-    units: Option<Units>,
+    units: Shown,
     /// Undeformed radius R0 (model length).
     pub(super) radius: f64,
     /// Ratio of the drawn size of an outline to its true size relative to the path.
     pub(super) scale: f64,
 }
-
-/// The dimension of a length, a time, and a rate.
-pub(super) const LENGTH: Dimension = [1, 0];
-pub(super) const TIME: Dimension = [0, 1];
-pub(super) const RATE: Dimension = [0, -1];
 
 /// Approximate size of an undeformed outline relative to the longer side of the path.
 const TARGET: f64 = 0.032;
@@ -50,7 +45,7 @@ impl<'d> Body<'d> {
             model,
             rows,
             cut: false,
-            units: Units::parse(&plan.figure.units)?,
+            units: Shown::parse(&plan.figure.units)?,
             radius: 1.0,
             scale: 1.0,
         };
@@ -94,31 +89,27 @@ impl<'d> Body<'d> {
 
     /// The factor from model units to those of the figures.
     pub(super) fn factor(&self, dimension: Dimension) -> f64 {
-        self.units.as_ref().map_or(1.0, |units| units.factor(dimension))
+        self.units.factor(dimension)
     }
 
     /// A label with its unit, which model units have not.
     pub(super) fn label(&self, quantity: &str, dimension: Dimension) -> String {
-        let unit = self.units.as_ref().filter(|_| dimension != [0, 0]);
-        unit.map_or_else(|| quantity.to_owned(), |units| format!("{quantity} ({})", units.name(dimension)))
+        self.units.label(quantity, dimension)
     }
 
     /// A value in model units as words with its unit; `plain` stands for it where that is of the model.
     pub(super) fn words(&self, value: f64, dimension: Dimension, plain: &str) -> String {
-        let shown = number(value * self.factor(dimension));
-        self.units
-            .as_ref()
-            .map_or_else(|| format!("{shown}{plain}"), |units| format!("{shown} {}", units.name(dimension)))
+        self.units.words(value, dimension, plain)
     }
 
     /// The name of a unit.
     pub(super) fn words_of(&self, dimension: Dimension) -> String {
-        self.units.as_ref().map_or_else(|| "model length".to_owned(), |units| units.name(dimension))
+        self.units.name(dimension, "model length")
     }
 
-    /// Whether figures have physical units.
-    pub(super) fn is_physical(&self) -> bool {
-        self.units.is_some()
+    /// The units of the figures.
+    pub(super) fn units(&self) -> &Shown {
+        &self.units
     }
 
     /// A time in the units of the figures.

@@ -1,7 +1,7 @@
 //! Scans: phase diagrams, and the largest exponent along one axis.
 
 use super::{Figures, words};
-use crate::scan::{Axis, CellSummary, ScanFolder, cells};
+use crate::scan::{Axis, CellSummary, ScanFolder, cells, dimension};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::order::ascending;
 use motiform_figures::{
@@ -11,23 +11,26 @@ use motiform_models::ModelInfo;
 use motiform_models::parameters::Parameters;
 use motiform_models::tensor::TensorParameters;
 use motiform_models::tensor::reduced::{Line, Reduced};
-use motiform_study::{Error, ScanPlan};
+use motiform_study::{Error, ScanPlan, Shown};
+
+/// The number of a row that is drawn along one axis.
+const EXPONENT: &str = "lambda_1";
 
 /// Points of an analytic line.
 const POINTS: usize = 600;
 
-/// The figures of a scan: `_diagram`, and with one axis `_exponent` if exponents are known. Because of the underscore, readers of all parts
+/// The figures of a scan in these units: `_diagram`, and with one axis `_exponent` if exponents are known. Because of the underscore, readers of all parts
 /// as one table ignore them. A scan without any computed cell has none.
 ///
 /// # Errors
 /// [`Error::Unreadable`], an unknown model, or numbers that do not fit on an axis.
-pub fn scan_figures(folder: &ScanFolder) -> Result<Figures, Error> {
+pub fn scan_figures(folder: &ScanFolder, units: &Shown) -> Result<Figures, Error> {
     let plan = folder.plan();
     let cells: Vec<CellSummary> = cells(folder)?.into_iter().flatten().collect();
     let mut all: Figures = Vec::new();
     if !cells.is_empty() {
         all.push(("_diagram", Box::new(phase_diagram(plan, &cells)?)));
-        all.extend(exponents(plan, &cells)?.map(|figure| ("_exponent", Box::new(figure) as _)));
+        all.extend(exponents(plan, &cells, units)?.map(|figure| ("_exponent", Box::new(figure) as _)));
     }
     Ok(all)
 }
@@ -47,7 +50,7 @@ pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiag
     let values = |axis: Option<&Axis>| axis.map_or_else(Vec::new, |axis| sorted(&axis.values));
     Ok(PhaseDiagram {
         title: plan.title.clone(),
-        caption: caption(plan, info, cells),
+        caption: caption(plan, info, cells, &Shown::default()),
         x_label: label(axes.first()),
         y_label: label(axes.get(1)),
         x: values(axes.first()),
@@ -62,15 +65,20 @@ pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiag
 ///
 /// # Errors
 /// An unknown model.
-pub fn exponents(plan: &ScanPlan, cells: &[CellSummary]) -> Result<Option<ErrorBarFigure>, Error> {
+pub fn exponents(
+    plan: &ScanPlan,
+    cells: &[CellSummary],
+    units: &Shown,
+) -> Result<Option<ErrorBarFigure>, Error> {
     let info = plan.info()?;
     let [axis] = &plan.computation.axes[..] else { return Ok(None) };
+    let factor = units.factor(dimension(EXPONENT));
     let series: Vec<ErrorBarSeries> =
-        Regime::ALL.into_iter().filter_map(|regime| exponents_of(regime, plan, cells)).collect();
+        Regime::ALL.into_iter().filter_map(|regime| exponents_of(regime, plan, cells, factor)).collect();
     if series.is_empty() {
         return Ok(None);
     }
-    let mut caption = caption(plan, info, cells);
+    let mut caption = caption(plan, info, cells, units);
     caption.push(
         "Medians over the initial states that lead to the same motion; bars: medians of the half widths of the 95 % \
          confidence intervals. Exponents of fixed shapes and of periodic orbits are those of the linearised motion; the \
@@ -81,7 +89,7 @@ pub fn exponents(plan: &ScanPlan, cells: &[CellSummary]) -> Result<Option<ErrorB
         title: format!("{}: largest Lyapunov exponent", plan.title),
         caption,
         x_label: symbol(info, &axis.name),
-        y_label: "*λ*_1".to_owned(),
+        y_label: units.label("*λ*_1", dimension(EXPONENT)),
         series,
         zero_line: true,
         ..ErrorBarFigure::default()
@@ -89,12 +97,18 @@ pub fn exponents(plan: &ScanPlan, cells: &[CellSummary]) -> Result<Option<ErrorB
 }
 
 /// The exponents of one regime.
-fn exponents_of(regime: Regime, plan: &ScanPlan, cells: &[CellSummary]) -> Option<ErrorBarSeries> {
+fn exponents_of(
+    regime: Regime,
+    plan: &ScanPlan,
+    cells: &[CellSummary],
+    factor: f64,
+) -> Option<ErrorBarSeries> {
     let point = |cell: &CellSummary| {
         let motion = cell.motions.iter().find(|motion| motion.regime == regime)?;
-        let (y, error) = (motion.median("lambda_1")?, motion.median("lambda_1_error")?);
+        let (y, error) = (motion.median(EXPONENT)?, motion.median("lambda_1_error")?);
         let x = *plan.axis_values(cell.cell).first()?;
-        (y.is_finite() && error.is_finite()).then_some(Measured { x, y, error: error.abs() })
+        let shown = Measured { x, y: factor * y, error: factor * error.abs() };
+        (y.is_finite() && error.is_finite()).then_some(shown)
     };
     let mut points: Vec<Measured> = cells.iter().filter_map(point).collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x));
@@ -102,7 +116,7 @@ fn exponents_of(regime: Regime, plan: &ScanPlan, cells: &[CellSummary]) -> Optio
 }
 
 /// Description of the scan.
-fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<String> {
+fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary], units: &Shown) -> Vec<String> {
     let c = &plan.computation;
     let (count, all) = (cells.len(), plan.cells());
     let computed =
@@ -120,7 +134,7 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary]) -> Vec<Stri
         (samples, true) => format!("{samples} random initial states each, {random}"),
     };
     let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
-    vec![words::named(info, &c.parameters, &varied, &c.ties), format!("{computed}, {states}.")]
+    vec![words::named_in(info, &c.parameters, (&varied, &c.ties), units), format!("{computed}, {states}.")]
 }
 
 /// Notation of a parameter in figures, or of a coordinate of the start.

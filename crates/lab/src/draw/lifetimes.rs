@@ -2,10 +2,10 @@
 
 use super::diagram::symbol;
 use super::{FigureFormat, Picture, files, words};
-use crate::lifetimes::{LifeAt, Lifetimes};
+use crate::lifetimes::{LIFE, LifeAt, Lifetimes};
 use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, Interval, LineStyle, Measured};
 use motiform_models::ModelInfo;
-use motiform_study::{Error, ScanPlan};
+use motiform_study::{Error, ScanPlan, Shown};
 
 /// Points of a fitted law.
 const POINTS: usize = 400;
@@ -20,41 +20,41 @@ pub fn draw_lifetimes(
     format: &FigureFormat,
 ) -> Result<Vec<Picture>, Error> {
     let watched = found.values.iter().any(|at| at.life.watched > 0.0);
-    let figure = watched.then(|| figure(plan, found)).transpose()?;
+    let figure = watched.then(|| figure(plan, found, &format.units)).transpose()?;
     files(figure.map(|figure| ("mean-life", Box::new(figure) as _)).into_iter().collect(), false, format)
 }
 
-/// Mean lives with their 95 % intervals on a logarithmic axis, and both laws.
+/// Mean lives with their 95 % intervals on a logarithmic axis, and both laws, in these units.
 ///
 /// # Errors
 /// An unknown model.
-pub fn figure(plan: &ScanPlan, found: &Lifetimes) -> Result<ErrorBarFigure, Error> {
-    let info = plan.info()?;
+pub fn figure(plan: &ScanPlan, found: &Lifetimes, units: &Shown) -> Result<ErrorBarFigure, Error> {
+    let (info, factor) = (plan.info()?, units.factor(LIFE));
     let watched = || found.values.iter().filter(|at| at.life.watched > 0.0);
-    let point = |at: &LifeAt| Some(Measured { x: at.value, y: at.life.value?, error: 0.0 });
+    let point = |at: &LifeAt| Some(Measured { x: at.value, y: factor * at.life.value?, error: 0.0 });
     let interval = |at: &LifeAt| Interval {
         x: at.value,
-        low: at.life.lower,
-        high: at.life.upper.unwrap_or(f64::INFINITY),
+        low: factor * at.life.lower,
+        high: factor * at.life.upper.unwrap_or(f64::INFINITY),
     };
     Ok(ErrorBarFigure {
         title: format!("{}: mean life of chaos", plan.title),
-        caption: caption(plan, found, info),
+        caption: caption(plan, found, info, units),
         x_label: symbol(info, &found.parameter),
-        y_label: "mean life".to_owned(),
+        y_label: units.label("mean life", LIFE),
         series: vec![ErrorBarSeries {
             label: String::new(),
             points: watched().filter_map(point).collect(),
             joined: false,
         }],
         intervals: watched().map(interval).collect(),
-        lines: laws(found),
+        lines: laws(found, factor),
         logarithmic_y: true,
         ..ErrorBarFigure::default()
     })
 }
 
-fn laws(found: &Lifetimes) -> Vec<ExpectedLine> {
+fn laws(found: &Lifetimes, factor: f64) -> Vec<ExpectedLine> {
     let Some((exponential, power)) = found.laws.fits() else { return Vec::new() };
     let ends = found
         .values
@@ -65,7 +65,7 @@ fn laws(found: &Lifetimes) -> Vec<ExpectedLine> {
         style,
         points: (0..=POINTS)
             .map(|i| ends.0 + (ends.1 - ends.0) * i as f64 / POINTS as f64)
-            .map(|p| [p, life(p)])
+            .map(|p| [p, factor * life(p)])
             .filter(|point| point[1].is_finite())
             .collect(),
     };
@@ -75,18 +75,18 @@ fn laws(found: &Lifetimes) -> Vec<ExpectedLine> {
     ]
 }
 
-fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo) -> Vec<String> {
+fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo, units: &Shown) -> Vec<String> {
     let c = &plan.computation;
     let events: usize = found.values.iter().map(|at| at.life.events).sum();
     vec![
-        words::named(info, &c.parameters, &[], &c.ties),
+        words::named_in(info, &c.parameters, (&[], &c.ties), units),
         format!(
-            "{} starts for each value, {}, seed {}, each followed to {} model time; {events} lives ended. Bars: exact 95 % limits of an \
+            "{} starts for each value, {}, seed {}, each followed to {}; {events} lives ended. Bars: exact 95 % limits of an \
              exponential law with censoring; a bar without an upper end: no life ended.",
             c.samples,
             c.random.words(),
             c.seed,
-            words::number(found.until)
+            units.words(found.until, LIFE, " model time")
         ),
     ]
 }

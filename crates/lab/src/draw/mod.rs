@@ -16,7 +16,7 @@ use body::Body;
 pub use body::radius_for;
 pub use diagram::{boundary_lines, exponents, phase_diagram, scan_figures, symbol};
 use motiform_figures::{Drawn, Figure, FigureError, Style, png};
-use motiform_study::{Dataset, Error, Plan, Ties};
+use motiform_study::{Dataset, Error, Plan, Shown, Ties};
 
 /// The error of a figure, as an error of a study.
 #[must_use]
@@ -25,12 +25,12 @@ pub fn undrawable(error: FigureError) -> Error {
     Error::Figure(error.to_string())
 }
 
-/// The parameters of a plan as a line of a caption.
+/// The parameters of a plan as a line of a caption of a figure in these units.
 ///
 /// # Errors
 /// An unknown model.
-pub fn parameters(plan: &Plan) -> Result<String, Error> {
-    Ok(words::named(plan.info()?, &plan.computation.parameters, &[], &Ties::default()))
+pub fn parameters(plan: &Plan, units: &Shown) -> Result<String, Error> {
+    Ok(words::named_in(plan.info()?, &plan.computation.parameters, (&[], &Ties::default()), units))
 }
 
 /// Draws a figure, with its data.
@@ -57,6 +57,8 @@ pub struct FigureFormat {
     pub pdf: bool,
     /// Title, caption and size instead of the defaults.
     pub style: Style,
+    /// Units of the axes, for results that have none of their own.
+    pub units: Shown,
 }
 
 /// Draws every figure of a dataset: `path`, `series`, and if the model or the plan has them `return-map`, `phi` and

@@ -3,10 +3,10 @@
 use super::body::{Body, LENGTH, TIME};
 use motiform_dynamics::Outcome;
 use motiform_models::ModelInfo;
-use motiform_study::Ties;
 use motiform_study::plan::{Named, NoiseSettings};
 use motiform_study::titles::capital;
 pub use motiform_study::titles::number;
+use motiform_study::{Shown, Ties};
 
 /// A non-breaking space.
 const SPACE: char = '\u{a0}';
@@ -19,25 +19,19 @@ pub(super) fn about(body: &Body<'_>) -> Vec<String> {
 /// `Tensor model, in model units: γ = 1, κ_2 = 0.9, ...; all others 0.`
 pub(super) fn parameters(body: &Body<'_>) -> String {
     let values = &body.dataset.manifest.plan.computation.parameters;
-    let units = match body.is_physical() {
-        true => {
-            format!(", unit of length {}, of time {}", body.words(1.0, LENGTH, ""), body.words(1.0, TIME, ""))
-        }
-        false => MODEL_UNITS.to_owned(),
-    };
-    sentence(body.info, values, (&[], &Ties::default()), &units)
+    named_in(body.info, values, (&[], &Ties::default()), body.units())
 }
-
-const MODEL_UNITS: &str = ", in model units";
 
 /// The values of a model that are not 0, and the expressions of those that follow from others, as a sentence; `varied` are those that the
 /// figure shows.
 #[must_use]
 pub fn named(info: &ModelInfo, values: &Named, varied: &[&str], ties: &Ties) -> String {
-    sentence(info, values, (varied, ties), MODEL_UNITS)
+    named_in(info, values, (varied, ties), &Shown::default())
 }
 
-fn sentence(info: &ModelInfo, values: &Named, (varied, ties): (&[&str], &Ties), units: &str) -> String {
+/// The same for a figure in these units; parameters stay those of the model.
+#[must_use]
+pub fn named_in(info: &ModelInfo, values: &Named, (varied, ties): (&[&str], &Ties), units: &Shown) -> String {
     let specs = info.parameters();
     let value = |name| values.get(name).filter(|&value| value != 0.0).map(number);
     let set: Vec<String> = specs
@@ -48,7 +42,7 @@ fn sentence(info: &ModelInfo, values: &Named, (varied, ties): (&[&str], &Ties), 
         .collect();
     let given = set.len() + specs.iter().filter(|spec| varied.contains(&spec.name)).count();
     let others = if given < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };
-    format!("{} model{units}: {}{others}.", capital(info.name), set.join(", "))
+    format!("{} model{}: {}{others}.", capital(info.name), units.caption(), set.join(", "))
 }
 
 /// What of a run is not seen: its noise, its transient, and how it ended if it did not complete.
@@ -77,7 +71,7 @@ pub(super) fn method(body: &Body<'_>) -> String {
         other => format!(" The run ended early: {other}."),
     };
     let end = end.replace("*t** =", "*t*\\* =");
-    let noise = if body.is_physical() && !noise.is_empty() {
+    let noise = if body.units().is_physical() && !noise.is_empty() {
         format!("{noise} (Noise is in model units.)")
     } else {
         noise

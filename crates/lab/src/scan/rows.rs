@@ -3,32 +3,45 @@
 use super::ScanPlan;
 use motiform_analysis::regime::{Attractor, Course, Regime, Verdict};
 use motiform_store::columns::{Column, Values, to_csv};
-use motiform_study::Error;
+use motiform_study::units::{LENGTH, RATE, SPEED, TIME};
+use motiform_study::{Dimension, Error};
 
-/// The numbers of a row, in file order: name and meaning.
-pub const NUMBERS: [(&str, &str); 15] = [
+/// The numbers of a row, in file order: name, meaning and dimension.
+pub const NUMBERS: [(&str, &str, Dimension); 15] = [
     (
         "margin",
         "how clear the decision is: its number's distance from the limit, in units of its own uncertainty",
+        [0, 0],
     ),
-    ("speed_mean", "time average of |v| (model length per model time)"),
-    ("speed_min", "smallest |v| (model length per model time)"),
-    ("speed_max", "largest |v| (model length per model time)"),
-    ("turning_rate", "mean turning rate of the heading (rad per model time)"),
-    ("period", "time after which the body is as it was, but for the net rotation (model time)"),
-    ("net_rotation", "net rotation of the body per period (rad, in -pi..pi)"),
-    ("drift", "distance travelled per period (model length)"),
-    ("heading", "direction of the displacement (rad from the x-axis), where rotations are no symmetry"),
-    ("swing", "peak-to-peak swing of the heading over one period (rad)"),
-    ("lambda_1", "largest Lyapunov exponent (inverse model time)"),
-    ("lambda_1_error", "half width of its 95 % confidence interval"),
-    ("escape_time", "the blow-up time t* (model time)"),
-    ("time", "model time that the decision took"),
+    ("speed_mean", "time average of |v| (model length per model time)", SPEED),
+    ("speed_min", "smallest |v| (model length per model time)", SPEED),
+    ("speed_max", "largest |v| (model length per model time)", SPEED),
+    ("turning_rate", "mean turning rate of the heading (rad per model time)", RATE),
+    ("period", "time after which the body is as it was, but for the net rotation (model time)", TIME),
+    ("net_rotation", "net rotation of the body per period (rad, in -pi..pi)", [0, 0]),
+    ("drift", "distance travelled per period (model length)", LENGTH),
+    (
+        "heading",
+        "direction of the displacement (rad from the x-axis), where rotations are no symmetry",
+        [0, 0],
+    ),
+    ("swing", "peak-to-peak swing of the heading over one period (rad)", [0, 0]),
+    ("lambda_1", "largest Lyapunov exponent (inverse model time)", RATE),
+    ("lambda_1_error", "half width of its 95 % confidence interval", RATE),
+    ("escape_time", "the blow-up time t* (model time)", TIME),
+    ("time", "model time that the decision took", TIME),
     (
         "resolution",
         "largest relative change of speed, turning rate and period (of chaos: speed and largest exponent) with half as many modes more, where the model has a number of modes",
+        [0, 0],
     ),
 ];
+
+/// The dimension of a number by its name; none of other names.
+#[must_use]
+pub fn dimension(name: &str) -> Dimension {
+    NUMBERS.iter().find(|known| known.0 == name).map_or([0, 0], |known| known.2)
+}
 
 /// One initial state of one cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -151,7 +164,7 @@ pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
         "sense of rotation, or direction to the field, where the model has no mirror or has a field; otherwise empty",
         text(|row| row.course.map_or("", Course::name)),
     ));
-    for (place, (name, meaning)) in NUMBERS.iter().enumerate() {
+    for (place, (name, meaning, _)) in NUMBERS.iter().enumerate() {
         let values = rows.iter().map(|row| row.numbers[place]).collect();
         columns.push(Column::new(name, meaning, Values::Number(values)));
     }

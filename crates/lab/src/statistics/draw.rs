@@ -2,11 +2,13 @@
 
 mod curves;
 mod displacement;
+mod units;
 
 use crate::draw::{FigureFormat, Picture, files, parameters};
 use crate::statistics::{Measurement, Result};
 use motiform_figures::Figure;
 use motiform_statistics::Errors;
+use motiform_study::Shown;
 
 /// Draws `msd`, `exponent`, `autocorrelations`, `speed`, `turning`, `spectra` and `first-passage` as SVG and PNG (and PDF if requested), as
 /// far as there is something to draw.
@@ -14,24 +16,27 @@ use motiform_statistics::Errors;
 /// # Errors
 /// Numbers that do not fit on an axis.
 pub fn draw(measurement: &Measurement, format: &FigureFormat) -> Result<Vec<Picture>> {
+    let units = &format.units;
     let figures: [(&'static str, Option<Box<dyn Figure>>); 7] = [
-        ("msd", displacement::displacements(measurement)?),
-        ("exponent", displacement::exponents(measurement)?),
-        ("autocorrelations", curves::autocorrelations(measurement)?),
-        ("speed", curves::speeds(measurement)?),
-        ("turning", curves::turning(measurement)?),
-        ("spectra", curves::spectra(measurement)?),
-        ("first-passage", displacement::passages(measurement)?),
+        ("msd", displacement::displacements(measurement, units)?),
+        ("exponent", displacement::exponents(measurement, units)?),
+        ("autocorrelations", curves::autocorrelations(measurement, units)?),
+        ("speed", curves::speeds(measurement, units)?),
+        ("turning", curves::turning(measurement, units)?),
+        ("spectra", curves::spectra(measurement, units)?),
+        ("first-passage", displacement::passages(measurement, units)?),
     ];
     let there = figures.into_iter().filter_map(|(name, figure)| Some((name, figure?)));
     Ok(files(there.collect(), false, format)?)
 }
 
 /// The caption: parameters, noise, bodies, and what the bands or bars (`marks`) are; then `more`.
-fn caption(measurement: &Measurement, marks: &str, more: &[&str]) -> Result<Vec<String>> {
-    let mut lines = vec![parameters(&measurement.plan)?];
+fn caption(measurement: &Measurement, units: &Shown, marks: &str, more: &[&str]) -> Result<Vec<String>> {
+    let mut lines = vec![parameters(&measurement.plan, units)?];
     let c = &measurement.plan.computation;
-    let noise = c.noise.map_or(String::new(), |noise| format!(" Noise: {noise}."));
+    let noise = c.noise.map_or(String::new(), |noise| {
+        format!(" Noise{}: {noise}.", if units.is_physical() { " (model units)" } else { "" })
+    });
     let found = &measurement.statistics;
     let what = match found.errors {
         Errors::Bodies { count } => format!("{count} bodies; {marks}: 95 % intervals over bodies."),

@@ -2,6 +2,8 @@
 
 use crate::statistics::Measurement;
 use motiform_statistics::{Answer, Diffusion, Errors, MeanTime, Measured, Oscillation, Side, four_digits};
+use motiform_study::units::{LENGTH, RATE, SPEED, TIME};
+use motiform_study::{Dimension, Shown};
 use serde_json::{Value, json};
 
 /// Everything that is not a curve, as one JSON object. A number that is not known is `{"reason": ...}`.
@@ -43,9 +45,14 @@ pub fn summary(measurement: &Measurement) -> Value {
     })
 }
 
-/// Label and text of each result, for people.
+/// Label and text of each result in these units, for people.
 #[must_use]
-pub fn sentences(measurement: &Measurement) -> Vec<(&'static str, String)> {
+pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str, String)> {
+    let answer = |dimension, found: &Answer| answer_in(units, dimension, found);
+    let value = |dimension, found: &Measured| value_in(units, dimension, found);
+    let four = |dimension, number: f64| {
+        format!("{}{}", four_digits(number * units.factor(dimension)), unit(units, dimension))
+    };
     let found = &measurement.statistics;
     let [shortest, longest] = found.samples;
     let samples = if shortest == longest { longest.to_string() } else { format!("{shortest} to {longest}") };
@@ -56,13 +63,20 @@ pub fn sentences(measurement: &Measurement) -> Vec<(&'static str, String)> {
             format!(
                 "{} {bodies}, {samples} samples every {}; {}",
                 found.bodies,
-                found.dt,
+                if units.is_physical() { four(TIME, found.dt) } else { found.dt.to_string() },
                 over(found.errors)
             ),
         ),
-        ("speed", format!("mean {}, root mean square {}", value(&found.mean_speed), value(&found.rms_speed))),
-        ("persistence", format!("time {}", answer(&found.walk.persistence))),
-        ("", format!("speed {}", answer(&found.walk.speed))),
+        (
+            "speed",
+            format!(
+                "mean {}, root mean square {}",
+                value(SPEED, &found.mean_speed),
+                value(SPEED, &found.rms_speed)
+            ),
+        ),
+        ("persistence", format!("time {}", answer(TIME, &found.walk.persistence))),
+        ("", format!("speed {}", answer(SPEED, &found.walk.speed))),
         (
             "",
             format!(
@@ -70,34 +84,54 @@ pub fn sentences(measurement: &Measurement) -> Vec<(&'static str, String)> {
                 100.0 * found.walk.deviation
             ),
         ),
-        ("diffusion", format!("coefficient {} (persistent random walk)", answer(&found.walk.diffusion))),
+        (
+            "diffusion",
+            format!("coefficient {} (persistent random walk)", answer(DIFFUSION, &found.walk.diffusion)),
+        ),
     ];
-    all.extend(diffusion(&found.diffusion));
+    all.extend(diffusion(&found.diffusion, units));
     all.extend([
-        ("exponent", format!("{} at the shortest lag", answer(&found.exponents[0]))),
-        ("", format!("{} over the last octave of lags", answer(&found.exponents[1]))),
+        ("exponent", format!("{} at the shortest lag", answer([0, 0], &found.exponents[0]))),
+        ("", format!("{} over the last octave of lags", answer([0, 0], &found.exponents[1]))),
     ]);
     for (place, entry) in found.autocorrelations.iter().enumerate() {
         let (label, name) = (if place == 0 { "correlation" } else { "" }, entry.quantity.name());
-        all.push((label, format!("time of {name}: {}", answer(&entry.time))));
+        all.push((label, format!("time of {name}: {}", answer(TIME, &entry.time))));
         all.extend(
-            entry.oscillation.iter().map(|found| ("", format!("{name} oscillates: {}", oscillation(found)))),
+            entry
+                .oscillation
+                .iter()
+                .map(|found| ("", format!("{name} oscillates: {}", oscillation(found, units)))),
         );
     }
     for (place, passage) in found.passages.iter().enumerate() {
         let label = if place == 0 { "leaves" } else { "" };
         all.push((
             label,
-            format!("a disc of radius {} after {}", four_digits(passage.radius), mean_time(&passage.time)),
+            format!(
+                "a disc of radius {} after {}",
+                four(LENGTH, passage.radius),
+                mean_time(&passage.time, units)
+            ),
         ));
     }
     let residence = &found.residence;
+    let threshold = if residence.quantity == "speed" {
+        four(SPEED, residence.threshold)
+    } else {
+        format!(
+            "{}{}",
+            four_digits(residence.threshold),
+            if units.is_physical() { " (model units)" } else { "" }
+        )
+    };
     let side = |words: &str, side: &Side| {
-        let stays = side.time.as_ref().map_or_else(|| "no stay was seen".to_owned(), mean_time);
+        let stays =
+            side.time.as_ref().map_or_else(|| "no stay was seen".to_owned(), |time| mean_time(time, units));
         format!(
             "{} {words} {} for {stays} ({:.1} % of the time)",
             residence.quantity,
-            four_digits(residence.threshold),
+            threshold,
             100.0 * side.share
         )
     };
@@ -109,7 +143,8 @@ pub fn sentences(measurement: &Measurement) -> Vec<(&'static str, String)> {
 /// Half widths of a 95 % interval that are three standard errors.
 const CHANCE: f64 = 1.5;
 
-fn diffusion(found: &Diffusion) -> Vec<(&'static str, String)> {
+fn diffusion(found: &Diffusion, units: &Shown) -> Vec<(&'static str, String)> {
+    let answer = |found: &Answer| answer_in(units, DIFFUSION, found);
     let mut all = vec![
         ("", format!("coefficient {} (velocities: Green-Kubo)", answer(&found.green_kubo))),
         ("", format!("coefficient {} (displacements: slope)", answer(&found.displacements))),
@@ -118,18 +153,19 @@ fn diffusion(found: &Diffusion) -> Vec<(&'static str, String)> {
         let agree = difference.value.abs() <= CHANCE * difference.half_width();
         let meaning =
             if agree { "they agree" } else { "sampled coarsely, or motion that is not in the velocity" };
-        ("", format!("velocities less displacements {}: {meaning}", value(difference)))
+        ("", format!("velocities less displacements {}: {meaning}", value_in(units, DIFFUSION, difference)))
     }));
     all
 }
 
-fn oscillation(found: &Oscillation) -> String {
+fn oscillation(found: &Oscillation, units: &Shown) -> String {
     match (&found.frequency, &found.decay) {
         (Answer::Unknown { reason }, _) => reason.clone(),
         (frequency, decay) => format!(
-            "{} cycles per time, decays in {} (damped cosine; deviation {:.0} %)",
-            answer(frequency),
-            answer(decay),
+            "{} cycles per {}, decays in {} (damped cosine; deviation {:.0} %)",
+            answer(&times(frequency, units.factor(RATE))),
+            plain(&units.name(TIME, "time")),
+            answer_in(units, TIME, decay),
             100.0 * found.deviation
         ),
     }
@@ -144,12 +180,53 @@ fn over(errors: Errors) -> String {
     }
 }
 
-fn mean_time(time: &MeanTime) -> String {
+fn mean_time(time: &MeanTime, units: &Shown) -> String {
     let censored = format!("{:.1} % of {} not watched to the end", 100.0 * time.censored, time.count);
-    match &time.mean {
-        Answer::Known(mean) => format!("{}, {censored}", value(mean)),
-        Answer::Unknown { reason } => format!("unknown: {reason}, {censored}"),
+    format!("{}, {censored}", answer_in(units, TIME, &time.mean))
+}
+
+/// The dimension of a coefficient of diffusion.
+const DIFFUSION: Dimension = [2, -1];
+
+/// A space and the name of the unit, as a terminal shows it; nothing in model units.
+fn unit(units: &Shown, dimension: Dimension) -> String {
+    let name = plain(&units.name(dimension, ""));
+    if name.is_empty() { name } else { format!(" {name}") }
+}
+
+fn plain(markup: &str) -> String {
+    motiform_figures::Label::parse(markup).terminal()
+}
+
+fn answer_in(units: &Shown, dimension: Dimension, found: &Answer) -> String {
+    match found {
+        Answer::Known(measured) => value_in(units, dimension, measured),
+        Answer::Unknown { reason }
+            if units.is_physical() && reason.contains(|c: char| c.is_ascii_digit()) =>
+        {
+            format!("{} (numbers in model units)", answer(found))
+        }
+        Answer::Unknown { .. } => answer(found),
     }
+}
+
+fn times(found: &Answer, factor: f64) -> Answer {
+    match found {
+        Answer::Known(measured) => Answer::Known(scaled(measured, factor)),
+        Answer::Unknown { .. } => found.clone(),
+    }
+}
+
+fn scaled(measured: &Measured, factor: f64) -> Measured {
+    Measured {
+        value: factor * measured.value,
+        interval: measured.interval.map(|ends| ends.map(|end| factor * end)),
+    }
+}
+
+/// [`value`] of a number of the model, in these units, with its unit.
+pub(crate) fn value_in(units: &Shown, dimension: Dimension, measured: &Measured) -> String {
+    format!("{}{}", value(&scaled(measured, units.factor(dimension))), unit(units, dimension))
 }
 
 fn answer(answer: &Answer) -> String {

@@ -12,12 +12,13 @@ All quantities are in model units of time and length; parameters have the paper'
 from . import cells
 from ._registry import MODELS, PRESETS, REGIMES, STEPPERS
 from ._registry import VERSION as __version__
+from .atlases import Atlas, Boundary, Region
 from .bodies import Cell, Tensor
 from .branches import Branch, Branches
 from .curves import Curve, Curves
 from .ensembles import Ensemble, ensemble
 from .equations import Amplitudes
-from .errors import EndedEarly, Incomplete, Interrupted, WorkersLost
+from .errors import Doubtful, EndedEarly, Incomplete, Interrupted, WorkersLost
 from .fields import Field, Orbit
 from .measurements import Measured, Statistics, statistics
 from .models import Model, preset, study
@@ -34,12 +35,15 @@ __all__ = [
     "STEPPERS",
     "Accuracy",
     "Amplitudes",
+    "Atlas",
+    "Boundary",
     "Branch",
     "Branches",
     "Cell",
     "Crossings",
     "Curve",
     "Curves",
+    "Doubtful",
     "EndedEarly",
     "Ensemble",
     "Equilibrium",
@@ -53,6 +57,7 @@ __all__ = [
     "Motions",
     "Orbit",
     "Outcome",
+    "Region",
     "Share",
     "Spread",
     "Statistics",

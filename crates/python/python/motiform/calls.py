@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
-from .errors import EndedEarly, Interrupted
+from .errors import Doubtful, EndedEarly, Interrupted
 from .trajectory import Floats
 
 OnEnd = Literal["warn", "ignore", "raise"]
@@ -37,6 +37,12 @@ def with_given(study: _motiform.Study, initial: Mapping[str, float] | None, give
     if not run and initial is None:
         return study
     return study.with_(None, None if initial is None else dict(initial), run)
+
+
+def remark(study: _motiform.Study, varied: Iterable[str] = ()) -> None:
+    """Warns, at the line that called the caller, of what is probably not meant where the parameters `varied` are varied."""
+    for text in study.remarks(list(varied)):
+        warnings.warn(text, Doubtful, stacklevel=3)
 
 
 def span(study: _motiform.Study) -> float:

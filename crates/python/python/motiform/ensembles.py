@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
-from .calls import Random, with_given
+from .calls import Random, remark, with_given
 from .progress import Bar, Progress
 from .results import Outcome, outcome_of
 from .trajectory import Floats
@@ -113,6 +113,7 @@ def ensemble(
     if isinstance(body, Field):
         return body._ensemble(times, starts, varied, given, threads, progress)
     study = with_given(body._study, None, given)
+    remark(study, varied)
     table = _parameters(body, varied)
     places = _starts(body, study, starts, len(table))
     table, places = _matched(table, places)

@@ -11,6 +11,10 @@ class Incomplete(UserWarning):
     """Rows of a folder are missing or damaged."""
 
 
+class Doubtful(UserWarning):
+    """What is asked for is allowed, and probably not what is meant: a tie that says 0 = 0, an explicit stepper for stiff equations."""
+
+
 class WorkersLost(RuntimeWarning):
     """An executor failed; the rest of a scan is computed in this process."""
 

@@ -237,6 +237,10 @@ class Field:
         """Not for a field: raises ``NotImplementedError`` with the reason."""
         _refuse("curves", "continuation needs exact derivatives, also by parameters, and the symmetry of a body")
 
+    def atlas(self, *_: object, **__: object) -> NoReturn:
+        """Not for a field: raises ``NotImplementedError`` with the reason."""
+        _refuse("atlas", "the criteria need the velocity, the symmetry and exact derivatives of a body")
+
     def statistics(self, *_: object, **__: object) -> NoReturn:
         """Not for a field: raises ``NotImplementedError`` with the reason."""
         _refuse("statistics", "they are those of a body's position, velocity and modes")

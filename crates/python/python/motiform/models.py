@@ -11,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
+from .atlases import Atlas, atlas_of, axis_text
 from .branches import Branches, branches_of
-from .calls import OnEnd, Random, ended_early, raised_with, range_of, real, span, with_given
+from .calls import OnEnd, Random, ended_early, raised_with, range_of, real, remark, span, with_given
 from .curves import Curves, curves_of
 from .described import Described
 from .measurements import Statistics, Threshold, asked, statistics_from
@@ -96,6 +97,7 @@ class Model(Described):
             "escape_norm": escape_norm,
         }  # fmt: skip
         study = with_given(self._study, initial, given)
+        remark(study)
         with Bar(progress, lambda: span(study), "model time") as bar:
             run, raised = _motiform.simulate(study, bar.callable())
         trajectory = Trajectory(run)
@@ -124,6 +126,7 @@ class Model(Described):
         More: docs/regimes.md.
         """
         study = with_given(self._study, initial, {"random": random, "perturb": perturb, "seed": seed})
+        remark(study)
         with Bar(progress, budget or self.info.budget, "model time") as bar:
             return verdict_of(json.loads(_motiform.classify(study, budget, bar.callable())))
 
@@ -146,6 +149,7 @@ class Model(Described):
         More: docs/regimes.md.
         """
         study = with_given(self._study, initial, {"random": random, "seed": seed})
+        remark(study)
         with Bar(progress, 100.0, "%") as bar:
             count = threads or os.cpu_count() or 1
             return motions_of(json.loads(_motiform.motions(study, samples, budget, count, bar.callable())))
@@ -167,6 +171,7 @@ class Model(Described):
         More: docs/regimes.md.
         """
         study = with_given(self._study, initial, {"random": random, "seed": seed})
+        remark(study)
         count = min(6, len(study.coordinates())) if count is None else count
         with Bar(progress, 100.0, "%") as bar:
             raw = json.loads(_motiform.lyapunov(study, count, transient, t_end, bar.callable()))
@@ -223,6 +228,7 @@ class Model(Described):
         """
         study = with_given(self._study, initial, {"seed": seed})
         name, low, high = range_of("along", along)
+        remark(study, (name,))
         with Bar(progress, branches, "branches") as bar:
             found = _motiform.follow_branches(
                 study,
@@ -275,6 +281,7 @@ class Model(Described):
             "noise": noise, "noise_velocity": noise_velocity,
         }  # fmt: skip
         study = with_given(self._study, initial, given)
+        remark(study)
         counts = (bodies, threads or os.cpu_count() or 1)
         with Bar(progress, bodies, "bodies") as bar:
             text, tables, raised = _motiform.statistics(study, counts, asked(radii, threshold), bar.callable())
@@ -312,6 +319,7 @@ class Model(Described):
         study = with_given(self._study, initial, {"seed": seed})
         names = [kinds] if isinstance(kinds, str) else list(kinds)
         sides = (range_of("along", along), range_of("across", across))
+        remark(study, (side[0] for side in sides))
         with Bar(progress, 1, "of branches and curves") as bar:
             found = _motiform.follow_curves(
                 study, names, (sides[0], sides[1]), from_, (branches, points), bar.callable()
@@ -321,6 +329,51 @@ class Model(Described):
         if raised is not None:
             raise raised_with(raised, result)
         return result
+
+    def atlas(
+        self,
+        axes: Mapping[str, str | Sequence[float]] | None = None,
+        *,
+        samples: int | None = None,
+        lines: int = 24,
+        branches: int = 4,
+        steady: bool | None = None,
+        random: Random | None = None,
+        seed: int | None = None,
+        budget: float | None = None,
+        threads: int | None = None,
+        out: str | os.PathLike[str] | None = None,
+        resume: bool = False,
+        overwrite: bool = False,
+        progress: Progress = None,
+    ) -> Atlas:
+        """A plane of two parameters: which motions happen where, and by which bifurcation each begins or ends.
+
+        >>> body = motiform.preset("fig4")
+        >>> found = body.atlas({"kappa2": (0.1, 1.6), "kappa3": (0.1, 1.0)})
+        >>> found.regions[0].motions, found.boundaries[0].kinds
+        >>> found.special, found.curves, found.cells      # tables
+        >>> found.save("atlas.pdf", width="86mm")         # the figure of the command line
+        >>> found.plot()                                  # one of Matplotlib
+
+        `axes`: two parameters with their ranges, (low, high), (low, high, count), or text as on the command line (``"0.1:1.6:33"``); by default
+        the plane of the model's preset. `samples`: initial states of each cell, 3 if neither this nor the study says it. `lines` across
+        boundaries are followed, with at most so many `branches` each, of `steady` motions alone if that is true (by default where the
+        equations are stiff). `out`, `resume`, `overwrite`: a folder that :func:`read` reads, as with ``--out --resume --force``. An
+        interruption raises ``KeyboardInterrupt``; with `out` what is finished is kept.
+
+        More: docs/atlas.md.
+        """
+        names = None if axes is None else [axis_text(name, values) for name, values in axes.items()]
+        study = with_given(self._study, None, {"random": random, "seed": seed})
+        remark(study, () if axes is None else tuple(axes))
+        place = None if out is None else (os.fspath(out), "resume" if resume else "replace" if overwrite else "new")
+        counts = (samples, lines, branches, budget, threads or os.cpu_count() or 1)
+        with Bar(progress, 1, "of cells and lines") as bar:
+            native = _motiform.make_atlas(study, names, counts, steady, place, bar.callable())
+        if native is None:
+            raise KeyboardInterrupt
+        return atlas_of(native)
 
     def section(
         self,
@@ -340,6 +393,7 @@ class Model(Described):
         More: docs/python.md.
         """
         study = with_given(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
+        remark(study)
         with Bar(progress, lambda: span(study), "model time") as bar:
             found = _motiform.section(study, coordinate, value, direction, bar.callable())
         table, (raw, complete, ended) = found

@@ -19,6 +19,7 @@ from ._registry import REGIMES, Regime
 if TYPE_CHECKING:
     import xarray as xr
 
+    from .atlases import Atlas
     from .branches import Branches
     from .curves import Curves
     from .measurements import Statistics
@@ -280,6 +281,35 @@ _CURVES: dict[str, Any] = {
     "hopf": "-", "fold": (0, (1, 1)), "pitchfork": "--", "symmetry-breaking": "-.", "period-doubling": ":",
     "torus": (0, (6, 2, 1, 2, 1, 2)),
 }  # fmt: skip
+
+
+def plot_atlas(found: Atlas, ax: Axes | None) -> Axes:
+    """The most frequent motion of each cell, the curves that bound a region, and the special points with their names."""
+    ax = plt.subplots(layout="constrained")[1] if ax is None else ax
+    most = found.cells.sort_values("rows", kind="stable").drop_duplicates("cell", keep="last").sort_values("cell")
+    x, y, _ = found.grid()
+    ranks = {regime.name: place for place, regime in enumerate(REGIMES)}
+    cells = most["regime"].map(ranks).to_numpy().reshape(len(y), len(x))
+    colours = ListedColormap([regime.area for regime in REGIMES])
+    ax.pcolormesh(x, y, cells, cmap=colours, vmin=-0.5, vmax=len(REGIMES) - 0.5, shading="nearest")
+    there = [regime for place, regime in enumerate(REGIMES) if np.any(cells == place)]
+    keys: list[Any] = [Patch(facecolor=regime.area, label=regime.name) for regime in there]
+    kinds: dict[str, Line2D] = {}
+    for _, curve in found.curves[found.curves["unstable"] == 0].groupby("curve"):
+        kind = curve["kind"].iloc[0]
+        style: dict[str, Any] = {"color": "0.13", "ls": _CURVES[kind], "lw": 1.6}
+        ax.plot(curve[found.parameters[0]], curve[found.parameters[1]], **style)
+        kinds.setdefault(kind, Line2D([], [], label=kind, **style))
+    for kind, points in found.special[found.special["kind"] != "unresolved"].groupby("kind"):
+        at = [points[name] for name in found.parameters]
+        is_end = bool((points["curve"] < 0).all())
+        ax.plot(*at, marker="x" if is_end else "o", mfc="white", mec="0.13", ls="none", ms=6, zorder=3)
+        if not is_end:
+            for spot in zip(*at, strict=True):
+                ax.annotate(str(kind), spot, xytext=(5, 5), textcoords="offset points", fontsize="small")
+    ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), xlabel=found.parameters[0], ylabel=found.parameters[1])
+    ax.legend(handles=[*keys, *kinds.values()], fontsize="small", loc="center left", bbox_to_anchor=(1.02, 0.5))
+    return ax
 
 
 def plot_curves(found: Curves, ax: Axes | None) -> Axes:

@@ -13,6 +13,7 @@ import pandas as pd
 import xarray as xr
 
 from . import _motiform
+from .atlases import Atlas, atlas_of
 from .branches import Branches, branches_of
 from .curves import Curves, curves_of
 from .errors import Incomplete
@@ -20,7 +21,7 @@ from .scans import read_scan
 from .trajectory import Floats, Trajectory, _frame, crossing_frame
 
 
-def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Branches | Curves | xr.Dataset | pd.DataFrame | dict[str, Any]:
+def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Branches | Curves | Atlas | xr.Dataset | pd.DataFrame | dict[str, Any]:
     """Reads a file or folder written by the command line.
 
     ======================================  ===============================================
@@ -28,6 +29,7 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Bra
     ``.parquet`` of a trajectory            :class:`Trajectory` (it carries its manifest)
     ``.csv``, other ``.parquet``            ``pandas.DataFrame``
     folder of ``motiform continue``         :class:`Branches`, with ``--curve`` :class:`Curves`
+    folder of ``motiform atlas``            :class:`Atlas`
     folder of ``motiform scan``             ``xarray.Dataset``, as :func:`scan` returns it
     a ``.parquet`` part of that folder      ``pandas.DataFrame`` of its rows
     ``fields.h5``                           ``xarray.Dataset`` with ``phi`` and ``outline``
@@ -46,6 +48,8 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Bra
             return branches_of(*_motiform.read_branches(os.fspath(path))[:2])
         if (path / "curves.json").exists():
             return curves_of(*_motiform.read_curves(os.fspath(path))[:2])
+        if (path / "atlas.json").exists():
+            return atlas_of(_motiform.read_atlas(os.fspath(path)))
         return Trajectory(_motiform.read_run(os.fspath(path)))
     if path.suffix in (".parquet", ".csv"):
         if (path.parent / "_manifest.json").exists():

@@ -16,7 +16,7 @@ import xarray as xr
 
 from . import _motiform
 from ._registry import ATTRACTORS, COURSES, NUMBERS, REGIMES, VERSION, info_of
-from .calls import Random
+from .calls import Random, remark
 from .errors import Incomplete, Interrupted
 from .executors import gather
 from .models import Model
@@ -87,6 +87,7 @@ def scan(
     made = None if axes is None else [(name, _axis(name, values)) for name, values in axes.items()]
     study = model._study if random is None else model._study.with_(None, None, {"random": random})
     plan = _motiform.ScanPlan(study, made, samples, seed, budget)
+    remark(study, (name for name, _ in plan.axes()))
     xr.Dataset({"first": ("x", [0])})  # xarray imports much at its first dataset: not when Ctrl-C waits for one
     with Bar(progress, plan.cells, "cells") as bar:
         if out is not None:

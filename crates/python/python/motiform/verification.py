@@ -19,7 +19,7 @@ class Verification:
     intact: bool
     """Whether every file is as it was written, and every number the same when computed again."""
     kind: str
-    """``dataset``, ``scan``, ``branches``, ``curves``, ``lifetimes``, ``statistics``, ``observations``, ``fits``, ``report``."""
+    """``dataset``, ``scan``, ``branches``, ``curves``, ``atlas``, ``lifetimes``, ``statistics``, ``observations``, ``fits``, ``report``."""
     version: str
     """The version of motiform that wrote it."""
     complete: bool
@@ -55,7 +55,7 @@ class Verification:
 def verify(folder: str | os.PathLike[str], all: bool = False, *, progress: Progress = None) -> Verification:
     """Checks a folder that motiform wrote, as ``motiform verify`` does.
 
-    The digests of its files and the hash of its plan are checked. Rows of datasets and scans are computed again and compared bit by bit: a sample, or
+    The digests of its files and the hash of its plan are checked. Rows of datasets and scans, and cells of an atlas, are computed again and compared bit by bit: a sample, or
     all of them with `all`.
     """
     path = Path(folder)

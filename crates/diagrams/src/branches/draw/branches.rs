@@ -8,7 +8,8 @@ use motiform_continuation::{End, Joins, Special};
 use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Glyph};
 use motiform_lab::draw::{Figures, words};
 use motiform_study::plan::Named;
-use motiform_study::{BranchPlan, Error};
+use motiform_study::units::{RATE, SPEED, TIME};
+use motiform_study::{BranchPlan, Dimension, Error, Shown};
 
 /// What a diagram shows against the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +38,26 @@ impl Ordinate {
             Self::Size => "largest size |*u*| of the shape",
             Self::NetRotation | Self::SignedNetRotation => "net rotation per period (rad)",
             Self::Period => "period",
+        }
+    }
+
+    /// Its dimension; none of a size, which is that of velocity and deformations together.
+    const fn dimension(self) -> Option<Dimension> {
+        match self {
+            Self::Speed => Some(SPEED),
+            Self::TurningRate | Self::SignedTurningRate => Some(RATE),
+            Self::Period => Some(TIME),
+            Self::NetRotation | Self::SignedNetRotation => Some([0, 0]),
+            Self::Size => None,
+        }
+    }
+
+    /// The label of its axis in these units.
+    fn label_in(self, units: &Shown) -> String {
+        match self.dimension() {
+            Some(dimension) => units.label(self.label(), dimension),
+            None if units.is_physical() => format!("{} (model units)", self.label()),
+            None => self.label().to_owned(),
         }
     }
 
@@ -76,14 +97,19 @@ impl Ordinate {
     }
 }
 
-/// `branches` (the diagram) and, where motions repeat, `period`; nothing for branches without points.
+/// `branches` (the diagram) and, where motions repeat, `period`, in these units; nothing for branches without points.
 ///
 /// # Errors
 /// An unknown model, or numbers that no axis can hold.
-pub fn branch_figures(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<Figures, Error> {
+pub fn branch_figures(
+    plan: &BranchPlan,
+    found: &Branches,
+    ordinate: Ordinate,
+    units: &Shown,
+) -> Result<Figures, Error> {
     let mut all: Figures = Vec::new();
     for (name, ordinate) in [("branches", ordinate), ("period", Ordinate::Period)] {
-        let figure = diagram(plan, found, ordinate)?;
+        let figure = diagram_in(plan, found, ordinate, units)?;
         if !figure.parts.is_empty() {
             all.push((name, Box::new(figure)));
         }
@@ -91,27 +117,43 @@ pub fn branch_figures(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -
     Ok(all)
 }
 
-/// The diagram of branches.
+/// The diagram of branches, in model units.
 ///
 /// # Errors
 /// An unknown model.
 pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<BranchDiagram, Error> {
+    diagram_in(plan, found, ordinate, &Shown::default())
+}
+
+/// The diagram of branches, in these units.
+fn diagram_in(
+    plan: &BranchPlan,
+    found: &Branches,
+    ordinate: Ordinate,
+    units: &Shown,
+) -> Result<BranchDiagram, Error> {
     let info = plan.info()?;
     let mirror = Bodies::new(plan)?.model(plan.start_value())?.symmetry().mirror;
     let ordinate = ordinate.of_model(mirror);
     let along = &plan.computation.along;
     let spec = info.parameters().iter().find(|spec| spec.name == along.name);
-    Ok(BranchDiagram {
+    let mut figure = BranchDiagram {
         title: plan.title(),
-        caption: caption(plan, found, (mirror, ordinate))?,
+        caption: caption(plan, found, (mirror, ordinate), units)?,
         x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
-        y_label: ordinate.label().to_owned(),
+        y_label: ordinate.label_in(units),
         logarithmic: ordinate == Ordinate::Period,
         x: [along.from, along.to],
         parts: found.branches.iter().flat_map(|followed| all_parts(found, followed, ordinate)).collect(),
         dots: found.sweeps.iter().flat_map(|sweeps| dots(sweeps, ordinate)).collect(),
         marks: found.branches.iter().flat_map(|followed| marks(followed, ordinate)).collect(),
-    })
+    };
+    let factor = ordinate.dimension().map_or(1.0, |dimension| units.factor(dimension));
+    let parts = figure.parts.iter_mut().flat_map(|part| &mut part.points);
+    let dots = figure.dots.iter_mut().flat_map(|dots| &mut dots.points);
+    let marks = figure.marks.iter_mut().map(|mark| &mut mark.at);
+    parts.chain(dots).chain(marks).for_each(|point| point[1] *= factor);
+    Ok(figure)
 }
 
 /// The samples of both sweeps.
@@ -128,6 +170,7 @@ fn caption(
     plan: &BranchPlan,
     found: &Branches,
     (mirror, ordinate): (bool, Ordinate),
+    units: &Shown,
 ) -> Result<Vec<String>, Error> {
     let c = &plan.computation;
     let fixed = c.start.parameters.0.iter().filter(|entry| entry.0 != c.along.name).cloned().collect();
@@ -152,7 +195,7 @@ fn caption(
     };
     let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
     Ok(vec![
-        words::named(plan.info()?, &Named(fixed), &[&c.along.name], &c.ties),
+        words::named_in(plan.info()?, &Named(fixed), (&[&c.along.name], &c.ties), units),
         format!(
             "{count} by pseudo-arclength continuation{once}{left}.{}{samples}{unfinished}",
             gaps(found, ordinate)

@@ -46,7 +46,7 @@ pub fn curve_map(plan: &CurvePlan, found: &Curves, over: Option<&ScanFolder>) ->
         insets: Vec::new(),
         curves: in_order.flat_map(curve_stretches).collect(),
         ends: Vec::new(),
-        marks: marks_together(found.curves.iter().flat_map(codimension_2).map(curve_mark), [x, y]),
+        marks: marks_together(found.curves.iter().flat_map(codimension_2).filter_map(curve_mark), [x, y]),
     })
 }
 
@@ -85,9 +85,9 @@ fn line(kind: CurveKind, sample: &CurveSample) -> (&'static str, CurveStyle) {
     }
 }
 
-/// The mark of a point of codimension two.
+/// The mark of a point of codimension two; none of one that was not located ([`unlocated`] says how many there are).
 #[must_use]
-pub fn curve_mark((kind, sample): (Degenerate, &CurveSample)) -> MapMark {
+pub fn curve_mark((kind, sample): (Degenerate, &CurveSample)) -> Option<MapMark> {
     let label = match kind {
         Degenerate::Cusp => "cusp".to_owned(),
         Degenerate::Bautin => "Bautin".to_owned(),
@@ -97,10 +97,20 @@ pub fn curve_mark((kind, sample): (Degenerate, &CurveSample)) -> MapMark {
         Degenerate::Resonance { order } => format!("1:{order} resonance"),
         Degenerate::DoublyCritical => "doubly critical".to_owned(),
         Degenerate::GainsSymmetry => "gains a symmetry".to_owned(),
-        Degenerate::Unresolved => "not located".to_owned(),
+        Degenerate::Unresolved => return None,
         other => other.name().to_owned(),
     };
-    MapMark { label, at: sample.parameters }
+    Some(MapMark { label, at: sample.parameters })
+}
+
+/// A sentence for the caption about points of codimension two that were not located; nothing without any.
+#[must_use]
+pub fn unlocated<'c>(points: impl Iterator<Item = (Degenerate, &'c CurveSample)>) -> Option<String> {
+    match points.filter(|(kind, _)| *kind == Degenerate::Unresolved).count() {
+        0 => None,
+        1 => Some("One point of codimension two was not located and is not shown.".to_owned()),
+        count => Some(format!("{count} points of codimension two were not located and are not shown.")),
+    }
 }
 
 /// Marks at one place, as where curves meet, are one mark with the names of all.
@@ -198,5 +208,6 @@ fn caption(
         let cells = diagram.cells.len();
         all.push(format!("Beneath: the motions that {states} settled on, in each of {cells} cells."));
     }
+    all.extend(unlocated(found.curves.iter().flat_map(codimension_2)));
     Ok(all)
 }

@@ -4,4 +4,6 @@ mod branches;
 mod curves;
 
 pub use branches::{Ordinate, branch_figures, diagram as branch_diagram};
-pub use curves::{check_scan, curve_figures, curve_map, curve_mark, curve_stretches, marks_together};
+pub use curves::{
+    check_scan, curve_figures, curve_map, curve_mark, curve_stretches, marks_together, unlocated,
+};

@@ -1,10 +1,13 @@
 //! Autocorrelations, distributions and spectra.
 
 use super::displacement::point;
+use super::units::{bands, density, in_words};
 use super::{caption, title};
 use crate::statistics::{Measurement, Result};
 use motiform_figures::{BandCurve, BandFigure, BandPoint, ExpectedLine, Figure, LineStyle};
-use motiform_statistics::{Autocorrelation, Histogram, Quantity, four_digits};
+use motiform_statistics::{Autocorrelation, Histogram, Quantity};
+use motiform_study::Shown;
+use motiform_study::units::{RATE, SPEED, TIME};
 use std::f64::consts::{PI, TAU};
 
 /// Lags are drawn up to this many of the longest correlation time.
@@ -34,12 +37,8 @@ fn symbol(quantity: &Quantity) -> String {
     }
 }
 
-fn drawn(figure: BandFigure) -> Option<Box<dyn Figure>> {
-    (!figure.curves.is_empty()).then(|| Box::new(figure) as Box<dyn Figure>)
-}
-
 /// rho against lag.
-pub(super) fn autocorrelations(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+pub(super) fn autocorrelations(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let varying: Vec<&Autocorrelation> =
         measurement.statistics.autocorrelations.iter().filter(|found| !found.lags.is_empty()).collect();
     let decays = decays(&varying);
@@ -51,16 +50,17 @@ pub(super) fn autocorrelations(measurement: &Measurement) -> Result<Option<Box<d
         let points = thinned(rows.map(|(lag, rho)| point(*lag, rho)).collect(), logarithmic_x);
         BandCurve { label: symbol(&found.quantity), points }
     };
-    Ok(drawn(BandFigure {
+    let figure = BandFigure {
         title: title(measurement, "autocorrelations"),
-        caption: caption(measurement, "bands", &[])?,
+        caption: caption(measurement, units, "bands", &[])?,
         x_label: "lag *τ*".to_owned(),
         y_label: "*C*(*τ*)/*C*(0)".to_owned(),
         curves: varying.iter().take(CURVES).map(curve).collect(),
         zero_line: true,
         logarithmic_x,
         ..BandFigure::default()
-    }))
+    };
+    Ok(bands(figure, [TIME, [0, 0]], units))
 }
 
 /// At most so many points, evenly spaced along the axis.
@@ -113,31 +113,32 @@ fn stairs(histogram: &Histogram, unit: f64) -> Vec<BandPoint> {
 }
 
 /// The distribution of the speed.
-pub(super) fn speeds(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+pub(super) fn speeds(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let Some(speeds) = &measurement.statistics.speeds else { return Ok(None) };
     let worth = format!("{} samples, worth {:.0} independent ones.", speeds.samples, speeds.independent);
-    Ok(drawn(BandFigure {
+    let figure = BandFigure {
         title: title(measurement, "distribution of the speed"),
-        caption: caption(measurement, "bands", &[&worth])?,
+        caption: caption(measurement, units, "bands", &[&worth])?,
         x_label: "speed |***v***|".to_owned(),
         y_label: "probability density".to_owned(),
         curves: vec![BandCurve { label: "measured".to_owned(), points: stairs(speeds, 1.0) }],
         zero_line: true,
         ..BandFigure::default()
-    }))
+    };
+    Ok(bands(figure, [SPEED, density(SPEED)], units))
 }
 
 /// The distributions of turning angles, in degrees.
-pub(super) fn turning(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+pub(super) fn turning(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let moving = measurement.statistics.turning.iter().filter(|turning| turning.angles.samples > 0);
     let curve = |turning: &motiform_statistics::Turning| BandCurve {
-        label: format!("*τ* = {}", four_digits(turning.lag)),
+        label: format!("*τ* = {}", in_words(units, TIME, turning.lag)),
         points: stairs(&turning.angles, PI / 180.0),
     };
     let level = PI / 180.0 / TAU;
-    Ok(drawn(BandFigure {
+    let figure = BandFigure {
         title: title(measurement, "turning angles between displacements of lag *τ*"),
-        caption: caption(measurement, "bands", &[])?,
+        caption: caption(measurement, units, "bands", &[])?,
         x_label: "turning angle (degrees)".to_owned(),
         y_label: "probability density (per degree)".to_owned(),
         curves: moving.map(curve).collect(),
@@ -148,11 +149,12 @@ pub(super) fn turning(measurement: &Measurement) -> Result<Option<Box<dyn Figure
         }],
         zero_line: true,
         ..BandFigure::default()
-    }))
+    };
+    Ok(bands(figure, [[0, 0]; 2], units))
 }
 
 /// Power spectra with their bands.
-pub(super) fn spectra(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+pub(super) fn spectra(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let found = &measurement.statistics.spectra;
     let curve = |spectrum: &motiform_statistics::PowerSpectrum| {
         let [low, high] = spectrum.band;
@@ -166,18 +168,20 @@ pub(super) fn spectra(measurement: &Measurement) -> Result<Option<Box<dyn Figure
             first.segments, first.length
         )
     });
-    let mut caption = caption(measurement, "bands", &[&method])?;
+    let mut caption = caption(measurement, units, "bands", &[&method])?;
     if let Some(line) = caption.get_mut(1) {
         *line = line.replace("; bands: 95 % intervals over bodies", "");
     }
-    Ok(drawn(BandFigure {
+    let unit = if units.is_physical() { " (model units)" } else { "" };
+    let figure = BandFigure {
         title: title(measurement, "power spectra"),
         caption,
         x_label: "frequency".to_owned(),
-        y_label: "power spectral density".to_owned(),
+        y_label: format!("power spectral density{unit}"), // of quantities of several dimensions
         curves: found.iter().map(curve).filter(|curve| !curve.points.is_empty()).take(CURVES).collect(),
         logarithmic_x: true,
         logarithmic_y: true,
         ..BandFigure::default()
-    }))
+    };
+    Ok(bands(figure, [RATE, [0, 0]], units))
 }

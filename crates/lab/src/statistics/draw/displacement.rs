@@ -1,13 +1,16 @@
 //! Displacements: mean square, its exponent, first-passage times.
 
+use super::units::{SQUARE, bands, bars, in_words};
 use super::{caption, title};
-use crate::statistics::summary::value;
+use crate::statistics::summary::value_in;
 use crate::statistics::{Measurement, Result};
 use motiform_figures::{
     BandCurve, BandFigure, BandPoint, ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, Interval,
     LineStyle, Measured as Point,
 };
-use motiform_statistics::{Measured, four_digits, furth};
+use motiform_statistics::{Measured, furth};
+use motiform_study::Shown;
+use motiform_study::units::{LENGTH, TIME};
 
 /// Points of a line.
 const POINTS: usize = 200;
@@ -25,14 +28,15 @@ pub(super) fn point(x: f64, measured: &Measured) -> BandPoint {
 }
 
 /// The mean-square displacement with the fitted walk, both of its limits and the crossover.
-pub(super) fn displacements(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+pub(super) fn displacements(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let found = &measurement.statistics;
     let points: Vec<BandPoint> = found.displacement.points().iter().map(|p| point(p.lag, &p.value)).collect();
     if !points.iter().any(|p| p.y > 0.0) {
         return Ok(None);
     }
-    let note = found.walk.persistence.reason().map(|reason| format!("Persistence time: {reason}."));
-    let lines = lines(measurement, &points);
+    let unit = if units.is_physical() { " (numbers in model units)" } else { "" };
+    let note = found.walk.persistence.reason().map(|reason| format!("Persistence time: {reason}{unit}."));
+    let lines = lines(measurement, &points, units);
     let mut last = 0.0;
     let apart = |p: &BandPoint| {
         let kept = p.x > APART * last;
@@ -44,7 +48,7 @@ pub(super) fn displacements(measurement: &Measurement) -> Result<Option<Box<dyn 
         shown.iter().filter(|p| p.low < p.high).map(|p| Interval { x: p.x, low: p.low, high: p.high });
     let figure = ErrorBarFigure {
         title: title(measurement, "mean-square displacement"),
-        caption: caption(measurement, "bars", &note.iter().map(String::as_str).collect::<Vec<_>>())?,
+        caption: caption(measurement, units, "bars", &note.iter().map(String::as_str).collect::<Vec<_>>())?,
         x_label: "lag *τ*".to_owned(),
         y_label: "⟨|***r***(*t*+*τ*) − ***r***(*t*)|^2⟩".to_owned(),
         lines,
@@ -54,7 +58,7 @@ pub(super) fn displacements(measurement: &Measurement) -> Result<Option<Box<dyn 
         logarithmic_y: true,
         ..ErrorBarFigure::default()
     };
-    Ok(Some(Box::new(figure)))
+    Ok(Some(bars(figure, [TIME, SQUARE], units)))
 }
 
 /// Values whose intervals are drawn by themselves.
@@ -64,7 +68,7 @@ fn measured(values: impl Iterator<Item = (f64, f64)>) -> ErrorBarSeries {
 }
 
 /// The fit, what is ballistic and what is diffusive in it, and where they meet.
-fn lines(measurement: &Measurement, points: &[BandPoint]) -> Vec<ExpectedLine> {
+fn lines(measurement: &Measurement, points: &[BandPoint], units: &Shown) -> Vec<ExpectedLine> {
     let walk = &measurement.statistics.walk;
     let Some([square, time]) = walk.curve else { return Vec::new() };
     let speed = measurement.statistics.rms_speed.value;
@@ -89,11 +93,11 @@ fn lines(measurement: &Measurement, points: &[BandPoint]) -> Vec<ExpectedLine> {
         let (label, end) = ("ballistic: ⟨|***v***|^2⟩*τ*^2", (BEYOND * time).clamp(first, last));
         lines.push(line(label.to_owned(), LineStyle::Dashed, (first, end), &|t| speed * speed * t * t));
     }
-    lines.extend(diffusive(measurement, (first, last)));
+    lines.extend(diffusive(measurement, (first, last), units));
     if let Some(persistence) = walk.persistence.known() {
         let ends = points.iter().filter(|p| p.y > 0.0).map(|p| p.y);
         let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
-        let label = format!("crossover 2*P*, *P* = {}", value(&persistence));
+        let label = format!("crossover 2*P*, *P* = {}", value_in(units, TIME, &persistence));
         let crossover = 2.0 * persistence.value; // S^2 t^2 = 4 D t
         let points = vec![[crossover, 0.1 * low], [crossover, 10.0 * high]];
         lines.push(ExpectedLine { label, style: LineStyle::DashDotted, points });
@@ -105,7 +109,7 @@ fn lines(measurement: &Measurement, points: &[BandPoint]) -> Vec<ExpectedLine> {
 const BEFORE: f64 = 8.0;
 
 /// The straight line of the late displacements, with its intercept: that is what passes through the points.
-fn diffusive(measurement: &Measurement, (first, last): (f64, f64)) -> Option<ExpectedLine> {
+fn diffusive(measurement: &Measurement, (first, last): (f64, f64), units: &Shown) -> Option<ExpectedLine> {
     let found = &measurement.statistics.diffusion;
     let ([intercept, slope], [lag, _]) = (found.line?, found.lags?);
     found.displacements.known()?;
@@ -114,7 +118,7 @@ fn diffusive(measurement: &Measurement, (first, last): (f64, f64)) -> Option<Exp
     let label = format!(
         "diffusive: 4*D*(*τ* {} {})",
         if intercept < 0.0 { "−" } else { "+" },
-        four_digits((intercept / slope).abs())
+        in_words(units, TIME, (intercept / slope).abs())
     );
     Some(ExpectedLine { label, style: LineStyle::Dotted, points: points.collect() })
 }
@@ -125,7 +129,7 @@ fn logarithmic((from, to): (f64, f64)) -> Vec<f64> {
 }
 
 /// The local exponent against the lag.
-pub(super) fn exponents(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+pub(super) fn exponents(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let points = measurement.statistics.displacement.points();
     let points: Vec<BandPoint> =
         points.iter().filter_map(|p| Some(point(p.lag, p.exponent.as_ref()?))).collect();
@@ -137,7 +141,7 @@ pub(super) fn exponents(measurement: &Measurement) -> Result<Option<Box<dyn Figu
     let lines = vec![level("ballistic", LineStyle::Dashed, 2.0), level("diffusive", LineStyle::Dotted, 1.0)];
     let figure = BandFigure {
         title: title(measurement, "exponent of the mean-square displacement"),
-        caption: caption(measurement, "bands", &[])?,
+        caption: caption(measurement, units, "bands", &[])?,
         x_label: "lag *τ*".to_owned(),
         y_label: "d ln MSD / d ln *τ*".to_owned(),
         lines,
@@ -146,11 +150,11 @@ pub(super) fn exponents(measurement: &Measurement) -> Result<Option<Box<dyn Figu
         logarithmic_x: true,
         ..BandFigure::default()
     };
-    Ok(Some(Box::new(figure)))
+    Ok(bands(figure, [TIME, [0, 0]], units))
 }
 
 /// Mean first-passage times against the radius.
-pub(super) fn passages(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
+pub(super) fn passages(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let found = &measurement.statistics;
     let known: Vec<(f64, Measured)> =
         found.passages.iter().filter_map(|p| Some((p.radius, p.time.mean.known()?))).collect();
@@ -175,7 +179,7 @@ pub(super) fn passages(measurement: &Measurement) -> Result<Option<Box<dyn Figur
     let more = if left_out > 0 { vec![note.as_str()] } else { Vec::new() };
     let figure = ErrorBarFigure {
         title: title(measurement, "mean first-passage time out of a disc"),
-        caption: caption(measurement, "bars", &more)?,
+        caption: caption(measurement, units, "bars", &more)?,
         x_label: "radius *r*".to_owned(),
         y_label: "mean first-passage time".to_owned(),
         series: vec![measured(known.iter().map(|(x, m)| (*x, m.value)))],
@@ -185,5 +189,5 @@ pub(super) fn passages(measurement: &Measurement) -> Result<Option<Box<dyn Figur
         logarithmic_y: true,
         ..ErrorBarFigure::default()
     };
-    Ok(Some(Box::new(figure)))
+    Ok(Some(bars(figure, [LENGTH, TIME], units)))
 }

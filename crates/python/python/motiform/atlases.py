@@ -1,0 +1,147 @@
+"""A plane of two parameters: which motions happen where, and by which bifurcation each begins or ends."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from . import _motiform, plotting
+from .branches import _points
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True)
+class Region:
+    """Connected cells with the same motions."""
+
+    motions: tuple[str, ...]
+    """Its motions: more than one where motions coexist."""
+    share: float
+    """Its share of the plane."""
+    inside: Mapping[str, float]
+    """The parameters of a cell in it, the one farthest from its border."""
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """All edges between cells with one set of motions and cells with another."""
+
+    between: tuple[tuple[str, ...], tuple[str, ...]]
+    """The motions on both sides."""
+    edges: int
+    """How many pairs of neighbouring cells it parts."""
+    kinds: Mapping[str, int]
+    """The bifurcations on it, and on how many edges each lies."""
+    unnamed: int
+    """Edges on which none was found."""
+    why: str | None
+    """Why not all are named."""
+
+
+@dataclass(frozen=True)
+class Atlas:
+    """Regions, boundaries and special points of a plane of two parameters."""
+
+    parameters: tuple[str, str]
+    """The parameters, across and upwards."""
+    regions: tuple[Region, ...]
+    """The regions, the largest first."""
+    boundaries: tuple[Boundary, ...]
+    """The boundaries, the longest first."""
+    special: pd.DataFrame
+    """Points of codimension two on the curves, and connections in which motions end: ``kind``, ``motion``, the ``curve`` (-1 for an end), both parameters."""
+    cells: pd.DataFrame
+    """A row per cell and motion: the parameters, ``regime``, the ``rows`` (initial states) that lead to it, ``computed``, and its numbers."""
+    curves: pd.DataFrame
+    """A row per point of each curve: ``curve``, ``kind``, ``motion``, ``codimension_2``, ``unstable``, both parameters, ``period``."""
+    summary: Mapping[str, Any]
+    """Everything that ``motiform atlas --json`` prints."""
+    _native: _motiform.Atlas
+
+    def grid(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.object_]]:
+        """The values across, the values upwards, and the motions of each cell as text (``circular + zigzag``), upwards and across."""
+        names = self.cells.groupby("cell")["regime"].agg(lambda motions: " + ".join(sorted(motions)))
+        first = self.cells.drop_duplicates("cell").set_index("cell").sort_index()
+        across, upwards = (np.unique(first[name].to_numpy(float)) for name in self.parameters)
+        return across, upwards, names.sort_index().to_numpy(object).reshape(len(upwards), len(across))
+
+    def figure(
+        self, format: str = "svg", *, width: str | None = None, title: str | None = None, caption: bool = True
+    ) -> bytes:
+        """The figure of ``motiform atlas``: ``svg``, ``png`` or ``pdf``, or its numbers as ``csv``.
+
+        `width` is that of the sheet, such as ``"86mm"`` or ``"slide"``.
+        """
+        drawn = self._native.figure(format, width, title, caption)
+        if drawn is None:
+            raise ValueError(f"format = {format!r}: give 'svg', 'png', 'pdf' or 'csv'")
+        return drawn
+
+    def save(
+        self, path: str | os.PathLike[str], *, width: str | None = None, title: str | None = None, caption: bool = True
+    ) -> None:
+        """Writes :meth:`figure` to a file; its ending is the format."""
+        path = Path(path)
+        path.write_bytes(self.figure(path.suffix.removeprefix("."), width=width, title=title, caption=caption))
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """The curves and special points over the motions of the cells."""
+        return plotting.plot_atlas(self, ax)
+
+    def _repr_svg_(self) -> str:
+        return self.figure().decode()
+
+    def __repr__(self) -> str:
+        count = self.curves["curve"].nunique()
+        over = " and ".join(self.parameters)
+        return f"<atlas over {over}: {len(self.regions)} regions, {len(self.boundaries)} boundaries, {count} curves>"
+
+
+def axis_text(name: str, values: Any) -> str:
+    """An axis of a plane as the command line writes it."""
+    if isinstance(values, str):
+        return f"{name}={values}"
+    parts = list(values)
+    if len(parts) not in (2, 3):
+        raise ValueError(f"{name} = {values!r}: give (low, high), (low, high, count), or text such as '0.1:1.6'")
+    low, high = (repr(float(part)) for part in parts[:2])
+    return ":".join([f"{name}={low}", high, *(str(int(part)) for part in parts[2:])])
+
+
+def atlas_of(native: _motiform.Atlas) -> Atlas:
+    """The atlas of the native module's summary and tables."""
+    raw = json.loads(native.summary())
+    across, upwards = (side["name"] for side in raw["plane"])
+    points = [
+        {"kind": mark["kind"], "motion": curve["motion"], "curve": number, **mark["at"]}
+        for number, curve in enumerate(raw["curves"])
+        for mark in curve["codimension_2"]
+    ]
+    points += [{"kind": end["kind"], "motion": end["motion"], "curve": -1, **end["at"]} for end in raw["ends"]]
+    cells, curves = (_points(table) for table in native.tables())
+    return Atlas(
+        (across, upwards),
+        tuple(Region(tuple(one["motions"]), one["share"], one["inside"]) for one in raw["regions"]),
+        tuple(_boundary(one) for one in raw["boundaries"]),
+        pd.DataFrame(points, columns=["kind", "motion", "curve", across, upwards]),
+        cells,
+        curves,
+        raw,
+        native,
+    )
+
+
+def _boundary(entry: dict[str, Any]) -> Boundary:
+    one, other = (tuple(side) for side in entry["between"])
+    kinds = {named["kind"]: named["edges"] for named in entry["kinds"]}
+    return Boundary((one, other), entry["edges"], kinds, entry["unnamed"], entry["why"])
