@@ -53,7 +53,7 @@ pub fn write_rest(
 /// Reads a dataset folder back.
 ///
 /// # Errors
-/// [`Error::Unreadable`] for a folder without a manifest, or files that are missing or damaged.
+/// [`Error::Store`] for a folder without a manifest, or files that are missing or damaged.
 pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
     read_dataset_by(folder, &|_, path| Ok(read_table(path)?))
 }
@@ -91,7 +91,7 @@ pub fn read_dataset_by(
 /// Reads one table, Parquet or CSV by its extension, and the manifest if the file contains one.
 ///
 /// # Errors
-/// [`Error::Unreadable`].
+/// [`Error::Store`].
 pub fn read_table_file(path: &Path) -> Result<(Table, Option<Manifest>), Error> {
     let manifest = table_metadata(path)?.map(|text| serde_json::from_str(&text)).transpose();
     Ok((read_table(path)?, manifest.map_err(|error| Error::unreadable(path, error))?))
@@ -115,7 +115,7 @@ pub fn table_path(folder: &Path, name: &str) -> Option<PathBuf> {
 /// The file of the trajectory in a folder.
 ///
 /// # Errors
-/// [`Error::Unreadable`] where there is none.
+/// [`Error::Store`] where there is none.
 pub fn trajectory_path(folder: &Path) -> Result<PathBuf, Error> {
     table_path(folder, "trajectory")
         .ok_or_else(|| Error::unreadable(folder, "it has no trajectory.parquet or trajectory.csv"))

@@ -14,7 +14,7 @@ const DRAWN: usize = 1 << 16;
 /// interval of the manifest's plan becomes that of these rows.
 ///
 /// # Errors
-/// [`Error::Unreadable`].
+/// [`Error::Store`].
 ///
 /// # Checked by  the tests below: windows and strides, on both sides of the number
 pub fn read_shown(manifest: &mut Manifest, path: &Path) -> Result<(Table, u32), Error> {

@@ -9,9 +9,9 @@ use motiform_diagrams::atlas::{
 };
 use motiform_dynamics::{Part, Watch};
 use motiform_figures::{Style, Width};
+use motiform_lab::draw::{FigureFormat, files};
 use motiform_store::columns::{Column, to_csv};
 use motiform_store::{Folder, Journal, Opening};
-use motiform_lab::draw::{FigureFormat, files};
 use motiform_study::Error;
 use motiform_study::scan::Axis;
 use pyo3::prelude::*;
@@ -43,7 +43,8 @@ pub(crate) fn make_atlas(
     let (samples, lines, branches, budget, threads) = counts;
     let mut study = study.0.clone();
     if let Some(axes) = axes {
-        let axes: Result<Vec<Axis>, Error> = axes.iter().map(|text| motiform_diagrams::atlas::axis(text)).collect();
+        let axes: Result<Vec<Axis>, Error> =
+            axes.iter().map(|text| motiform_diagrams::atlas::axis(text)).collect();
         study.scan.axes = axes.map_err(python)?;
     }
     study.scan.samples = motiform_diagrams::atlas::samples(&study, samples);

@@ -15,7 +15,8 @@ pub(crate) fn verify(
     all: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let (found, raised) = Caller::beside(py, progress, |watch| motiform_diagrams::atlas::verify(&path, all, watch));
+    let (found, raised) =
+        Caller::beside(py, progress, |watch| motiform_diagrams::atlas::verify(&path, all, watch));
     match (found.map_err(python)?, raised) {
         (_, Some(error)) => Err(error),
         (Some(found), None) => Ok(found.json().to_string()),

@@ -171,7 +171,7 @@ impl Study {
     /// Reads a study file.
     ///
     /// # Errors
-    /// [`Error::Unreadable`], and the errors of [`Study::parse`].
+    /// [`Error::Store`], and the errors of [`Study::parse`].
     pub fn read(path: &std::path::Path) -> Result<Self, Error> {
         let text = input::text(path, input::STUDY).map_err(|error| Error::unreadable(path, error))?;
         let stem =

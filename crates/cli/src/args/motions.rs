@@ -1,6 +1,8 @@
 //! The words of `continue`, `equilibria` and `section`: commands about motions that may be unstable.
 
-use super::{MethodOptions, MotionOptions, RunOptions, Span, StyleOptions, SubjectOptions, UnitsOptions, number, whole};
+use super::{
+    MethodOptions, MotionOptions, RunOptions, Span, StyleOptions, SubjectOptions, UnitsOptions, number, whole,
+};
 use clap::{Args, ValueEnum};
 use motiform_diagrams::draw::Ordinate;
 use std::path::PathBuf;

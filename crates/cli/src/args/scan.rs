@@ -1,6 +1,8 @@
 //! Options of `scan` and `merge`.
 
-use super::{Method, RunOptions, StyleOptions, SubjectOptions, UnitsOptions, assignment, number, random, whole};
+use super::{
+    Method, RunOptions, StyleOptions, SubjectOptions, UnitsOptions, assignment, number, random, whole,
+};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;

@@ -1,6 +1,8 @@
 //! Options of `statistics`.
 
-use super::{MethodOptions, ParameterOptions, Recording, RunOptions, StyleOptions, UnitsOptions, number, whole};
+use super::{
+    MethodOptions, ParameterOptions, Recording, RunOptions, StyleOptions, UnitsOptions, number, whole,
+};
 use clap::Args;
 use std::path::PathBuf;
 

@@ -59,7 +59,7 @@ impl AtlasFolder {
     /// Reads a finished atlas.
     ///
     /// # Errors
-    /// [`Error::Unreadable`] where a file is missing or damaged, or the atlas is not finished.
+    /// [`Error::Store`] where a file is missing or damaged, or the atlas is not finished.
     pub fn read(path: &Path) -> Result<Self, Error> {
         mend(path)?;
         let manifest: Manifest = read(&path.join(MANIFEST))?;

@@ -1,12 +1,12 @@
 //! An atlas on disk compared with its plan and its numbers.
 
+use crate::Verification;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::survey::place;
-use crate::Verification;
 use motiform_dynamics::Watch;
-use motiform_store::Kind;
 use motiform_lab::scan::{Classify, rows_at};
 use motiform_lab::verify::Repeated;
+use motiform_store::Kind;
 use motiform_study::Error;
 use std::path::Path;
 

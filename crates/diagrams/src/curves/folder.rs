@@ -47,7 +47,7 @@ impl CurveFolder {
     /// Reads a folder.
     ///
     /// # Errors
-    /// [`Error::Unreadable`] where a file is missing or damaged.
+    /// [`Error::Store`] where a file is missing or damaged.
     pub fn read(path: &Path) -> Result<Self, Error> {
         mend(path)?;
         let manifest: Manifest = read(&path.join(MANIFEST))?;

@@ -23,7 +23,7 @@ const POINTS: usize = 600;
 /// as one table ignore them. A scan without any computed cell has none.
 ///
 /// # Errors
-/// [`Error::Unreadable`], an unknown model, or numbers that do not fit on an axis.
+/// [`Error::Store`], an unknown model, or numbers that do not fit on an axis.
 pub fn scan_figures(folder: &ScanFolder, units: &Shown) -> Result<Figures, Error> {
     let plan = folder.plan();
     let cells: Vec<CellSummary> = cells(folder)?.into_iter().flatten().collect();

@@ -136,7 +136,7 @@ impl Lives {
     /// Reads the lives of `plan` from a file, to go on with.
     ///
     /// # Errors
-    /// [`Error::Unreadable`]; [`Error::OtherBranches`] for another plan.
+    /// [`Error::Store`]; [`Error::OtherBranches`] for another plan.
     pub fn read(path: &Path, plan: &ScanPlan) -> Result<Self, Error> {
         let text = input::manifest(path).map_err(|error| Error::unreadable(path, error))?;
         let lives: Self = serde_json::from_str(&text).map_err(|error| Error::unreadable(path, error))?;

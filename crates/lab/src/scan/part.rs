@@ -119,7 +119,7 @@ fn digest_place(bytes: &[u8]) -> Option<std::ops::Range<usize>> {
 /// The rows of a part that [`Parts::check`] found undamaged.
 ///
 /// # Errors
-/// [`Error::Unreadable`].
+/// [`Error::Store`].
 pub fn read_part(plan: &ScanPlan, parts: &Parts, part: usize) -> Result<Vec<Row>, Error> {
     let path = parts.path(part);
     let columns = columns::decode(&path).map_err(|error| Error::unreadable(&path, error))?;

@@ -30,7 +30,7 @@ impl Totals {
     /// Reads a folder.
     ///
     /// # Errors
-    /// [`Error::Unreadable`].
+    /// [`Error::Store`].
     pub fn of(folder: &ScanFolder) -> Result<Self, Error> {
         let mut totals = Self::default();
         totals.damaged = for_each_part(folder, |rows| {
@@ -114,7 +114,7 @@ impl Motion {
 /// memory.
 ///
 /// # Errors
-/// [`Error::Unreadable`].
+/// [`Error::Store`].
 pub fn cells(folder: &ScanFolder) -> Result<Vec<Option<CellSummary>>, Error> {
     let mut all = vec![None; folder.plan().cells()];
     for_each_part(folder, |rows| {
@@ -131,7 +131,7 @@ pub fn cells(folder: &ScanFolder) -> Result<Vec<Option<CellSummary>>, Error> {
 /// Passes the rows of each undamaged part to `use_rows`, in order; returns descriptions of the defects of the others.
 ///
 /// # Errors
-/// [`Error::Unreadable`].
+/// [`Error::Store`].
 pub fn for_each_part(folder: &ScanFolder, mut use_rows: impl FnMut(&[Row])) -> Result<Vec<String>, Error> {
     let (plan, parts) = (folder.plan(), folder.parts());
     let mut damaged = Vec::new();

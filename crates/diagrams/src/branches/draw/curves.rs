@@ -16,7 +16,7 @@ const SAME_PLACE: f64 = 1e-3;
 /// `curves`; nothing without any curve.
 ///
 /// # Errors
-/// [`Error::Plane`] for a scan of another plane or of other parameters, [`Error::Unreadable`], an unknown model, or numbers that no
+/// [`Error::Plane`] for a scan of another plane or of other parameters, [`Error::Store`], an unknown model, or numbers that no
 /// axis can hold.
 pub fn curve_figures(plan: &CurvePlan, found: &Curves, over: Option<&ScanFolder>) -> Result<Figures, Error> {
     if found.curves.iter().all(|curve| curve.legs.is_empty()) {
