@@ -5,7 +5,7 @@ use crate::result::Leg;
 use crate::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Joins, Special};
-use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Glyph};
+use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Chart, Glyph};
 use motiform_lab::draw::{Figures, words};
 use motiform_study::plan::Named;
 use motiform_study::{BranchPlan, Error};
@@ -84,34 +84,38 @@ pub fn branch_figures(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -
     let mut all: Figures = Vec::new();
     for (name, ordinate) in [("branches", ordinate), ("period", Ordinate::Period)] {
         let figure = diagram(plan, found, ordinate)?;
-        if !figure.parts.is_empty() {
+        if !figure.is_empty() {
             all.push((name, Box::new(figure)));
         }
     }
     Ok(all)
 }
 
-/// The diagram of branches.
+/// The diagram of branches; empty where no branch has points.
 ///
 /// # Errors
 /// An unknown model.
-pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<BranchDiagram, Error> {
+pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<Chart, Error> {
     let info = plan.info()?;
     let mirror = Bodies::new(plan)?.model(plan.start_value())?.symmetry().mirror;
     let ordinate = ordinate.of_model(mirror);
     let along = &plan.computation.along;
     let spec = info.parameters().iter().find(|spec| spec.name == along.name);
-    Ok(BranchDiagram {
-        title: plan.title(),
-        caption: caption(plan, found, (mirror, ordinate))?,
-        x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
-        y_label: ordinate.label().to_owned(),
-        logarithmic: ordinate == Ordinate::Period,
+    let diagram = BranchDiagram {
         x: [along.from, along.to],
         parts: found.branches.iter().flat_map(|followed| all_parts(found, followed, ordinate)).collect(),
         dots: found.sweeps.iter().flat_map(|sweeps| dots(sweeps, ordinate)).collect(),
         marks: found.branches.iter().flat_map(|followed| marks(followed, ordinate)).collect(),
-    })
+    };
+    let chart = Chart {
+        title: plan.title(),
+        caption: caption(plan, found, (mirror, ordinate))?,
+        x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
+        y_label: ordinate.label().to_owned(),
+        logarithmic_y: ordinate == Ordinate::Period,
+        ..Chart::default()
+    };
+    Ok(chart.with(Some(diagram).filter(|diagram| !diagram.parts.is_empty())))
 }
 
 /// The samples of both sweeps.

@@ -3,7 +3,7 @@
 use super::diagram::symbol;
 use super::{FigureFormat, Picture, files, words};
 use crate::lifetimes::{LifeAt, Lifetimes};
-use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, Interval, LineStyle, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Interval, LineStyle, Measured};
 use motiform_models::ModelInfo;
 use motiform_study::{Error, ScanPlan};
 
@@ -28,7 +28,7 @@ pub fn draw_lifetimes(
 ///
 /// # Errors
 /// An unknown model.
-pub fn figure(plan: &ScanPlan, found: &Lifetimes) -> Result<ErrorBarFigure, Error> {
+pub fn figure(plan: &ScanPlan, found: &Lifetimes) -> Result<Chart, Error> {
     let info = plan.info()?;
     let watched = || found.values.iter().filter(|at| at.life.watched > 0.0);
     let point = |at: &LifeAt| Some(Measured { x: at.value, y: at.life.value?, error: 0.0 });
@@ -37,21 +37,21 @@ pub fn figure(plan: &ScanPlan, found: &Lifetimes) -> Result<ErrorBarFigure, Erro
         low: at.life.lower,
         high: at.life.upper.unwrap_or(f64::INFINITY),
     };
-    Ok(ErrorBarFigure {
+    Ok(Chart {
         title: format!("{}: mean life of chaos", plan.title),
         caption: caption(plan, found, info),
         x_label: symbol(info, &found.parameter),
         y_label: "mean life".to_owned(),
-        series: vec![ErrorBarSeries {
-            label: String::new(),
-            points: watched().filter_map(point).collect(),
-            joined: false,
-        }],
-        intervals: watched().map(interval).collect(),
-        lines: laws(found),
         logarithmic_y: true,
-        ..ErrorBarFigure::default()
-    })
+        ..Chart::default()
+    }
+    .with(laws(found))
+    .with([watched().map(interval).collect::<Vec<_>>()])
+    .with([ErrorBarSeries {
+        label: String::new(),
+        points: watched().filter_map(point).collect(),
+        joined: false,
+    }]))
 }
 
 fn laws(found: &Lifetimes) -> Vec<ExpectedLine> {

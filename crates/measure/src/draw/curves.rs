@@ -3,7 +3,7 @@
 use super::displacement::point;
 use super::{caption, title};
 use crate::{Measurement, Result};
-use motiform_figures::{BandCurve, BandFigure, BandPoint, ExpectedLine, Figure, LineStyle};
+use motiform_figures::{BandCurve, BandPoint, Chart, ExpectedLine, Figure, LineStyle};
 use motiform_statistics::{Autocorrelation, Histogram, Quantity, four_digits};
 use std::f64::consts::{PI, TAU};
 
@@ -34,8 +34,8 @@ fn symbol(quantity: &Quantity) -> String {
     }
 }
 
-fn drawn(figure: BandFigure) -> Option<Box<dyn Figure>> {
-    (!figure.curves.is_empty()).then(|| Box::new(figure) as Box<dyn Figure>)
+fn drawn(figure: Chart) -> Option<Box<dyn Figure>> {
+    (!figure.is_empty()).then(|| Box::new(figure) as Box<dyn Figure>)
 }
 
 /// rho against lag.
@@ -51,16 +51,18 @@ pub(super) fn autocorrelations(measurement: &Measurement) -> Result<Option<Box<d
         let points = thinned(rows.map(|(lag, rho)| point(*lag, rho)).collect(), logarithmic_x);
         BandCurve { label: symbol(&found.quantity), points }
     };
-    Ok(drawn(BandFigure {
-        title: title(measurement, "autocorrelations"),
-        caption: caption(measurement, "bands", &[])?,
-        x_label: "lag *τ*".to_owned(),
-        y_label: "*C*(*τ*)/*C*(0)".to_owned(),
-        curves: varying.iter().take(CURVES).map(curve).collect(),
-        zero_line: true,
-        logarithmic_x,
-        ..BandFigure::default()
-    }))
+    Ok(drawn(
+        Chart {
+            title: title(measurement, "autocorrelations"),
+            caption: caption(measurement, "bands", &[])?,
+            x_label: "lag *τ*".to_owned(),
+            y_label: "*C*(*τ*)/*C*(0)".to_owned(),
+            zero_line: true,
+            logarithmic_x,
+            ..Chart::default()
+        }
+        .with(varying.iter().take(CURVES).map(curve)),
+    ))
 }
 
 /// At most so many points, evenly spaced along the axis.
@@ -116,15 +118,17 @@ fn stairs(histogram: &Histogram, unit: f64) -> Vec<BandPoint> {
 pub(super) fn speeds(measurement: &Measurement) -> Result<Option<Box<dyn Figure>>> {
     let Some(speeds) = &measurement.statistics.speeds else { return Ok(None) };
     let worth = format!("{} samples, worth {:.0} independent ones.", speeds.samples, speeds.independent);
-    Ok(drawn(BandFigure {
-        title: title(measurement, "distribution of the speed"),
-        caption: caption(measurement, "bands", &[&worth])?,
-        x_label: "speed |***v***|".to_owned(),
-        y_label: "probability density".to_owned(),
-        curves: vec![BandCurve { label: "measured".to_owned(), points: stairs(speeds, 1.0) }],
-        zero_line: true,
-        ..BandFigure::default()
-    }))
+    Ok(drawn(
+        Chart {
+            title: title(measurement, "distribution of the speed"),
+            caption: caption(measurement, "bands", &[&worth])?,
+            x_label: "speed |***v***|".to_owned(),
+            y_label: "probability density".to_owned(),
+            zero_line: true,
+            ..Chart::default()
+        }
+        .with([BandCurve { label: "measured".to_owned(), points: stairs(speeds, 1.0) }]),
+    ))
 }
 
 /// The distributions of turning angles, in degrees.
@@ -135,20 +139,22 @@ pub(super) fn turning(measurement: &Measurement) -> Result<Option<Box<dyn Figure
         points: stairs(&turning.angles, PI / 180.0),
     };
     let level = PI / 180.0 / TAU;
-    Ok(drawn(BandFigure {
-        title: title(measurement, "turning angles between displacements of lag *τ*"),
-        caption: caption(measurement, "bands", &[])?,
-        x_label: "turning angle (degrees)".to_owned(),
-        y_label: "probability density (per degree)".to_owned(),
-        curves: moving.map(curve).collect(),
-        lines: vec![ExpectedLine {
+    Ok(drawn(
+        Chart {
+            title: title(measurement, "turning angles between displacements of lag *τ*"),
+            caption: caption(measurement, "bands", &[])?,
+            x_label: "turning angle (degrees)".to_owned(),
+            y_label: "probability density (per degree)".to_owned(),
+            zero_line: true,
+            ..Chart::default()
+        }
+        .with(moving.map(curve))
+        .with([ExpectedLine {
             label: "uniform".to_owned(),
             style: LineStyle::Dotted,
             points: vec![[-180.0, level], [180.0, level]],
-        }],
-        zero_line: true,
-        ..BandFigure::default()
-    }))
+        }]),
+    ))
 }
 
 /// Power spectra with their bands.
@@ -170,14 +176,16 @@ pub(super) fn spectra(measurement: &Measurement) -> Result<Option<Box<dyn Figure
     if let Some(line) = caption.get_mut(1) {
         *line = line.replace("; bands: 95 % intervals over bodies", "");
     }
-    Ok(drawn(BandFigure {
-        title: title(measurement, "power spectra"),
-        caption,
-        x_label: "frequency".to_owned(),
-        y_label: "power spectral density".to_owned(),
-        curves: found.iter().map(curve).filter(|curve| !curve.points.is_empty()).take(CURVES).collect(),
-        logarithmic_x: true,
-        logarithmic_y: true,
-        ..BandFigure::default()
-    }))
+    Ok(drawn(
+        Chart {
+            title: title(measurement, "power spectra"),
+            caption,
+            x_label: "frequency".to_owned(),
+            y_label: "power spectral density".to_owned(),
+            logarithmic_x: true,
+            logarithmic_y: true,
+            ..Chart::default()
+        }
+        .with(found.iter().map(curve).filter(|curve| !curve.points.is_empty()).take(CURVES)),
+    ))
 }

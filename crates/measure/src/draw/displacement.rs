@@ -4,8 +4,7 @@ use super::{caption, title};
 use crate::summary::value;
 use crate::{Measurement, Result};
 use motiform_figures::{
-    BandCurve, BandFigure, BandPoint, ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, Interval,
-    LineStyle, Measured as Point,
+    BandCurve, BandPoint, Chart, ErrorBarSeries, ExpectedLine, Figure, Interval, LineStyle, Measured as Point,
 };
 use motiform_statistics::{Measured, four_digits, furth};
 
@@ -42,18 +41,18 @@ pub(super) fn displacements(measurement: &Measurement) -> Result<Option<Box<dyn 
     let shown: Vec<BandPoint> = points.into_iter().filter(apart).collect();
     let intervals =
         shown.iter().filter(|p| p.low < p.high).map(|p| Interval { x: p.x, low: p.low, high: p.high });
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         title: title(measurement, "mean-square displacement"),
         caption: caption(measurement, "bars", &note.iter().map(String::as_str).collect::<Vec<_>>())?,
         x_label: "lag *τ*".to_owned(),
         y_label: "⟨|***r***(*t*+*τ*) − ***r***(*t*)|^2⟩".to_owned(),
-        lines,
-        intervals: intervals.collect(),
-        series: vec![measured(shown.iter().map(|p| (p.x, p.y)))],
         logarithmic_x: true,
         logarithmic_y: true,
-        ..ErrorBarFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with(lines)
+    .with([intervals.collect::<Vec<_>>()])
+    .with([measured(shown.iter().map(|p| (p.x, p.y)))]);
     Ok(Some(Box::new(figure)))
 }
 
@@ -135,17 +134,17 @@ pub(super) fn exponents(measurement: &Measurement) -> Result<Option<Box<dyn Figu
         ExpectedLine { label: label.to_owned(), style, points }
     };
     let lines = vec![level("ballistic", LineStyle::Dashed, 2.0), level("diffusive", LineStyle::Dotted, 1.0)];
-    let figure = BandFigure {
+    let figure = Chart {
         title: title(measurement, "exponent of the mean-square displacement"),
         caption: caption(measurement, "bands", &[])?,
         x_label: "lag *τ*".to_owned(),
         y_label: "d ln MSD / d ln *τ*".to_owned(),
-        lines,
-        curves: vec![BandCurve { label: "measured".to_owned(), points }],
         zero_line: true,
         logarithmic_x: true,
-        ..BandFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with([BandCurve { label: "measured".to_owned(), points }])
+    .with(lines);
     Ok(Some(Box::new(figure)))
 }
 
@@ -173,17 +172,17 @@ pub(super) fn passages(measurement: &Measurement) -> Result<Option<Box<dyn Figur
         "Not drawn: {left_out} radii that more than half of the starts did not leave within the tracks."
     );
     let more = if left_out > 0 { vec![note.as_str()] } else { Vec::new() };
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         title: title(measurement, "mean first-passage time out of a disc"),
         caption: caption(measurement, "bars", &more)?,
         x_label: "radius *r*".to_owned(),
         y_label: "mean first-passage time".to_owned(),
-        series: vec![measured(known.iter().map(|(x, m)| (*x, m.value)))],
-        intervals: known.iter().filter_map(interval).collect(),
-        lines,
         logarithmic_x: true,
         logarithmic_y: true,
-        ..ErrorBarFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with(lines)
+    .with([known.iter().filter_map(interval).collect::<Vec<_>>()])
+    .with([measured(known.iter().map(|(x, m)| (*x, m.value)))]);
     Ok(Some(Box::new(figure)))
 }
