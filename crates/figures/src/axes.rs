@@ -60,6 +60,12 @@ pub enum AxisKind {
 }
 
 impl AxisKind {
+    /// Logarithmic or not.
+    #[must_use]
+    pub fn of(logarithmic: bool) -> Self {
+        if logarithmic { Self::Logarithmic } else { Self::Linear }
+    }
+
     /// The place of a value along the axis; `None` if it has none.
     #[must_use]
     pub fn place(self, value: f64) -> Option<f64> {

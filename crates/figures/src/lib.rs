@@ -1,7 +1,9 @@
 //! Drawing: plain data in, SVG text out. Independent of models, study files and solvers.
 //!
-//! Thirteen figures ([`PathFigure`], [`SeriesFigure`], [`ReturnMapFigure`], [`SpaceTimeFigure`], [`SpectrumFigure`],
-//! [`PhaseDiagram`], [`BranchDiagram`], [`CurveMap`], [`BandFigure`], [`ErrorBarFigure`], [`SurvivalFigure`], [`PlaceMap`], [`TrackPanels`]) return self-contained SVG text (fonts and pictures are
+//! A [`Chart`] is a list of [`Layer`]s on one pair of axes: [`BandCurve`], [`SurvivalCurve`], [`ErrorBarSeries`], [`Interval`]s,
+//! [`ExpectedLine`], [`Spectra`], [`Returns`], [`BranchDiagram`]. Figures with another sheet ([`PathFigure`], [`SeriesFigure`],
+//! [`SpaceTimeFigure`], [`PhaseDiagram`], [`CurveMap`], [`PlaceMap`], [`TrackPanels`]) and [`Panels`] of any of them return, as charts do,
+//! self-contained SVG text (fonts and pictures are
 //! inside); [`png()`] and [`pdf()`] (feature `raster`) convert that text to files; [`Animation`] returns an animated
 //! PNG. The same data give the same bytes: numbers are rounded to 0.01 pixel and no system font is used. All texts are
 //! markup, see [`Label`]; every regime has its [`RegimeMark`].
@@ -13,6 +15,7 @@ mod beside;
 mod block;
 mod branches;
 mod callouts;
+mod chart;
 mod clip;
 mod colour_bar;
 mod curve_map;
@@ -27,6 +30,8 @@ pub mod geometry;
 mod glyph;
 mod heat_map;
 mod html;
+mod interval;
+mod layer;
 mod legend;
 mod letters;
 mod line_style;
@@ -41,9 +46,11 @@ mod pdf;
 mod phase_diagram;
 mod picture;
 mod place_map;
+mod plane;
 mod portable;
 #[cfg(feature = "raster")]
 mod raster;
+mod rescale;
 mod return_map;
 mod room;
 mod series;
@@ -66,29 +73,32 @@ pub mod ticks;
 mod track_panels;
 
 pub use animation::{Animation, Camera, Frame};
-pub use bands::{BandCurve, BandFigure, BandPoint};
+pub use bands::{BandCurve, BandPoint};
 pub use branches::{BranchDiagram, BranchDots, BranchMark, BranchPart};
+pub use chart::Chart;
 pub use curve_map::{CurveMap, CurveStyle, MapCurve, MapEnd, MapMark};
 pub use embedded::{embedded, font_rules};
 pub use error::{FigureError, Result};
-pub use error_bars::{ErrorBarFigure, ErrorBarSeries, Interval, Measured};
+pub use error_bars::{ErrorBarSeries, Measured};
 pub use expected::ExpectedLine;
 pub use figure::{Drawn, Figure};
 pub use glyph::Glyph;
+pub use interval::Interval;
+pub use layer::Layer;
 pub use line_style::LineStyle;
 pub use marks::{REGIMES, RegimeMark, regime_mark};
 pub use panels::Panels;
 pub use path::{OutlineStamp, PathFigure, PathPoint, SectionLine};
-pub use phase_diagram::{BoundaryLine, Cell, MapInset, PhaseDiagram};
+pub use phase_diagram::{Cell, MapInset, PhaseDiagram};
 pub use place_map::{MapPlace, PlaceMap};
 pub use portable::{DEFAULT_SCALE, RASTER, pdf, png};
-pub use return_map::ReturnMapFigure;
+pub use return_map::Returns;
 pub use room::Room;
 pub use series::{Curve, Panel, SeriesFigure};
 pub use simplify::simplify;
 pub use space_time::SpaceTimeFigure;
-pub use spectrum::{SpectrumCurve, SpectrumFigure};
+pub use spectrum::{Spectra, SpectrumCurve};
 pub use style::{Medium, Style, Width};
-pub use survival::{SurvivalCurve, SurvivalFigure, SurvivalStep};
+pub use survival::{SurvivalCurve, SurvivalStep};
 pub use text::{Label, literal};
 pub use track_panels::{TrackPanel, TrackPanels};

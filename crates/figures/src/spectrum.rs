@@ -1,21 +1,20 @@
-//! Power spectral density against frequency, both logarithmic.
+//! Power spectral density against frequency.
 
-use super::axes::{AxisKind, Scale};
+use super::axes::AxisKind;
+use super::chart::Chart;
 use super::error::{FigureError, Result, check_finite};
-use super::figure::{Csv, figure};
-use super::framed::Framed;
-use super::geometry::{Point, Range, Rect};
+use super::figure::Csv;
+use super::geometry::Point;
+use super::layer::Marks;
 use super::legend::{Entry, Mark};
 use super::paint::Paint;
 use super::palette::Colour;
-use super::room::Room;
+use super::plane::Plane;
 use super::simplify::{envelope, simplify};
 use super::svg::Svg;
 
 /// Most decades of power in sight: what lies lower is the round-off of what was recorded.
 const DECADES: f64 = 12.0;
-const WIDTH: f64 = 560.0;
-const HEIGHT: f64 = 300.0;
 
 /// The spectrum of one quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,101 +27,32 @@ pub struct SpectrumCurve {
     pub power: Vec<f64>,
 }
 
-/// Power spectra on logarithmic axes. The frequency 0 and powers that are not positive have no place there and leave a
-/// gap.
-///
-/// # Units   those of the values; texts are markup (see [`super::Label`])
+/// Power spectra. On logarithmic axes the frequency 0 and powers that are not positive have no place and leave a gap.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SpectrumFigure {
-    /// Line above the axes.
-    pub title: String,
-    /// Paragraphs below the axes: window, segments, number of samples.
-    pub caption: Vec<String>,
-    /// Label of the frequency axis.
-    pub x_label: String,
-    /// Label of the power axis.
-    pub y_label: String,
+pub struct Spectra {
     /// Frequencies, from 0 or above, not decreasing.
     pub frequencies: Vec<f64>,
     /// Curves, drawn in this order.
     pub curves: Vec<SpectrumCurve>,
 }
 
-impl Default for SpectrumFigure {
-    fn default() -> Self {
-        Self {
-            title: String::new(),
-            caption: Vec::new(),
-            x_label: "frequency".to_owned(),
-            y_label: "power spectral density".to_owned(),
-            frequencies: Vec::new(),
-            curves: Vec::new(),
-        }
+impl Chart {
+    /// Power spectra on logarithmic axes.
+    #[must_use]
+    pub fn spectra(frequencies: Vec<f64>, curves: Vec<SpectrumCurve>) -> Self {
+        let (x_label, y_label) = ("frequency".to_owned(), "power spectral density".to_owned());
+        Self { x_label, y_label, logarithmic_x: true, logarithmic_y: true, ..Self::default() }
+            .with([Spectra { frequencies, curves }])
     }
 }
 
-impl SpectrumFigure {
-    /// Draws the figure for a width.
-    ///
-    /// # Errors   nothing above 0, a number that is not finite, frequencies that decrease, or a curve of another length
-    pub fn svg_in(&self, room: Room) -> Result<Svg> {
-        self.check()?;
-        let sheet = Framed {
-            title: &self.title,
-            caption: &self.caption,
-            legend: self.legend(),
-            scale: self.scale()?,
-            kinds: [AxisKind::Logarithmic; 2],
-            labels: [&self.x_label, &self.y_label],
-            room,
-            grid: true,
-            head: 0.0,
-        };
-        sheet.svg(|svg, scale| {
-            svg.clipped(scale.frame, |svg| {
-                self.curves.iter().for_each(|curve| self.draw_curve(svg, curve, scale));
-            });
-            Ok(())
-        })
+impl Spectra {
+    fn points(&self, curve: &SpectrumCurve) -> impl Iterator<Item = Point> {
+        self.frequencies.iter().zip(&curve.power).map(|(f, p)| [*f, *p])
     }
+}
 
-    fn legend(&self) -> Vec<Entry> {
-        let entry = |c: &SpectrumCurve| Entry::new(Mark::Line(paint(c)), &c.label);
-        let several = self.curves.len() > 1;
-        self.curves.iter().filter(|_| several).map(entry).collect()
-    }
-
-    /// log10 of frequency and power over all curves, each at least a decade wide.
-    fn scale(&self) -> Result<Scale> {
-        let points = || self.curves.iter().flat_map(|c| self.points(c)).flatten();
-        let range = |i: usize| Range::of(points().map(|p: Point| p[i]));
-        let (Some(x), Some(y)) = (range(0), range(1)) else {
-            return Err(FigureError::Empty { what: "spectrum above 0" });
-        };
-        let y = Range { min: y.min.max(y.max - DECADES), max: y.max };
-        let y = y.with_span(y.span() * 1.1);
-        let frame = Rect { x: 0.0, y: 0.0, w: WIDTH, h: HEIGHT };
-        Ok(Scale { frame, x: x.with_span(x.span().max(1.0)), y: y.with_span(y.span().max(1.0)) })
-    }
-
-    /// log10 of frequency and power; `None` where one of them is not above 0.
-    fn points(&self, curve: &SpectrumCurve) -> impl Iterator<Item = Option<Point>> {
-        let pairs = self.frequencies.iter().zip(&curve.power);
-        pairs.map(|(f, p)| (*f > 0.0 && *p > 0.0).then(|| [libm::log10(*f), libm::log10(*p)]))
-    }
-
-    fn draw_curve(&self, svg: &mut Svg, curve: &SpectrumCurve, scale: &Scale) {
-        let points: Vec<_> = self.points(curve).map(|p| p.map(|p| scale.map(p))).collect();
-        for piece in points.split(Option::is_none) {
-            let piece: Vec<Point> = piece.iter().copied().flatten().collect();
-            match piece[..] {
-                [] => {}
-                [one] => svg.circle(one, 2.0, &Paint::fill(curve.colour)),
-                _ => svg.polyline(&simplify(&envelope(&piece, 0.5), 0.15), false, &paint(curve)),
-            }
-        }
-    }
-
+impl Marks for Spectra {
     fn check(&self) -> Result<()> {
         check_finite("frequency", self.frequencies.iter().copied())?;
         if let Some(i) = self.frequencies.windows(2).position(|w| w[1] < w[0]) {
@@ -138,19 +68,60 @@ impl SpectrumFigure {
         Ok(())
     }
 
+    fn extent(&self, [x, y]: [AxisKind; 2]) -> [Vec<f64>; 2] {
+        let points = self.curves.iter().flat_map(|curve| self.points(curve));
+        let places = points.filter_map(|[f, p]| Some((x.place(f)?, y.place(p)?)));
+        let (xs, mut ys): (Vec<f64>, Vec<f64>) = places.unzip();
+        if y == AxisKind::Logarithmic {
+            let highest = ys.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            ys.iter_mut().for_each(|y| *y = y.max(highest - DECADES));
+        }
+        [xs, ys]
+    }
+
+    fn frame(&self) -> [f64; 2] {
+        [560.0, 300.0]
+    }
+
+    fn room(&self) -> [f64; 2] {
+        [0.0, 0.05]
+    }
+
+    fn keys(&self, _: usize) -> Vec<Entry> {
+        let several = self.curves.len() > 1;
+        let key = |curve: &SpectrumCurve| Entry::new(Mark::Line(paint(curve)), &curve.label);
+        self.curves.iter().filter(|_| several).map(key).collect()
+    }
+
+    fn draw(&self, svg: &mut Svg, plane: &Plane, _: usize) {
+        svg.clipped(plane.scale.frame, |svg| {
+            for curve in &self.curves {
+                let points: Vec<_> = self.points(curve).map(|point| plane.at(point)).collect();
+                points.split(Option::is_none).for_each(|piece| draw_piece(svg, piece, curve));
+            }
+        });
+    }
+
     /// A row per frequency, a column per curve.
-    fn csv(&self) -> String {
-        let names = self.curves.iter().map(|curve| curve.label.clone());
-        let mut csv = Csv::new([self.x_label.clone()].into_iter().chain(names));
+    fn table(&self, [x, _]: [&str; 2]) -> Option<Csv> {
+        let mut csv = Csv::new([x].into_iter().chain(self.curves.iter().map(|curve| curve.label.as_str())));
         for (row, frequency) in self.frequencies.iter().enumerate() {
             let powers = self.curves.iter().map(|curve| Some(curve.power[row]));
             csv.row(&[], [Some(*frequency)].into_iter().chain(powers));
         }
-        csv.finish()
+        Some(csv)
     }
 }
 
-figure!(SpectrumFigure);
+/// A single value between gaps is a dot.
+fn draw_piece(svg: &mut Svg, piece: &[Option<Point>], curve: &SpectrumCurve) {
+    let piece: Vec<Point> = piece.iter().copied().flatten().collect();
+    match piece[..] {
+        [] => {}
+        [one] => svg.circle(one, 2.0, &Paint::fill(curve.colour)),
+        _ => svg.polyline(&simplify(&envelope(&piece, 0.5), 0.15), false, &paint(curve)),
+    }
+}
 
 fn paint(curve: &SpectrumCurve) -> Paint {
     Paint::stroke(curve.colour, 1.4)

@@ -157,14 +157,14 @@ fn resized(svg: &str, width: Width) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ReturnMapFigure;
+    use crate::Chart;
 
-    fn figure() -> ReturnMapFigure {
-        ReturnMapFigure {
+    fn figure() -> Chart {
+        let names = ["*x*_*n*", "*x*_{*n*+1}"].map(str::to_owned);
+        Chart {
             title: "Own title".into(),
             caption: vec!["Own caption.".into()],
-            points: vec![[0.0, 1.0], [1.0, 0.5]],
-            ..ReturnMapFigure::default()
+            ..Chart::return_map(names, vec![[0.0, 1.0], [1.0, 0.5]])
         }
     }
 

@@ -1,19 +1,15 @@
 //! Survival curves: the share of events that last longer than a time.
 
-use super::axes::{AxisKind, Scale};
+use super::axes::AxisKind;
+use super::bands::{COLUMNS, colour};
+use super::chart::Chart;
 use super::error::{FigureError, Result, check_finite};
-use super::expected::ExpectedLine;
-use super::figure::{Csv, figure};
-use super::framed::Framed;
-use super::geometry::{Point, Rect};
+use super::geometry::Point;
+use super::layer::{Marks, Row};
 use super::legend::{BAND, Entry, Mark};
 use super::paint::Paint;
-use super::palette::{CATEGORIES, Colour};
-use super::room::Room;
+use super::plane::Plane;
 use super::svg::Svg;
-
-const WIDTH: f64 = 540.0;
-const HEIGHT: f64 = 300.0;
 
 /// The share from a time on, until the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +24,10 @@ pub struct SurvivalStep {
     pub high: f64,
 }
 
-/// A survival curve.
+/// A survival curve with its band: steps.
+///
+/// Shares of 0 have no place on a logarithmic axis: a curve ends with its last share above 0. The axis reaches down to half the least
+/// share, and time from 0 on; what of a band lies below is cut off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurvivalCurve {
     /// Markup for the legend.
@@ -39,131 +38,71 @@ pub struct SurvivalCurve {
     pub end: f64,
 }
 
-/// Survival curves with their bands on a logarithmic axis: an exponential law is a straight line.
-///
-/// Shares of 0 have no place there: a curve ends with its last share above 0. The axis reaches down to half the least
-/// share; what of a band lies below is cut off.
-///
-/// # Units   time as its label says; shares from 0 to 1; texts are markup (see [`super::Label`])
-#[derive(Debug, Clone, PartialEq)]
-pub struct SurvivalFigure {
-    /// Line above the legend.
-    pub title: String,
-    /// Paragraphs below the axes: number of events, what the bands are.
-    pub caption: Vec<String>,
-    /// Label of the time axis.
-    pub x_label: String,
-    /// Label of the axis of shares.
-    pub y_label: String,
-    /// Curves, each in its own colour.
-    pub curves: Vec<SurvivalCurve>,
-    /// Lines to compare with, such as an exponential law.
-    pub lines: Vec<ExpectedLine>,
-}
-
-impl Default for SurvivalFigure {
-    fn default() -> Self {
-        Self {
-            title: String::new(),
-            caption: Vec::new(),
-            x_label: "*t*".to_owned(),
-            y_label: "share that lasts longer".to_owned(),
-            curves: Vec::new(),
-            lines: Vec::new(),
-        }
+impl Chart {
+    /// Survival curves on a logarithmic axis, where an exponential law is a straight line.
+    #[must_use]
+    pub fn survival(curves: impl IntoIterator<Item = SurvivalCurve>) -> Self {
+        let (x_label, y_label) = ("*t*".to_owned(), "share that lasts longer".to_owned());
+        Self { x_label, y_label, logarithmic_y: true, ..Self::default() }.with(curves)
     }
 }
 
-const KINDS: [AxisKind; 2] = [AxisKind::Linear, AxisKind::Logarithmic];
-
-impl SurvivalFigure {
-    /// Draws the figure for a width.
-    ///
-    /// # Errors   no share above 0, a number that is not finite, or times that decrease
-    pub fn svg_in(&self, room: Room) -> Result<Svg> {
-        self.check()?;
-        let curves = || self.curves.iter().zip(CATEGORIES.into_iter().cycle());
-        let keys = curves().map(|(curve, colour)| Entry::new(Mark::Band(colour), &curve.label));
-        let sheet = Framed {
-            title: &self.title,
-            caption: &self.caption,
-            legend: keys.chain(self.lines.iter().map(ExpectedLine::key)).collect(),
-            scale: self.scale()?,
-            kinds: KINDS,
-            labels: [&self.x_label, &self.y_label],
-            room,
-            grid: true,
-            head: 0.0,
-        };
-        sheet.svg(|svg, scale| {
-            curves().for_each(|(curve, colour)| curve.draw_band(svg, scale, colour));
-            curves().for_each(|(curve, colour)| curve.draw_line(svg, scale, colour));
-            self.lines.iter().for_each(|line| line.draw(svg, scale, KINDS));
-            Ok(())
-        })
-    }
-
-    /// Time from 0 on; log10 of the shares, down to a half of the least one.
-    fn scale(&self) -> Result<Scale> {
-        let seen = || self.curves.iter().flat_map(|c| c.steps.iter().filter(|s| s.share > 0.0));
-        let times = seen().map(|s| s.t).chain(self.curves.iter().map(|c| c.end)).chain([0.0]);
-        let least = seen().map(|s| s.share).fold(f64::INFINITY, f64::min);
-        let shares = [KINDS[1].place(0.5 * least), KINDS[1].place(1.15)];
-        let ranges = (KINDS[0].range(times, 0.01), KINDS[1].range(shares.into_iter().flatten(), 0.0));
-        let ((Some(x), Some(y)), true) = (ranges, least.is_finite()) else {
-            return Err(FigureError::Empty { what: "list of shares above 0" });
-        };
-        Ok(Scale { frame: Rect { x: 0.0, y: 0.0, w: WIDTH, h: HEIGHT }, x, y })
-    }
-
+impl Marks for SurvivalCurve {
     fn check(&self) -> Result<()> {
-        for curve in &self.curves {
-            let values = curve.steps.iter().flat_map(|s| [s.t, s.share, s.low, s.high]);
-            check_finite("survival value (time, share, band in turn)", values.chain([curve.end]))?;
-            let times: Vec<f64> = curve.steps.iter().map(|s| s.t).chain([curve.end]).collect();
-            if let Some(i) = times.windows(2).position(|w| w[1] < w[0]) {
-                return Err(FigureError::Unsorted { what: "survival time", index: i + 1 });
-            }
+        let values = self.steps.iter().flat_map(|s| [s.t, s.share, s.low, s.high]);
+        check_finite("survival value (time, share, band in turn)", values.chain([self.end]))?;
+        let times: Vec<f64> = self.steps.iter().map(|s| s.t).chain([self.end]).collect();
+        match times.windows(2).position(|w| w[1] < w[0]) {
+            Some(i) => Err(FigureError::Unsorted { what: "survival time", index: i + 1 }),
+            None => Ok(()),
         }
-        check_finite("expected line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())
     }
 
-    /// A row per step, and one per point of each line, which has no band.
-    fn csv(&self) -> String {
-        let mut csv = Csv::new(["curve", &self.x_label, &self.y_label, "low", "high"]);
-        for curve in &self.curves {
-            curve
-                .steps
-                .iter()
-                .for_each(|s| csv.row(&[&curve.label], [s.t, s.share, s.low, s.high].map(Some)));
-        }
-        for line in &self.lines {
-            line.points.iter().for_each(|[t, y]| csv.row(&[&line.label], [Some(*t), Some(*y), None, None]));
-        }
-        csv.finish()
+    /// Time from 0 on; shares down to a half of the least one.
+    fn extent(&self, [x, y]: [AxisKind; 2]) -> [Vec<f64>; 2] {
+        let seen = || self.steps.iter().filter(|s| s.share > 0.0);
+        let times = seen().map(|s| s.t).chain([self.end, 0.0]).filter_map(|t| x.place(t));
+        let least = seen().map(|s| s.share).reduce(f64::min);
+        let shares = least.into_iter().flat_map(|least| [0.5 * least, 1.15]).filter_map(|s| y.place(s));
+        [times.collect(), shares.collect()]
+    }
+
+    fn room(&self) -> [f64; 2] {
+        [0.01, 0.0]
+    }
+
+    fn keys(&self, number: usize) -> Vec<Entry> {
+        vec![Entry::new(Mark::Band(colour(number)), &self.label)]
+    }
+
+    fn draw_ground(&self, svg: &mut Svg, plane: &Plane, number: usize) {
+        let mut outline = self.stairs(plane, |s| s.high);
+        outline.extend(self.stairs(plane, |s| s.low).into_iter().rev());
+        svg.polyline(&outline, true, &Paint::fill(colour(number)).opacity(BAND));
+    }
+
+    fn draw(&self, svg: &mut Svg, plane: &Plane, number: usize) {
+        svg.polyline(&self.stairs(plane, |s| s.share), false, &Paint::stroke(colour(number), 1.6));
+    }
+
+    fn columns(&self) -> [&'static [&'static str]; 2] {
+        COLUMNS
+    }
+
+    fn rows(&self) -> Vec<Row> {
+        let row = |s: &SurvivalStep| Row::named(&self.label, [s.t, s.share], &[s.low, s.high]);
+        self.steps.iter().map(row).collect()
     }
 }
-
-figure!(SurvivalFigure);
 
 impl SurvivalCurve {
-    fn draw_band(&self, svg: &mut Svg, scale: &Scale, colour: Colour) {
-        let mut outline = self.stairs(scale, |s| s.high);
-        outline.extend(self.stairs(scale, |s| s.low).into_iter().rev());
-        svg.polyline(&outline, true, &Paint::fill(colour).opacity(BAND));
-    }
-
-    fn draw_line(&self, svg: &mut Svg, scale: &Scale, colour: Colour) {
-        svg.polyline(&self.stairs(scale, |s| s.share), false, &Paint::stroke(colour, 1.6));
-    }
-
     /// The steps as long as the share is above 0, in pixels inside the frame.
-    fn stairs(&self, scale: &Scale, value: fn(&SurvivalStep) -> f64) -> Vec<Point> {
+    fn stairs(&self, plane: &Plane, value: fn(&SurvivalStep) -> f64) -> Vec<Point> {
         let seen = self.steps.iter().take_while(|s| s.share > 0.0).count();
         let ends = self.steps.iter().skip(1).map(|s| s.t).chain([self.end]);
         let corners = self.steps[..seen].iter().zip(ends).flat_map(|(s, end)| {
-            let y = KINDS[1].place(value(s)).unwrap_or(scale.y.min).clamp(scale.y.min, scale.y.max);
-            [scale.map([s.t, y]), scale.map([end, y])]
+            let y = plane.upwards(value(s));
+            [s.t, end].map(|t| plane.scale.map([t, y]))
         });
         corners.collect()
     }

@@ -46,10 +46,10 @@ pub(super) fn field(columns: usize, rows: usize, f: fn(f64, f64) -> f64) -> Spac
     SpaceTimeFigure { columns, rows, values, ..SpaceTimeFigure::default() }
 }
 
-pub(super) fn spectrum(power: &[f64]) -> SpectrumFigure {
+pub(super) fn spectrum(power: &[f64]) -> Chart {
     let frequencies = (0..power.len()).map(|i| i as f64).collect();
     let curve = SpectrumCurve { label: "*x*".into(), colour: BLUE, power: power.to_vec() };
-    SpectrumFigure { frequencies, curves: vec![curve.clone(), curve], ..SpectrumFigure::default() }
+    Chart::spectra(frequencies, vec![curve.clone(), curve])
 }
 
 fn film(count: usize, camera: Camera) -> Animation {
@@ -65,7 +65,7 @@ pub(super) fn drawing(svg: &str) -> &str {
 
 #[test]
 fn no_figure_holds_a_number_that_is_none() {
-    let map = |points| ReturnMapFigure { points, ..ReturnMapFigure::default() };
+    let map = |points| Chart::return_map(["x", "y"].map(str::to_owned), points);
     let far = vec![PathPoint { t: 0.0, x: 1e9, y: 1e9 }, PathPoint { t: 1.0, x: 1e9 + 1e-6, y: 1e9 }];
     let lone = PathFigure { segments: vec![vec![], wave(1), vec![]], ..PathFigure::default() };
     let still = PathFigure { segments: vec![vec![wave(1)[0]; 9]], ..PathFigure::default() };
@@ -103,7 +103,10 @@ fn bad_data_are_refused_with_the_place() {
         "path value (t, x, y in turn) number 11 is NaN; leave undefined values out (or `None`) instead"
     );
     assert!(matches!(PathFigure::default().svg(), Err(FigureError::Empty { .. })));
-    assert!(matches!(ReturnMapFigure::default().svg(), Err(FigureError::Empty { .. })));
+    assert!(matches!(
+        Chart::return_map(["x", "y"].map(str::to_owned), Vec::new()).svg(),
+        Err(FigureError::Empty { .. })
+    ));
     assert!(matches!(SeriesFigure::default().svg(), Err(FigureError::Empty { .. })));
     assert!(matches!(Animation::default().apng(), Err(FigureError::Empty { .. })));
     assert!(matches!(series(vec![Some(f64::INFINITY)]).svg(), Err(FigureError::NotFinite { .. })));
@@ -122,8 +125,8 @@ fn bad_data_are_refused_with_the_place() {
     assert!(matches!(field(2, 2, |t, _| 1.0 / t).svg(), Err(FigureError::NotFinite { index: 0, .. })));
     assert!(matches!(spectrum(&[1.0]).svg(), Err(FigureError::Empty { .. })));
     assert!(matches!(spectrum(&[1.0, 0.0, -1.0]).svg(), Err(FigureError::Empty { .. })));
-    let mut long = spectrum(&[1.0; 4]);
-    long.curves[1].power.push(1.0);
+    let long = SpectrumCurve { label: "*x*".into(), colour: BLUE, power: vec![1.0; 5] };
+    let long = Chart::spectra(vec![1.0; 4], vec![long]);
     assert!(matches!(long.svg(), Err(FigureError::Powers { expected: 4, got: 5, .. })));
     let mut backwards = film(3, Camera::Auto);
     backwards.frames.reverse();

@@ -27,7 +27,7 @@ fn text(diagram: &PhaseDiagram) -> String {
 
 #[test]
 fn no_diagram_holds_a_number_that_is_none() {
-    let line = |points| BoundaryLine { label: "far".into(), style: LineStyle::Dotted, points };
+    let line = |points| ExpectedLine { label: "far".into(), style: LineStyle::Dotted, points };
     let mut far = diagram(3, 3);
     far.lines = vec![line(vec![[-1e99, -1e99], [1e99, 1e99]]), line(vec![[1.0, 1.0]]), line(vec![])];
     let all = [far, diagram(1, 2), diagram(2, 1), diagram(300, 2), strip(1), strip(130), diagram(50, 50)];
@@ -43,7 +43,7 @@ fn no_diagram_holds_a_number_that_is_none() {
 #[test]
 fn the_legend_names_what_is_present() {
     for mut diagram in [diagram(4, 3), diagram(64, 3)] {
-        diagram.lines = vec![BoundaryLine { label: "Hopf".into(), style: LineStyle::Dashed, points: vec![] }];
+        diagram.lines = vec![ExpectedLine { label: "Hopf".into(), style: LineStyle::Dashed, points: vec![] }];
         let svg = text(&diagram);
         for word in ["zigzag", "circular", "straight", "several motions", "Hopf"] {
             assert!(svg.contains(word), "{word}");
@@ -138,7 +138,7 @@ fn bad_diagrams_are_refused_with_the_place() {
         "the shares of cell number 0 add up to 1; give shares of at least 0 that add up to 1"
     );
     let line = |d: &mut PhaseDiagram| {
-        d.lines = vec![BoundaryLine {
+        d.lines = vec![ExpectedLine {
             label: String::new(),
             style: LineStyle::Solid,
             points: vec![[0.0, f64::INFINITY]],

@@ -8,7 +8,7 @@ use motiform_analysis::{PeriodicOrbit, Regime};
 use motiform_continuation::{CurvePoint, Degenerate, Motion, Point, Settings, Special, WholeCurve};
 use motiform_diagrams::{Branches, Followed};
 use motiform_dynamics::order::ascending;
-use motiform_figures::{BoundaryLine, LineStyle};
+use motiform_figures::{ExpectedLine, LineStyle};
 use motiform_report::Claim;
 use motiform_study::Error;
 use std::sync::Arc;
@@ -81,12 +81,12 @@ impl Curves {
     }
 
     /// The curves as lines; those of one kind that come later have no entry of their own in the legend.
-    pub(crate) fn lines(&self) -> Vec<BoundaryLine> {
+    pub(crate) fn lines(&self) -> Vec<ExpectedLine> {
         let line = |curve: &WholeCurve| {
             let name = curve.points.first()?.special.name();
             let (_, label, style) = KINDS.into_iter().find(|kind| kind.0 == name)?;
             let points = curve.points.iter().map(|point| point.parameters).collect();
-            Some(BoundaryLine { label: label.to_owned(), style, points })
+            Some(ExpectedLine { label: label.to_owned(), style, points })
         };
         self.all.iter().filter_map(line).collect()
     }

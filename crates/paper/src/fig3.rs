@@ -7,7 +7,7 @@ use super::context::Context;
 use curve::{Piece, pieces};
 use motiform_analysis::regime::Regime;
 use motiform_analysis::{correlation_dimension, return_pairs};
-use motiform_figures::{ErrorBarFigure, ErrorBarSeries, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, Measured};
 use motiform_lab::draw;
 use motiform_lab::draw::sheet;
 use motiform_report::{Claim, ReportFigure, Section};
@@ -100,13 +100,13 @@ fn by_direction(dataset: &Dataset) -> Result<ReportFigure, Error> {
         points: map(dataset, rising).into_iter().map(|[x, y]| Measured { x, y, error: 0.0 }).collect(),
         joined: false,
     };
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         title: "Return map of *x* on *y* = 3".to_owned(),
         x_label: "*x*_*n*".to_owned(),
         y_label: "*x*_{*n*+1}".to_owned(),
-        series: [("crossed upwards", true), ("crossed downwards", false)].map(series).to_vec(),
-        ..ErrorBarFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with([("crossed upwards", true), ("crossed downwards", false)].map(series));
     let words = "The return map of *x* on the paper's line -3 < *x* < 3, *y* = 3, from one crossing to the next one in the same direction. It \
                  consists of open arcs: an arc ends where the path only touches the line, or where the next turn stays below it.";
     Ok(ReportFigure::new(sheet(&figure)?, words))

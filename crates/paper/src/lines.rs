@@ -7,7 +7,7 @@ use motiform_analysis::RelativeEquilibrium;
 use motiform_continuation::{
     Branch, CurvePoint, Degenerate, Family2, Point, Settings, Special, WholeCurve, switch,
 };
-use motiform_figures::{BoundaryLine, ErrorBarFigure, ErrorBarSeries, ExpectedLine, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Measured};
 use motiform_lab::draw::sheet;
 use motiform_models::tensor::reduced::{Line, Reduced};
 use motiform_report::{Claim, ReportFigure};
@@ -252,7 +252,7 @@ impl Continued {
     ///
     /// # Errors
     /// Numbers that no axis can hold.
-    pub(crate) fn figure(&self, lines: &[BoundaryLine]) -> Result<ReportFigure, Error> {
+    pub(crate) fn figure(&self, lines: &[ExpectedLine]) -> Result<ReportFigure, Error> {
         let kinds: [(&str, Kind); 4] = [
             ("pitchfork, continued", |p| matches!(p.special, Special::Pitchfork { .. })),
             ("Hopf, supercritical, continued", |p| kind(p) == Some(true)),
@@ -265,12 +265,7 @@ impl Continued {
             let points = self.0.iter().flat_map(thin).map(|[x, y]| Measured { x, y, error: 0.0 }).collect();
             ErrorBarSeries { label: label.to_owned(), points, joined: false }
         };
-        let line = |line: &BoundaryLine| ExpectedLine {
-            label: line.label.clone(),
-            style: line.style,
-            points: line.points.clone(),
-        };
-        let figure = ErrorBarFigure {
+        let figure = Chart {
             title: "The lines of Fig. 1, continued".to_owned(),
             caption: vec![
                 "Lines: formulas. Markers: special points of branches, followed through the plane."
@@ -278,10 +273,10 @@ impl Continued {
             ],
             x_label: "*κ*_2".to_owned(),
             y_label: "*γ*".to_owned(),
-            series: kinds.into_iter().map(series).filter(|series| !series.points.is_empty()).collect(),
-            lines: lines.iter().map(line).collect(),
-            ..ErrorBarFigure::default()
-        };
+            ..Chart::default()
+        }
+        .with(lines.iter().cloned())
+        .with(kinds.into_iter().map(series).filter(|series| !series.points.is_empty()));
         let caption = "The lines of Fig. 1 by continuation, which knows none of the formulas, on top of the analytic ones.";
         Ok(ReportFigure::new(sheet(&figure)?, caption))
     }

@@ -1,6 +1,6 @@
 //! A scan over one parameter as a strip.
 
-use motiform_figures::{BoundaryLine, Cell, Drawn, PhaseDiagram};
+use motiform_figures::{Cell, Drawn, ExpectedLine, PhaseDiagram};
 use motiform_lab::draw::sheet;
 use motiform_lab::scan::CellSummary;
 use motiform_study::Error;
@@ -9,7 +9,7 @@ use motiform_study::Error;
 pub(super) fn strip(
     x_label: &str,
     points: &[(f64, CellSummary)],
-    lines: Vec<BoundaryLine>,
+    lines: Vec<ExpectedLine>,
     caption: Vec<String>,
 ) -> Result<Drawn, Error> {
     let cell = |(x, summary): &(f64, CellSummary)| Cell { x: *x, y: 0.0, shares: summary.shares() };

@@ -1,7 +1,7 @@
 //! What holds for every report.
 
 use crate::*;
-use motiform_figures::{ReturnMapFigure, png};
+use motiform_figures::{Chart, png};
 
 fn claim(verdict: Verdict) -> Claim {
     Claim {
@@ -18,8 +18,9 @@ fn check(verdict: Verdict) -> Claim {
 }
 
 fn report() -> Report {
-    let svg =
-        ReturnMapFigure { points: vec![[0.0, 1.0]], ..ReturnMapFigure::default() }.svg().expect("a figure");
+    let svg = Chart::return_map(["*x*_*n*", "*x*_{*n*+1}"].map(str::to_owned), vec![[0.0, 1.0]])
+        .svg()
+        .expect("a figure");
     let bytes = png(&svg, 0.5, &[]).expect("a png");
     let figure =
         |picture| ReportFigure { of_paper: None, caption: "a \"quoted\" *x*_1".into(), picture, data: None };

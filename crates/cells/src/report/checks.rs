@@ -4,7 +4,7 @@ use crate::Fitted;
 use crate::Units;
 use crate::report::numbers::{plain, with_error};
 use crate::report::terms::typeset;
-use motiform_figures::{BandCurve, BandFigure, BandPoint};
+use motiform_figures::{BandCurve, BandPoint, Chart};
 use motiform_inference::{Channel, Coefficient};
 use motiform_lab::draw::sheet;
 use motiform_report::{Cell, ReportFigure, Section, Table};
@@ -77,13 +77,13 @@ fn memory(pair: &[Channel], n: f64) -> Result<ReportFigure, Error> {
         // keeps the band in sight: axes show all points, and one alone is no line
         curves.push(BandCurve { label: String::new(), points: vec![bare(1.0, 1.1 * end)] });
     }
-    let figure = BandFigure {
+    let figure = Chart {
         x_label: "lag (frames)".to_owned(),
         y_label: "autocorrelation of innovations".to_owned(),
-        curves,
         zero_line: true,
-        ..BandFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with(curves);
     let names: Vec<String> = pair.iter().map(|channel| symbol(&channel.name)).collect();
     Ok(ReportFigure::new(sheet(&figure)?, format!("Innovations of {}.", names.join(" and "))))
 }

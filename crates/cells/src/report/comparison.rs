@@ -5,7 +5,7 @@ use crate::report::Case;
 use crate::report::numbers::plain;
 use crate::report::outlines::{observed, track};
 use crate::{Agreement, Axis, Comparison, Kind, Prediction};
-use motiform_figures::{BandCurve, BandFigure, BandPoint, TrackPanels};
+use motiform_figures::{BandCurve, BandPoint, Chart, TrackPanels};
 use motiform_lab::draw::{FigureFormat, Picture, files, sheet};
 use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_study::Error;
@@ -96,21 +96,21 @@ fn curve(one: &Comparison, units: &Units) -> Result<ReportFigure, Error> {
     let own = places().map(|(k, x)| [x, statistic.values[k]]);
     let own = own.map(|[x, y]| BandPoint { x, y, low: y, high: y });
     let square = statistic.kind == Kind::Displacement;
-    let figure = BandFigure {
+    let figure = Chart {
         x_label: match statistic.kind.axis() {
             Axis::Lag => format!("lag ({})", units.time),
             Axis::Share => "share of the samples below (%)".to_owned(),
         },
         y_label: label(statistic.kind, units),
-        curves: vec![
-            BandCurve { label: "simulated: median, 95 % band".to_owned(), points: simulated.collect() },
-            BandCurve { label: "observed".to_owned(), points: own.collect() },
-        ],
         logarithmic_x: square,
         logarithmic_y: square,
         zero_line: statistic.kind.axis() == Axis::Lag,
-        ..BandFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with([
+        BandCurve { label: "simulated: median, 95 % band".to_owned(), points: simulated.collect() },
+        BandCurve { label: "observed".to_owned(), points: own.collect() },
+    ]);
     let caption =
         format!("{}: {}, p = {:.3}.", statistic.kind.name(), envelope.agreement.name(), envelope.p_value);
     Ok(ReportFigure::new(sheet(&figure)?, caption))

@@ -1,12 +1,12 @@
 //! Numbers without a model: a table and the displacements; speed, area and aspect ratio over time, for beside the film strip.
 
 use crate::report::Case;
-use crate::report::motion::points;
+use crate::report::motion::mean_square;
 use crate::report::numbers::{answer, plain};
 use crate::{Numbers, Row, Units};
 use motiform_dynamics::order::ascending;
 use motiform_figures::palette::INK;
-use motiform_figures::{BandCurve, BandFigure, Curve, Panel, SeriesFigure};
+use motiform_figures::{Curve, Panel, SeriesFigure};
 use motiform_lab::draw::sheet;
 use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_statistics::Answer;
@@ -100,18 +100,8 @@ fn series(frames: &[FrameModes], units: &Units) -> SeriesFigure {
 }
 
 fn displacement(numbers: &Numbers, units: &Units) -> Result<Option<ReportFigure>, Error> {
-    let curve = BandCurve { label: "observed, 95 % band".to_owned(), points: points(&numbers.displacement) };
-    if curve.points.len() < 3 || !curve.points.iter().any(|point| point.y > 0.0) {
-        return Ok(None);
-    }
-    let figure = BandFigure {
-        x_label: format!("lag ({})", units.time),
-        y_label: format!("mean-square displacement ({}^2)", units.length),
-        curves: vec![curve],
-        logarithmic_x: true,
-        logarithmic_y: true,
-        ..BandFigure::default()
-    };
+    let long = numbers.displacement.len() >= 3;
+    let Some(figure) = mean_square(&numbers.displacement, units).filter(|_| long) else { return Ok(None) };
     let words = "Mean-square displacement over all pairs of frames that are seen, gaps or not; errors of the places are in it. The band ends at an eighth of the record.";
     Ok(Some(ReportFigure::new(sheet(&figure)?, words)))
 }

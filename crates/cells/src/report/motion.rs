@@ -4,7 +4,7 @@ use crate::Units;
 use crate::report::numbers::{answer, plain, with_error};
 use crate::report::{Case, relatives};
 use crate::{AtLag, Memory, MotionStatistics};
-use motiform_figures::{BandCurve, BandFigure, BandPoint, literal};
+use motiform_figures::{BandCurve, BandPoint, Chart, literal};
 use motiform_lab::draw::sheet;
 use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_study::Error;
@@ -88,42 +88,34 @@ pub(crate) fn walk(statistics: &MotionStatistics, units: &Units) -> Table {
     }
 }
 
-/// Mean-square displacement and autocorrelations.
-pub(crate) fn figures(statistics: &MotionStatistics, units: &Units) -> Result<Vec<ReportFigure>, Error> {
-    let lag = format!("lag ({})", units.time);
-    let displacement = BandFigure {
-        x_label: lag.clone(),
+/// Mean-square displacement against lag on logarithmic axes; `None` where no value has a place there.
+pub(crate) fn mean_square(displacement: &[AtLag], units: &Units) -> Option<Chart> {
+    let curve = BandCurve { label: "observed, 95 % band".to_owned(), points: points(displacement) };
+    let chart = Chart {
+        x_label: format!("lag ({})", units.time),
         y_label: format!("mean-square displacement ({}^2)", units.length),
-        curves: vec![BandCurve {
-            label: "observed, 95 % band".to_owned(),
-            points: points(&statistics.displacement),
-        }],
         logarithmic_x: true,
         logarithmic_y: true,
-        ..BandFigure::default()
+        ..Chart::default()
     };
+    curve.points.iter().any(|point| point.y > 0.0).then(|| chart.with([curve]))
+}
+
+/// Mean-square displacement and autocorrelations.
+pub(crate) fn figures(statistics: &MotionStatistics, units: &Units) -> Result<Vec<ReportFigure>, Error> {
     let curve =
         |memory: &Memory| BandCurve { label: symbol(&memory.quantity), points: points(&memory.correlation) };
-    let correlations = BandFigure {
-        x_label: lag,
-        y_label: "autocorrelation".to_owned(),
-        curves: statistics
-            .memories
-            .iter()
-            .filter(|memory| !memory.correlation.is_empty())
-            .map(curve)
-            .collect(),
-        zero_line: true,
-        ..BandFigure::default()
-    };
+    let known = statistics.memories.iter().filter(|memory| !memory.correlation.is_empty());
+    let (x_label, y_label) = (format!("lag ({})", units.time), "autocorrelation".to_owned());
+    let correlations = Chart { x_label, y_label, zero_line: true, ..Chart::default() }.with(known.map(curve));
     let mut all = Vec::new();
-    if displacement.curves[0].points.iter().any(|point| point.y > 0.0) {
+    if let Some(displacement) = mean_square(&statistics.displacement, units) {
         all.push(ReportFigure::new(
             sheet(&displacement)?,
             "Mean-square displacement against lag; errors of measurement subtracted.",
         ));
     }
-    if !correlations.curves.is_empty() {
+    if !correlations.is_empty() {
         all.push(ReportFigure::new(
             sheet(&correlations)?,
             "Autocorrelations of velocity and modes of the shape, with 95 % bands.",

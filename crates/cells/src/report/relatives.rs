@@ -5,7 +5,7 @@ use crate::report::motion::capital;
 use crate::report::numbers::plain;
 use crate::{Finding, ObservedLegs, ObservedRests, Relatives, SpectralPeak};
 use motiform_figures::palette::CATEGORIES;
-use motiform_figures::{SpectrumCurve, SpectrumFigure};
+use motiform_figures::{Chart, SpectrumCurve};
 use motiform_lab::draw::sheet;
 use motiform_report::{Cell, ReportFigure, Table};
 use motiform_study::Error;
@@ -99,22 +99,17 @@ pub(crate) fn figure(found: &Relatives, units: &Units) -> Result<Option<ReportFi
         let power = of.power.iter().map(|p| p / total.max(f64::MIN_POSITIVE)).collect();
         SpectrumCurve { label: symbol(of.quantity), colour: CATEGORIES[number % CATEGORIES.len()], power }
     };
-    let figure = SpectrumFigure {
-        x_label: format!("frequency (cycles per {})", units.time),
-        y_label: format!("power over variance ({})", units.time),
-        frequencies: (0..first.power.len()).map(|k| k as f64 * first.spacing).collect(),
-        curves: found
-            .spectra
-            .iter()
-            .filter(|of| of.power.len() == first.power.len())
-            .enumerate()
-            .map(curve)
-            .collect(),
-        ..SpectrumFigure::default()
-    };
-    if !figure.curves.iter().any(|curve| curve.power.iter().skip(1).any(|p| *p > 0.0)) {
+    let frequencies = (0..first.power.len()).map(|k| k as f64 * first.spacing).collect();
+    let known = found.spectra.iter().filter(|of| of.power.len() == first.power.len());
+    let curves: Vec<SpectrumCurve> = known.enumerate().map(curve).collect();
+    if !curves.iter().any(|curve| curve.power.iter().skip(1).any(|p| *p > 0.0)) {
         return Ok(None);
     }
+    let figure = Chart {
+        x_label: format!("frequency (cycles per {})", units.time),
+        y_label: format!("power over variance ({})", units.time),
+        ..Chart::spectra(frequencies, curves)
+    };
     let caption = "Power spectra (Welch's method, windows of half the record), each over its variance.";
     Ok(Some(ReportFigure::new(sheet(&figure)?, caption)))
 }

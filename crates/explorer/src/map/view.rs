@@ -6,7 +6,7 @@ use crate::answers::Answers;
 use crate::frames::{self, Cell};
 use crate::protocol::{Dashes, Grid, Line, MapStart};
 use motiform_analysis::regime::Regime;
-use motiform_figures::{BoundaryLine, LineStyle};
+use motiform_figures::{ExpectedLine, LineStyle};
 use motiform_lab::draw::boundary_lines;
 use motiform_lab::scan::Row;
 use motiform_study::ScanPlan;
@@ -113,7 +113,7 @@ fn code(regime: Regime) -> u8 {
         .unwrap_or(u8::MAX)
 }
 
-fn line(line: &BoundaryLine) -> Line {
+fn line(line: &ExpectedLine) -> Line {
     let style = match line.style {
         LineStyle::Solid => Dashes::Solid,
         LineStyle::Dashed => Dashes::Dashed,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use motiform_figures::{
-    BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured, PhaseDiagram, REGIMES,
+    Cell, Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured, PhaseDiagram, REGIMES,
 };
 
 use super::{Outcome, noise, save};
@@ -25,7 +25,7 @@ fn axis(from: f64, to: f64, count: usize) -> Vec<f64> {
 pub(super) fn phase_diagram(columns: usize, rows: usize) -> PhaseDiagram {
     let (x, y) = (axis(-1.5, 1.5, columns), axis(0.0, 1.0, rows));
     let places = y.iter().flat_map(|y| x.iter().map(move |x| (*x, *y)));
-    let line = |label: &str, style, f: fn(f64) -> f64| BoundaryLine {
+    let line = |label: &str, style, f: fn(f64) -> f64| ExpectedLine {
         label: label.into(),
         style,
         points: axis(-3.0, 3.0, 200).into_iter().map(|x| [x, f(x)]).collect(),
@@ -75,7 +75,7 @@ fn strip(columns: usize) -> PhaseDiagram {
         x_label: "*K* (per model time)".into(),
         x,
         cells,
-        lines: vec![BoundaryLine {
+        lines: vec![ExpectedLine {
             label: "loss of stability of the circle".into(),
             style: LineStyle::Dashed,
             points: vec![[0.61, 0.0], [0.61, 1.0]],
@@ -88,7 +88,7 @@ fn measured(points: impl IntoIterator<Item = (f64, f64, f64)>) -> Vec<Measured> 
     points.into_iter().map(|(x, y, error)| Measured { x, y, error }).collect()
 }
 
-fn exponent() -> ErrorBarFigure {
+fn exponent() -> Chart {
     let value = |i: usize| {
         let x = 0.35 + 0.01 * i as f64;
         let y = if x < 0.48 { 0.0 } else { 0.05 * (x - 0.48).sqrt() + 0.004 * (noise(i) - 0.5) };
@@ -96,27 +96,25 @@ fn exponent() -> ErrorBarFigure {
     };
     let second = |i: usize| (0.35 + 0.01 * i as f64, -0.01 - 0.0003 * i as f64, 0.0005);
     let series = |label: &str, points, joined| ErrorBarSeries { label: label.into(), points, joined };
-    ErrorBarFigure {
+    Chart {
         title: "Lyapunov exponents against *κ*_2".into(),
         caption: vec!["Error bars: standard error over 20 segments.".into()],
         x_label: "*κ*_2".into(),
         y_label: "exponent (per model time)".into(),
-        series: vec![
-            series("*λ*_1", measured((0..35).map(value)), true),
-            series("*λ*_2", measured((0..35).map(second)), false),
-        ],
         zero_line: true,
-        ..ErrorBarFigure::default()
+        ..Chart::default()
     }
+    .with([
+        series("*λ*_1", measured((0..35).map(value)), true),
+        series("*λ*_2", measured((0..35).map(second)), false),
+    ])
 }
 
-fn exponent_many() -> ErrorBarFigure {
-    let mut figure = exponent();
+fn exponent_many() -> Chart {
     let line = |i: usize| {
         let points = (0..12).map(|k| (f64::from(k), (1.0 + i as f64) * 1e-5 * f64::from(k).sin(), 2e-6));
         ErrorBarSeries { label: format!("*K* = {i}"), points: measured(points), joined: true }
     };
-    figure.series = (0..6).map(line).collect();
-    figure.title = "All markers, small numbers".into();
-    figure
+    let empty = Chart { title: "All markers, small numbers".into(), layers: Vec::new(), ..exponent() };
+    empty.with((0..6).map(line))
 }

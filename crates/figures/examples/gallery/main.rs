@@ -10,8 +10,8 @@ use std::path::Path;
 
 use motiform_figures::palette::{BLUE, CATEGORIES, GREEN, VERMILION};
 use motiform_figures::{
-    Animation, Camera, Curve, DEFAULT_SCALE, Frame, Medium, OutlineStamp, Panel, PathFigure, PathPoint,
-    SectionLine, SeriesFigure, SpaceTimeFigure, SpectrumCurve, SpectrumFigure, Style, Width, png,
+    Animation, Camera, Chart, Curve, DEFAULT_SCALE, Frame, Medium, OutlineStamp, Panel, PathFigure,
+    PathPoint, SectionLine, SeriesFigure, SpaceTimeFigure, SpectrumCurve, Style, Width, png,
 };
 
 /// Drawing may fail, writing may fail: an example just says which.
@@ -254,12 +254,11 @@ fn spectra(folder: &Path) -> Outcome {
             colour: CATEGORIES[n],
             power: frequencies.iter().enumerate().map(|(i, x)| f(i, *x)).collect(),
         };
-        let figure = SpectrumFigure {
+        let curves = curves.iter().enumerate().map(curve).collect();
+        let figure = Chart {
             title: name.replace('_', " "),
             caption: vec!["Welch's method: Hann window, 8192 samples a segment, half overlapping.".into()],
-            curves: curves.iter().enumerate().map(curve).collect(),
-            frequencies,
-            ..SpectrumFigure::default()
+            ..Chart::spectra(frequencies, curves)
         };
         save(folder, name, &figure.svg()?)?;
     }

@@ -9,13 +9,12 @@ mod strip;
 mod tiles;
 
 use super::axes::{AxisKind, Scale};
-use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
+use super::expected::ExpectedLine;
 use super::figure::{Csv, figure};
 use super::framed::Framed;
-use super::geometry::{Point, Range, Rect};
+use super::geometry::{Range, Rect};
 use super::legend::{Entry, Mark};
-use super::line_style::LineStyle;
 use super::marks::{REGIMES, RegimeMark};
 use super::paint::Paint;
 use super::palette::{Colour, WHITE};
@@ -39,17 +38,6 @@ pub struct Cell {
     pub y: f64,
     /// Regimes by name (see [`super::regime_mark`]) with their shares of the initial states, which add up to 1.
     pub shares: Vec<(String, f64)>,
-}
-
-/// A line from theory, such as a bifurcation.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BoundaryLine {
-    /// Markup for the legend.
-    pub label: String,
-    /// Dashes.
-    pub style: LineStyle,
-    /// Points in units of the axes; what lies outside the frame is cut off.
-    pub points: Vec<Point>,
 }
 
 /// A phase diagram. Up to 40 x 40 cells carry markers on a pale ground; finer ones are coloured, with
@@ -76,7 +64,7 @@ pub struct PhaseDiagram {
     /// The results; points without a cell stay white.
     pub cells: Vec<Cell>,
     /// Lines in front of the cells, behind their markers. In a strip their y runs from 0 to 1.
-    pub lines: Vec<BoundaryLine>,
+    pub lines: Vec<ExpectedLine>,
 }
 
 impl PhaseDiagram {
@@ -180,7 +168,7 @@ impl PhaseDiagram {
 
     /// The legend of the lines: those of one kind have one entry.
     pub(crate) fn line_entries(&self) -> impl Iterator<Item = Entry> + '_ {
-        let first = |(place, line): &(usize, &BoundaryLine)| {
+        let first = |(place, line): &(usize, &ExpectedLine)| {
             self.lines[..*place].iter().all(|other| other.label != line.label || other.style != line.style)
         };
         let kinds = self.lines.iter().enumerate().filter(first);
@@ -188,13 +176,7 @@ impl PhaseDiagram {
     }
 
     pub(crate) fn draw_lines(&self, svg: &mut Svg, scale: &Scale) {
-        for line in &self.lines {
-            let points: Vec<_> = line.points.iter().map(|p| scale.map(*p)).collect();
-            for piece in clip(&points, scale.frame) {
-                svg.polyline(&piece, false, &Paint::stroke(WHITE, 3.6).opacity(0.85));
-                svg.polyline(&piece, false, &line.style.paint());
-            }
-        }
+        self.lines.iter().for_each(|line| line.draw_cased(svg, scale));
     }
 
     /// A row per cell and regime, and one per point of each line, which has no share.

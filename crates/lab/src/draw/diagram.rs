@@ -4,9 +4,7 @@ use super::{Figures, words};
 use crate::scan::{Axis, CellSummary, ScanFolder, cells, dimension};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::order::ascending;
-use motiform_figures::{
-    BoundaryLine, Cell, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured, PhaseDiagram,
-};
+use motiform_figures::{Cell, Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured, PhaseDiagram};
 use motiform_models::ModelInfo;
 use motiform_models::parameters::Parameters;
 use motiform_models::tensor::TensorParameters;
@@ -65,11 +63,7 @@ pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiag
 ///
 /// # Errors
 /// An unknown model.
-pub fn exponents(
-    plan: &ScanPlan,
-    cells: &[CellSummary],
-    units: &Shown,
-) -> Result<Option<ErrorBarFigure>, Error> {
+pub fn exponents(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Result<Option<Chart>, Error> {
     let info = plan.info()?;
     let [axis] = &plan.computation.axes[..] else { return Ok(None) };
     let factor = units.factor(dimension(EXPONENT));
@@ -85,15 +79,17 @@ pub fn exponents(
          neutral directions of the symmetry make them exactly 0 wherever the body moves."
             .to_owned(),
     );
-    Ok(Some(ErrorBarFigure {
-        title: format!("{}: largest Lyapunov exponent", plan.title),
-        caption,
-        x_label: symbol(info, &axis.name),
-        y_label: units.label("*λ*_1", dimension(EXPONENT)),
-        series,
-        zero_line: true,
-        ..ErrorBarFigure::default()
-    }))
+    Ok(Some(
+        Chart {
+            title: format!("{}: largest Lyapunov exponent", plan.title),
+            caption,
+            x_label: symbol(info, &axis.name),
+            y_label: units.label("*λ*_1", dimension(EXPONENT)),
+            zero_line: true,
+            ..Chart::default()
+        }
+        .with(series),
+    ))
 }
 
 /// The exponents of one regime.
@@ -176,7 +172,7 @@ fn reduced(plan: &ScanPlan) -> Option<Reduced> {
 
 /// The analytic lines over a scan of the reduced tensor model over (kappa2, gamma); none for other models and planes.
 #[must_use]
-pub fn boundary_lines(plan: &ScanPlan) -> Vec<BoundaryLine> {
+pub fn boundary_lines(plan: &ScanPlan) -> Vec<ExpectedLine> {
     let Some(reduced) = reduced(plan) else { return Vec::new() };
     let axes = &plan.computation.axes;
     let swapped = axes[0].name == "gamma";
@@ -201,7 +197,7 @@ pub fn boundary_lines(plan: &ScanPlan) -> Vec<BoundaryLine> {
     ];
     let oriented =
         |points: Vec<[f64; 2]>| points.into_iter().map(|[k, g]| if swapped { [g, k] } else { [k, g] });
-    let line = |(label, style, points): (&str, LineStyle, Vec<[f64; 2]>)| BoundaryLine {
+    let line = |(label, style, points): (&str, LineStyle, Vec<[f64; 2]>)| ExpectedLine {
         label: label.to_owned(),
         style,
         points: oriented(points).collect(),

@@ -3,7 +3,7 @@
 use super::diagram::symbol;
 use super::{FigureFormat, Picture, files, words};
 use crate::lifetimes::{LIFE, LifeAt, Lifetimes};
-use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, Interval, LineStyle, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Interval, LineStyle, Measured};
 use motiform_models::ModelInfo;
 use motiform_study::{Error, ScanPlan, Shown};
 
@@ -28,7 +28,7 @@ pub fn draw_lifetimes(
 ///
 /// # Errors
 /// An unknown model.
-pub fn figure(plan: &ScanPlan, found: &Lifetimes, units: &Shown) -> Result<ErrorBarFigure, Error> {
+pub fn figure(plan: &ScanPlan, found: &Lifetimes, units: &Shown) -> Result<Chart, Error> {
     let (info, factor) = (plan.info()?, units.factor(LIFE));
     let watched = || found.values.iter().filter(|at| at.life.watched > 0.0);
     let point = |at: &LifeAt| Some(Measured { x: at.value, y: factor * at.life.value?, error: 0.0 });
@@ -37,21 +37,21 @@ pub fn figure(plan: &ScanPlan, found: &Lifetimes, units: &Shown) -> Result<Error
         low: factor * at.life.lower,
         high: factor * at.life.upper.unwrap_or(f64::INFINITY),
     };
-    Ok(ErrorBarFigure {
+    Ok(Chart {
         title: format!("{}: mean life of chaos", plan.title),
         caption: caption(plan, found, info, units),
         x_label: symbol(info, &found.parameter),
         y_label: units.label("mean life", LIFE),
-        series: vec![ErrorBarSeries {
-            label: String::new(),
-            points: watched().filter_map(point).collect(),
-            joined: false,
-        }],
-        intervals: watched().map(interval).collect(),
-        lines: laws(found, factor),
         logarithmic_y: true,
-        ..ErrorBarFigure::default()
-    })
+        ..Chart::default()
+    }
+    .with(laws(found, factor))
+    .with([watched().map(interval).collect::<Vec<_>>()])
+    .with([ErrorBarSeries {
+        label: String::new(),
+        points: watched().filter_map(point).collect(),
+        joined: false,
+    }]))
 }
 
 fn laws(found: &Lifetimes, factor: f64) -> Vec<ExpectedLine> {

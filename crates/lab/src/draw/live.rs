@@ -4,9 +4,7 @@ use super::words;
 use crate::live::Spectra;
 use motiform_analysis::Estimate;
 use motiform_figures::palette::CATEGORIES;
-use motiform_figures::{
-    ErrorBarFigure, ErrorBarSeries, Measured, ReturnMapFigure, SpectrumCurve, SpectrumFigure,
-};
+use motiform_figures::{Chart, ErrorBarSeries, Measured, SpectrumCurve};
 use motiform_study::{Error, Plan, Ties};
 
 /// Power spectra; `None` if there are none yet.
@@ -23,13 +21,10 @@ pub fn spectrum(plan: &Plan, spectra: &Spectra) -> Result<Option<String>, Error>
         power: power.clone(),
     });
     let method = format!("Welch's method: {} segments, Hann window, half overlapping.", spectra.segments);
-    let figure = SpectrumFigure {
+    let figure = Chart {
         title: format!("{}: power spectrum", plan.title()),
         caption: vec![parameters(plan)?, method],
-        y_label: "power spectral density".to_owned(),
-        frequencies: spectra.frequencies.clone(),
-        curves: curves.collect(),
-        ..SpectrumFigure::default()
+        ..Chart::spectra(spectra.frequencies.clone(), curves.collect())
     };
     Ok(Some(super::sheet(&figure)?.svg))
 }
@@ -42,12 +37,11 @@ pub fn return_map(plan: &Plan, xs: &[f64], symbol: &str, what: &str) -> Result<O
     if xs.len() < 2 {
         return Ok(None);
     }
-    let figure = ReturnMapFigure {
+    let names = [format!("{symbol}_*n*"), format!("{symbol}_{{*n*+1}}")];
+    let figure = Chart {
         title: format!("{}: return map", plan.title()),
         caption: vec![parameters(plan)?, what.to_owned(), format!("{} returns.", xs.len() - 1)],
-        x_label: format!("{symbol}_*n*"),
-        y_label: format!("{symbol}_{{*n*+1}}"),
-        points: xs.windows(2).map(|pair| [pair[0], pair[1]]).collect(),
+        ..Chart::return_map(names, xs.windows(2).map(|pair| [pair[0], pair[1]]).collect())
     };
     Ok(Some(super::sheet(&figure)?.svg))
 }
@@ -69,7 +63,7 @@ pub fn exponents(plan: &Plan, history: &[(f64, Vec<Estimate>)]) -> Result<Option
         let points = history.iter().filter_map(point).collect();
         ErrorBarSeries { label: format!("*λ*_{}", k + 1), points, joined: true }
     };
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         title: format!("{}: Lyapunov exponents", plan.title()),
         caption: vec![
             parameters(plan)?,
@@ -78,10 +72,9 @@ pub fn exponents(plan: &Plan, history: &[(f64, Vec<Estimate>)]) -> Result<Option
         ],
         x_label: "averaging time".to_owned(),
         y_label: "Lyapunov exponent".to_owned(),
-        series: (0..count).map(series).filter(|series| !series.points.is_empty()).collect(),
         zero_line: true,
-        ..ErrorBarFigure::default()
-    };
+        ..Chart::default()
+    }.with((0..count).map(series).filter(|series| !series.points.is_empty()));
     Ok(Some(super::sheet(&figure)?.svg))
 }
 

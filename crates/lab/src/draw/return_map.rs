@@ -2,10 +2,10 @@
 
 use super::body::{Body, LENGTH};
 use super::words;
-use motiform_figures::ReturnMapFigure;
+use motiform_figures::Chart;
 
 /// `None` without a return map, or with fewer than two crossings.
-pub(super) fn figure(body: &Body<'_>) -> Option<ReturnMapFigure> {
+pub(super) fn figure(body: &Body<'_>) -> Option<Chart> {
     let xs = body.dataset.crossings.as_ref()?.get("x")?;
     let length = body.factor(LENGTH);
     let points: Vec<[f64; 2]> = xs.windows(2).map(|pair| [pair[0] * length, pair[1] * length]).collect();
@@ -15,11 +15,10 @@ pub(super) fn figure(body: &Body<'_>) -> Option<ReturnMapFigure> {
     let mut caption = vec![words::parameters(body)];
     caption.extend(words::section(body));
     caption.push(format!("{} crossings.", xs.len()));
-    Some(ReturnMapFigure {
+    let names = ["*x*_*n*", "*x*_{*n*+1}"].map(|name| body.label(name, LENGTH));
+    Some(Chart {
         title: format!("{}: return map", body.dataset.title()),
         caption,
-        x_label: body.label("*x*_*n*", LENGTH),
-        y_label: body.label("*x*_{*n*+1}", LENGTH),
-        points,
+        ..Chart::return_map(names, points)
     })
 }

@@ -4,7 +4,7 @@ use super::body::{Body, RATE};
 use super::words;
 use motiform_analysis::{Spectrum, welch};
 use motiform_figures::palette::CATEGORIES;
-use motiform_figures::{SpectrumCurve, SpectrumFigure};
+use motiform_figures::{Chart, SpectrumCurve};
 use motiform_study::Dimension;
 
 /// Modes whose spectra are drawn.
@@ -18,7 +18,7 @@ const FEWEST: usize = 256;
 
 /// The spectra of modes 1 to 4 of phi over the whole recording; `None` for models without such modes, and for short
 /// recordings.
-pub(super) fn figure(body: &Body<'_>) -> Option<SpectrumFigure> {
+pub(super) fn figure(body: &Body<'_>) -> Option<Chart> {
     body.model.profile(&body.shape(body.rows().start), 8)?;
     let spectra: Vec<Spectrum> = (1..=MODES).map(|n| mode(body, n)).collect::<Option<_>>()?;
     let first = spectra.first()?;
@@ -31,13 +31,13 @@ pub(super) fn figure(body: &Body<'_>) -> Option<SpectrumFigure> {
         "Welch's method: {} segments, Hann window, half overlapping; each curve is the sum over the two components of a mode.",
         first.segments
     );
-    Some(SpectrumFigure {
+    let frequencies = first.frequencies.iter().map(|frequency| frequency * body.factor(RATE)).collect();
+    Some(Chart {
         title: format!("{}: power spectrum", body.dataset.title()),
         caption: vec![words::parameters(body), method],
         x_label: body.label("frequency", RATE),
         y_label: body.label("power spectral density", DENSITY),
-        frequencies: first.frequencies.iter().map(|frequency| frequency * body.factor(RATE)).collect(),
-        curves: curves.collect(),
+        ..Chart::spectra(frequencies, curves.collect())
     })
 }
 

@@ -8,7 +8,7 @@ use motiform_dynamics::steppers::KROGSTAD4;
 use motiform_dynamics::{
     ExponentialOrbit, Outcome, Request, Semilinear, Sink, StepControl, StopOnly, System, VectorField,
 };
-use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, Measured};
+use motiform_figures::{Chart, Drawn, ErrorBarSeries, Measured};
 use motiform_lab::draw::sheet;
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_report::Claim;
@@ -237,15 +237,15 @@ fn picture(bounded: &[Ran], active: &[Ran]) -> Result<Drawn, Error> {
             .collect(),
         joined: true,
     };
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         x_label: "*t*".to_owned(),
         y_label: "potential per length".to_owned(),
-        series: vec![
-            series(&bounded[2], format!("*g*_4 = 1 with quartic potential, *L* = {}", bounded[2].length)),
-            series(&active[2], format!("*g*_5 = -1, *L* = {}", active[2].length)),
-        ],
         zero_line: true,
-        ..ErrorBarFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with([
+        series(&bounded[2], format!("*g*_4 = 1 with quartic potential, *L* = {}", bounded[2].length)),
+        series(&active[2], format!("*g*_5 = -1, *L* = {}", active[2].length)),
+    ]);
     sheet(&figure)
 }

@@ -8,7 +8,7 @@ use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{
     InPlane, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, Sink, StepControl, StopOnly,
 };
-use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_models::tensor::reduced::Reduced;
 use motiform_models::tensor::{Tensor, TensorParameters};
@@ -129,7 +129,7 @@ impl Rests {
         let height = self.line(theory).height;
         let point = |run: &NoisyRun| Measured { x: run.eta, y: run.mean.value, error: run.mean.error };
         let ends = [1e-13, 1e-3].map(|eta: f64| [eta, height + theory * libm::log(eta)]);
-        let figure = ErrorBarFigure {
+        let figure = Chart {
             title: "Rectangular motion with noise: mean rest".to_owned(),
             caption: vec![format!(
                 "Rests: speed below a tenth of its maximum. Bars: 95 %, {} time units per amplitude, seed {SEED}. \
@@ -138,19 +138,17 @@ impl Rests {
             )],
             x_label: "amplitude of the noise *η*".to_owned(),
             y_label: "mean rest".to_owned(),
-            series: vec![ErrorBarSeries {
-                label: "measured".to_owned(),
-                points: self.runs.iter().map(point).collect(),
-                joined: false,
-            }],
-            lines: vec![ExpectedLine {
+            logarithmic_x: true,
+            ..Chart::default()
+        }.with([ExpectedLine {
                 label: "−ln *η*/*λ*_+ + const".to_owned(),
                 style: LineStyle::Dashed,
                 points: ends.to_vec(),
-            }],
-            logarithmic_x: true,
-            ..ErrorBarFigure::default()
-        };
+            }]).with([ErrorBarSeries {
+                label: "measured".to_owned(),
+                points: self.runs.iter().map(point).collect(),
+                joined: false,
+            }]);
         let caption = "Mean rest of rectangular motion against the amplitude of explicit noise, with the slope −1/*λ*_+ that the \
                        saddle's growth rate gives.";
         Ok(ReportFigure::new(sheet(&figure)?, caption))

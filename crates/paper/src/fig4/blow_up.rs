@@ -12,7 +12,7 @@ use super::super::context::Context;
 use super::approach::{Approach, follow};
 use super::{at, figure, power};
 use motiform_dynamics::Outcome;
-use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_report::{ReportFigure, Section};
 use motiform_study::{Error, Study};
@@ -204,7 +204,7 @@ fn picture(approach: &Approach, c: f64) -> Result<ReportFigure, Error> {
         points: ends.iter().map(|s| [*s, factor / libm::pow(*s, power)]).collect(),
     };
     let ([_, z2, z3], s) = (approach.theory(c), "(*t*\\* − *t*)");
-    let svg = ErrorBarFigure {
+    let svg = Chart {
         title: "The singularity at κ_2 = 0.3, κ_3 = 0.1".to_owned(),
         caption: vec![format!(
             "Computed by dop853, relative tolerance 10^{{-13}}; *t*\\* = {:.6} is extrapolated from the growth. Lines: the leading \
@@ -213,16 +213,14 @@ fn picture(approach: &Approach, c: f64) -> Result<ReportFigure, Error> {
         )],
         x_label: "*t*\\* − *t*".to_owned(),
         y_label: "size of the modes".to_owned(),
-        series: series.collect(),
-        lines: vec![
+        logarithmic_x: true,
+        logarithmic_y: true,
+        ..Chart::default()
+    }.with([
             line(format!("{c:.3}/{s}"), LineStyle::Solid, 1.0, c),
             line(format!("{z2:.2}/{s}^2"), LineStyle::Dashed, 2.0, z2),
             line(format!("{z3:.2}/{s}^2"), LineStyle::Dotted, 2.0, z3),
-        ],
-        logarithmic_x: true,
-        logarithmic_y: true,
-        ..ErrorBarFigure::default()
-    };
+        ]).with(series);
     let svg = sheet(&svg)?;
     Ok(figure(
         svg,

@@ -4,7 +4,7 @@ use super::super::claims::check;
 use super::super::context::Context;
 use super::{at, figure, power};
 use motiform_analysis::Stay;
-use motiform_figures::{Drawn, ExpectedLine, LineStyle, SurvivalCurve, SurvivalFigure, SurvivalStep};
+use motiform_figures::{Chart, Drawn, ExpectedLine, LineStyle, SurvivalCurve, SurvivalStep};
 use motiform_lab::draw::sheet;
 use motiform_lab::saddle::Saddle;
 use motiform_report::Section;
@@ -50,17 +50,15 @@ fn picture(found: &[(f64, Saddle)], runs: usize) -> Result<Drawn, Error> {
         Some(ExpectedLine { label: format!("rate {} at κ_2 = {kappa2}", power(rate)), style, points })
     };
     let styles = [LineStyle::Solid, LineStyle::Dashed, LineStyle::Dotted, LineStyle::DashDotted];
-    let figure = SurvivalFigure {
+    let figure = Chart {
         title: "Runs that have not blown up, κ_3 = 0.1".to_owned(),
         caption: vec![format!(
             "{runs} random starts each. Bands: 95 % (Kaplan-Meier). Lines: exponential law, its rate by maximum likelihood \
              from t = {SETTLE} on."
         )],
         y_label: "share not escaped".to_owned(),
-        curves: found.iter().map(curve).collect(),
-        lines: found.iter().zip(styles).filter_map(law).collect(),
-        ..SurvivalFigure::default()
-    };
+        ..Chart::survival(found.iter().map(curve))
+    }.with(found.iter().zip(styles).filter_map(law));
     sheet(&figure)
 }
 

@@ -4,7 +4,7 @@ use super::super::claims::{check, claim, differs};
 use super::super::context::Context;
 use super::{at, figure, power};
 use motiform_analysis::Estimate;
-use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_report::{Claim, Section};
 use motiform_study::Error;
@@ -86,7 +86,7 @@ fn picture(runs: &[Run], saddles: &[Left], span: f64) -> Result<motiform_report:
         series.push(ErrorBarSeries { label: "chaotic saddle".to_owned(), points, joined: false });
     }
     let edge = [[0.8, -1.0], [0.8, 1.0]].to_vec();
-    let svg = ErrorBarFigure {
+    let svg = Chart {
         title: "Largest Lyapunov exponent at κ_3 = 0.1".to_owned(),
         caption: vec![format!(
             "Bars: 95 % confidence, over {span} model time. Where runs escape, the exponent is that of the \
@@ -94,15 +94,15 @@ fn picture(runs: &[Run], saddles: &[Left], span: f64) -> Result<motiform_report:
         )],
         x_label: "κ_2".to_owned(),
         y_label: "*λ*_1".to_owned(),
-        series,
-        lines: vec![ExpectedLine {
-            label: "paper: positive below".to_owned(),
-            style: LineStyle::Dashed,
-            points: edge,
-        }],
         zero_line: true,
-        ..ErrorBarFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with([ExpectedLine {
+        label: "paper: positive below".to_owned(),
+        style: LineStyle::Dashed,
+        points: edge,
+    }])
+    .with(series);
     let svg = sheet(&svg)?;
     Ok(figure(svg, "**Fig. 4(b), computed**, with the values that the paper could not get."))
 }

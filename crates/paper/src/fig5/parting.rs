@@ -5,7 +5,7 @@ use super::super::context::Context;
 use super::super::fig4::figure;
 use super::chaos;
 use motiform_analysis::Estimate;
-use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
+use motiform_figures::{Chart, Drawn, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_report::{Claim, Section};
 use motiform_study::{Dataset, Error, Study};
@@ -125,18 +125,18 @@ fn picture(all: &[Vec<f64>], lambda: Estimate) -> Result<Drawn, Error> {
         (0..rows).map(point).filter(|m| m.y.is_finite() && m.error.is_finite()).collect();
     let from = points.iter().find(|m| m.x >= BETWEEN.0).map_or(0.0, |m| m.y);
     let line = |t: f64| [t, from + lambda.value * (t - BETWEEN.0)];
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         title: "The growth of a difference of 10^{-8}".to_owned(),
         caption: vec![format!("Mean over {} pairs of starts on the motion, 95 % errors.", all.len())],
         x_label: "*t*".to_owned(),
         y_label: "mean of ln(distance)".to_owned(),
-        series: vec![ErrorBarSeries { label: "distance of the shapes".to_owned(), points, joined: false }],
-        lines: vec![ExpectedLine {
-            label: format!("slope λ_1 = {:.4}", lambda.value),
-            style: LineStyle::Dashed,
-            points: vec![line(0.0), line(200.0)],
-        }],
-        ..ErrorBarFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with([ExpectedLine {
+        label: format!("slope λ_1 = {:.4}", lambda.value),
+        style: LineStyle::Dashed,
+        points: vec![line(0.0), line(200.0)],
+    }])
+    .with([ErrorBarSeries { label: "distance of the shapes".to_owned(), points, joined: false }]);
     sheet(&figure)
 }

@@ -5,7 +5,7 @@ use super::super::context::Context;
 use super::super::fig4::figure;
 use motiform_analysis::{Spectrum, welch, zero_one};
 use motiform_figures::palette::CATEGORIES;
-use motiform_figures::{Drawn, SpectrumCurve, SpectrumFigure};
+use motiform_figures::{Chart, Drawn, SpectrumCurve};
 use motiform_lab::draw::sheet;
 use motiform_report::{Claim, Section};
 use motiform_study::{Dataset, Error};
@@ -54,7 +54,8 @@ fn picture(zigzag: &Spectrum, chaos: &Spectrum) -> Result<Drawn, Error> {
         colour: CATEGORIES[index],
         power: spectrum.power.clone(),
     };
-    let figure = SpectrumFigure {
+    let curves = vec![curve(0, "(a) zigzag", zigzag), curve(1, "(b) chaos", chaos)];
+    let figure = Chart {
         title: "Power spectrum of the speed".to_owned(),
         caption: vec![format!(
             "Welch's method: {} segments of {} time units, Hann window, half overlapping.",
@@ -62,9 +63,7 @@ fn picture(zigzag: &Spectrum, chaos: &Spectrum) -> Result<Drawn, Error> {
             SEGMENT as f64 * DT
         )],
         y_label: "power spectral density of the speed".to_owned(),
-        frequencies: zigzag.frequencies.clone(),
-        curves: vec![curve(0, "(a) zigzag", zigzag), curve(1, "(b) chaos", chaos)],
-        ..SpectrumFigure::default()
+        ..Chart::spectra(zigzag.frequencies.clone(), curves)
     };
     sheet(&figure)
 }

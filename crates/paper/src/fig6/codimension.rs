@@ -4,7 +4,7 @@ use super::super::claims::differs;
 use super::super::context::Context;
 use super::onset::{Onsets, WINDOWS};
 use motiform_dynamics::VectorField as _;
-use motiform_figures::{ErrorBarFigure, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_report::{Claim, ReportFigure};
@@ -105,7 +105,7 @@ pub(super) fn figure() -> Result<ReportFigure, Error> {
     };
     let points = [1, 2, 3].map(crossing).map(|p| Measured { x: p.length, y: p.g1, error: 0.0 }).to_vec();
     let edge = |(from, to): &(f64, f64)| [*from, *to].map(|x| Measured { x, y: 0.0, error: 0.0 });
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         title: "Where two modes of the circle become unstable at once".to_owned(),
         caption: vec![
             "Below its curve a mode grows. The paper's equation is the axis *g*_1 = 0; the marks on it are the ends of the paper's windows."
@@ -113,18 +113,16 @@ pub(super) fn figure() -> Result<ReportFigure, Error> {
         ],
         x_label: "length *L*".to_owned(),
         y_label: "*g*_1".to_owned(),
-        series: vec![
+        zero_line: true,
+        ..Chart::default()
+    }.with((1..=4).map(curve)).with([
             ErrorBarSeries { label: "two modes at once".to_owned(), points, joined: false },
             ErrorBarSeries {
                 label: "ends of *W*_1, *W*_2, *W*_3".to_owned(),
                 points: WINDOWS.iter().flat_map(edge).collect(),
                 joined: false,
             },
-        ],
-        lines: (1..=4).map(curve).collect(),
-        zero_line: true,
-        ..ErrorBarFigure::default()
-    };
+        ]);
     let caption = "Neutral curves of the modes of the circle, with the damping *g*_1 of long waves as a second parameter.";
     Ok(ReportFigure::new(sheet(&figure)?, caption))
 }

@@ -3,7 +3,7 @@
 use super::super::context::Context;
 use super::lengths::{modes_for, study};
 use motiform_analysis::Estimate;
-use motiform_figures::{Drawn, ErrorBarFigure, ErrorBarSeries, Measured};
+use motiform_figures::{Chart, Drawn, ErrorBarSeries, Measured};
 use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
@@ -37,21 +37,21 @@ impl Exponents {
 
     pub(super) fn drawn(&self) -> Result<Drawn, Error> {
         let point = |(x, e): &(f64, Estimate)| Measured { x: *x, y: e.value, error: e.error };
-        let figure = ErrorBarFigure {
+        let figure = Chart {
             caption: vec![format!(
                 "Averaged over {} model time from a random start; bars are 95 % errors.",
                 self.span
             )],
             x_label: "length *L*".to_owned(),
             y_label: "*λ*_1".to_owned(),
-            series: vec![ErrorBarSeries {
-                label: String::new(),
-                points: self.found.iter().map(point).collect(),
-                joined: false,
-            }],
             zero_line: true,
-            ..ErrorBarFigure::default()
-        };
+            ..Chart::default()
+        }
+        .with([ErrorBarSeries {
+            label: String::new(),
+            points: self.found.iter().map(point).collect(),
+            joined: false,
+        }]);
         sheet(&figure)
     }
 }

@@ -6,7 +6,7 @@ use super::exponents::Exponents;
 use super::lengths::Lengths;
 use super::tracks::Track;
 use motiform_analysis::Regime;
-use motiform_figures::{BoundaryLine, Drawn, ErrorBarFigure, ErrorBarSeries, LineStyle, Measured};
+use motiform_figures::{Chart, Drawn, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_report::ReportFigure;
 use motiform_study::Error;
@@ -57,7 +57,7 @@ fn over_lengths(lengths: &Lengths, exponents: &Exponents) -> Result<Vec<ReportFi
 }
 
 fn windows(lengths: &Lengths) -> Result<Drawn, Error> {
-    let bracket = |(n, (from, to, style)): (usize, (f64, f64, LineStyle))| BoundaryLine {
+    let bracket = |(n, (from, to, style)): (usize, (f64, f64, LineStyle))| ExpectedLine {
         label: format!("*W*_{} of the paper: {from:.1} to {to:.1}", n + 1),
         style,
         points: vec![[from, 0.0], [from, 0.97], [to, 0.97], [to, 0.0]],
@@ -75,12 +75,12 @@ fn speeds(lengths: &Lengths) -> Result<Drawn, Error> {
         let points: Vec<Measured> = lengths.0.iter().filter_map(point).collect();
         ErrorBarSeries { label: regime.name().to_owned(), points, joined: false }
     };
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         x_label: "length *L*".to_owned(),
         y_label: "mean speed".to_owned(),
-        series: MOVING.into_iter().map(series).filter(|series| !series.points.is_empty()).collect(),
         logarithmic_y: true,
-        ..ErrorBarFigure::default()
-    };
+        ..Chart::default()
+    }
+    .with(MOVING.into_iter().map(series).filter(|series| !series.points.is_empty()));
     sheet(&figure)
 }

@@ -5,7 +5,7 @@ use super::super::context::Context;
 use super::super::fig6::Track;
 use motiform_analysis::{Regime, Verdict};
 use motiform_dynamics::order::ascending;
-use motiform_figures::{ErrorBarFigure, ErrorBarSeries, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, Measured};
 use motiform_lab::draw::sheet;
 use motiform_report::{Claim, ReportFigure};
 use motiform_study::Error;
@@ -83,12 +83,9 @@ impl Zigzags {
                 .collect(),
             joined: true,
         };
-        let figure = ErrorBarFigure {
-            x_label: "mode *n*".to_owned(),
-            y_label: "mean |*φ_n*|".to_owned(),
-            series: self.cells.iter().map(series).collect(),
-            ..ErrorBarFigure::default()
-        };
+        let figure =
+            Chart { x_label: "mode *n*".to_owned(), y_label: "mean |*φ_n*|".to_owned(), ..Chart::default() }
+                .with(self.cells.iter().map(series));
         let caption = "Which modes of the boundary carry the zigzags of the active cell: time average of |*φ_n*|. Mode 1 is no deformation of its own: it follows from the others where the boundary is nearly closed.";
         Ok(ReportFigure::new(sheet(&figure)?, caption))
     }

@@ -5,7 +5,7 @@ use crate::branches::result::Leg;
 use crate::branches::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Joins, Special};
-use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Glyph};
+use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Chart, Glyph};
 use motiform_lab::draw::{Figures, words};
 use motiform_study::plan::Named;
 use motiform_study::units::{RATE, SPEED, TIME};
@@ -110,18 +110,18 @@ pub fn branch_figures(
     let mut all: Figures = Vec::new();
     for (name, ordinate) in [("branches", ordinate), ("period", Ordinate::Period)] {
         let figure = diagram_in(plan, found, ordinate, units)?;
-        if !figure.parts.is_empty() {
+        if !figure.is_empty() {
             all.push((name, Box::new(figure)));
         }
     }
     Ok(all)
 }
 
-/// The diagram of branches, in model units.
+/// The diagram of branches, in model units; empty where no branch has points.
 ///
 /// # Errors
 /// An unknown model.
-pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<BranchDiagram, Error> {
+pub fn diagram(plan: &BranchPlan, found: &Branches, ordinate: Ordinate) -> Result<Chart, Error> {
     diagram_in(plan, found, ordinate, &Shown::default())
 }
 
@@ -131,29 +131,28 @@ fn diagram_in(
     found: &Branches,
     ordinate: Ordinate,
     units: &Shown,
-) -> Result<BranchDiagram, Error> {
+) -> Result<Chart, Error> {
     let info = plan.info()?;
     let mirror = Bodies::new(plan)?.model(plan.start_value())?.symmetry().mirror;
     let ordinate = ordinate.of_model(mirror);
     let along = &plan.computation.along;
     let spec = info.parameters().iter().find(|spec| spec.name == along.name);
-    let mut figure = BranchDiagram {
-        title: plan.title(),
-        caption: caption(plan, found, (mirror, ordinate), units)?,
-        x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
-        y_label: ordinate.label_in(units),
-        logarithmic: ordinate == Ordinate::Period,
+    let diagram = BranchDiagram {
         x: [along.from, along.to],
         parts: found.branches.iter().flat_map(|followed| all_parts(found, followed, ordinate)).collect(),
         dots: found.sweeps.iter().flat_map(|sweeps| dots(sweeps, ordinate)).collect(),
         marks: found.branches.iter().flat_map(|followed| marks(followed, ordinate)).collect(),
     };
+    let chart = Chart {
+        title: plan.title(),
+        caption: caption(plan, found, (mirror, ordinate), units)?,
+        x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
+        y_label: ordinate.label_in(units),
+        logarithmic_y: ordinate == Ordinate::Period,
+        ..Chart::default()
+    };
     let factor = ordinate.dimension().map_or(1.0, |dimension| units.factor(dimension));
-    let parts = figure.parts.iter_mut().flat_map(|part| &mut part.points);
-    let dots = figure.dots.iter_mut().flat_map(|dots| &mut dots.points);
-    let marks = figure.marks.iter_mut().map(|mark| &mut mark.at);
-    parts.chain(dots).chain(marks).for_each(|point| point[1] *= factor);
-    Ok(figure)
+    Ok(chart.with(Some(diagram).filter(|diagram| !diagram.parts.is_empty())).scaled([1.0, factor]))
 }
 
 /// The samples of both sweeps.

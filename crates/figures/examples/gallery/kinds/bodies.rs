@@ -5,8 +5,8 @@ use super::measurements::bands;
 use super::{axis, ellipse, noise, words};
 use motiform_figures::palette::{BLUE, CATEGORIES, VERMILION};
 use motiform_figures::{
-    Curve, OutlineStamp, Panel, Panels, PathFigure, PathPoint, ReturnMapFigure, SectionLine, SeriesFigure,
-    SpaceTimeFigure, SpectrumCurve, SpectrumFigure, TrackPanel, TrackPanels,
+    Chart, Curve, OutlineStamp, Panel, Panels, PathFigure, PathPoint, SectionLine, SeriesFigure,
+    SpaceTimeFigure, SpectrumCurve, TrackPanel, TrackPanels,
 };
 use std::f64::consts::TAU;
 
@@ -66,18 +66,18 @@ pub(super) fn series() -> SeriesFigure {
     }
 }
 
-pub(crate) fn return_map(count: usize) -> ReturnMapFigure {
+pub(crate) fn return_map(count: usize) -> Chart {
     let mut x = 0.3;
     let mut step = || {
         let old = x;
         x = 3.9 * x * (1.0 - x);
         [6.0 * old - 3.0, 6.0 * x - 3.0]
     };
-    ReturnMapFigure {
+    let names = ["*x*_*n*", "*x*_{*n*+1}"].map(str::to_owned);
+    Chart {
         title: "Return map of the section *y* = 3".into(),
         caption: words(),
-        points: (0..count).map(|_| step()).collect(),
-        ..ReturnMapFigure::default()
+        ..Chart::return_map(names, (0..count).map(|_| step()).collect())
     }
 }
 
@@ -99,7 +99,7 @@ pub(super) fn space_time() -> SpaceTimeFigure {
     }
 }
 
-pub(super) fn spectrum(floor: f64) -> SpectrumFigure {
+pub(super) fn spectrum(floor: f64) -> Chart {
     let frequencies = axis(0.0, 5.0, 900);
     let power = |i: usize, f: f64| noise(i) * (floor + 1.0 / (1.0 + (30.0 * f).powi(4))) / (1.0 + f);
     let peak = |f: f64| 1e-4 / ((f - 0.4).powi(2) + 1e-3);
@@ -112,13 +112,8 @@ pub(super) fn spectrum(floor: f64) -> SpectrumFigure {
             .map(|(i, f)| power(i + n, *f) + n as f64 * floor * peak(*f))
             .collect(),
     };
-    SpectrumFigure {
-        title: "Power spectrum".into(),
-        caption: words(),
-        curves: (0..2).map(curve).collect(),
-        frequencies,
-        ..SpectrumFigure::default()
-    }
+    let curves = (0..2).map(curve).collect();
+    Chart { title: "Power spectrum".into(), caption: words(), ..Chart::spectra(frequencies, curves) }
 }
 
 pub(super) fn tracks() -> TrackPanels {

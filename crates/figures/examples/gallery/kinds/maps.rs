@@ -2,8 +2,8 @@
 
 use super::{axis, ellipse, noise, words};
 use motiform_figures::{
-    BoundaryLine, BranchDiagram, BranchDots, BranchMark, BranchPart, Cell, CurveMap, CurveStyle, Glyph,
-    LineStyle, MapCurve, MapEnd, MapInset, MapMark, MapPlace, PhaseDiagram, PlaceMap,
+    BranchDiagram, BranchDots, BranchMark, BranchPart, Cell, Chart, CurveMap, CurveStyle, ExpectedLine,
+    Glyph, LineStyle, MapCurve, MapEnd, MapInset, MapMark, MapPlace, PhaseDiagram, PlaceMap,
 };
 
 /// Regimes in wavy regions, two motions where they overlap.
@@ -20,7 +20,7 @@ pub(super) fn shares(x: f64, y: f64) -> Vec<(String, f64)> {
 
 pub(super) fn phase_diagram(columns: usize, rows: usize) -> PhaseDiagram {
     let (x, y) = (axis(-1.5, 1.5, columns), axis(0.0, 1.0, rows));
-    let line = |label: &str, style, f: fn(f64) -> f64| BoundaryLine {
+    let line = |label: &str, style, f: fn(f64) -> f64| ExpectedLine {
         label: label.into(),
         style,
         points: axis(-3.0, 3.0, 200).into_iter().map(|x| [x, f(x)]).collect(),
@@ -55,19 +55,22 @@ pub(super) fn strip() -> PhaseDiagram {
     }
 }
 
-pub(super) fn branches(logarithmic: bool) -> BranchDiagram {
+pub(super) fn branches(logarithmic: bool) -> Chart {
     let part = |regime: &str, stable, from: f64, to: f64, f: fn(f64) -> f64| BranchPart {
         regime: regime.into(),
         stable,
         points: axis(from, to, 60).into_iter().map(|x| [x, f(x)]).collect(),
     };
     let mark = |label: &str, glyph, at| BranchMark { label: label.into(), glyph, at };
-    BranchDiagram {
+    Chart {
         title: "Zigzag motion, along *κ*_2".into(),
         caption: words(),
         x_label: "*κ*_2".into(),
         y_label: if logarithmic { "period" } else { "mean speed" }.into(),
-        logarithmic,
+        logarithmic_y: logarithmic,
+        ..Chart::default()
+    }
+    .with([BranchDiagram {
         x: [0.3, 1.6],
         parts: vec![
             part("straight", true, 0.3, 0.7, |_| 1.0),
@@ -85,7 +88,7 @@ pub(super) fn branches(logarithmic: bool) -> BranchDiagram {
             mark("Hopf", Glyph::Disc, [0.7, 1.0]),
             mark("symmetry breaking", Glyph::Square, [1.3, 0.535]),
         ],
-    }
+    }])
 }
 
 pub(super) fn curves(under: Option<PhaseDiagram>, named: bool) -> CurveMap {

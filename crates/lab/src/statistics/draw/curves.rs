@@ -1,10 +1,10 @@
 //! Autocorrelations, distributions and spectra.
 
 use super::displacement::point;
-use super::units::{bands, density, in_words};
+use super::units::{density, in_units, in_words};
 use super::{caption, title};
 use crate::statistics::{Measurement, Result};
-use motiform_figures::{BandCurve, BandFigure, BandPoint, ExpectedLine, Figure, LineStyle};
+use motiform_figures::{BandCurve, BandPoint, Chart, ExpectedLine, Figure, LineStyle};
 use motiform_statistics::{Autocorrelation, Histogram, Quantity};
 use motiform_study::Shown;
 use motiform_study::units::{RATE, SPEED, TIME};
@@ -50,17 +50,17 @@ pub(super) fn autocorrelations(measurement: &Measurement, units: &Shown) -> Resu
         let points = thinned(rows.map(|(lag, rho)| point(*lag, rho)).collect(), logarithmic_x);
         BandCurve { label: symbol(&found.quantity), points }
     };
-    let figure = BandFigure {
+    let figure = Chart {
         title: title(measurement, "autocorrelations"),
         caption: caption(measurement, units, "bands", &[])?,
         x_label: "lag *τ*".to_owned(),
         y_label: "*C*(*τ*)/*C*(0)".to_owned(),
-        curves: varying.iter().take(CURVES).map(curve).collect(),
         zero_line: true,
         logarithmic_x,
-        ..BandFigure::default()
-    };
-    Ok(bands(figure, [TIME, [0, 0]], units))
+        ..Chart::default()
+    }
+    .with(varying.iter().take(CURVES).map(curve));
+    Ok(in_units(figure, [TIME, [0, 0]], units))
 }
 
 /// At most so many points, evenly spaced along the axis.
@@ -116,16 +116,16 @@ fn stairs(histogram: &Histogram, unit: f64) -> Vec<BandPoint> {
 pub(super) fn speeds(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let Some(speeds) = &measurement.statistics.speeds else { return Ok(None) };
     let worth = format!("{} samples, worth {:.0} independent ones.", speeds.samples, speeds.independent);
-    let figure = BandFigure {
+    let figure = Chart {
         title: title(measurement, "distribution of the speed"),
         caption: caption(measurement, units, "bands", &[&worth])?,
         x_label: "speed |***v***|".to_owned(),
         y_label: "probability density".to_owned(),
-        curves: vec![BandCurve { label: "measured".to_owned(), points: stairs(speeds, 1.0) }],
         zero_line: true,
-        ..BandFigure::default()
-    };
-    Ok(bands(figure, [SPEED, density(SPEED)], units))
+        ..Chart::default()
+    }
+    .with([BandCurve { label: "measured".to_owned(), points: stairs(speeds, 1.0) }]);
+    Ok(in_units(figure, [SPEED, density(SPEED)], units))
 }
 
 /// The distributions of turning angles, in degrees.
@@ -136,21 +136,21 @@ pub(super) fn turning(measurement: &Measurement, units: &Shown) -> Result<Option
         points: stairs(&turning.angles, PI / 180.0),
     };
     let level = PI / 180.0 / TAU;
-    let figure = BandFigure {
+    let figure = Chart {
         title: title(measurement, "turning angles between displacements of lag *τ*"),
         caption: caption(measurement, units, "bands", &[])?,
         x_label: "turning angle (degrees)".to_owned(),
         y_label: "probability density (per degree)".to_owned(),
-        curves: moving.map(curve).collect(),
-        lines: vec![ExpectedLine {
-            label: "uniform".to_owned(),
-            style: LineStyle::Dotted,
-            points: vec![[-180.0, level], [180.0, level]],
-        }],
         zero_line: true,
-        ..BandFigure::default()
-    };
-    Ok(bands(figure, [[0, 0]; 2], units))
+        ..Chart::default()
+    }
+    .with(moving.map(curve))
+    .with([ExpectedLine {
+        label: "uniform".to_owned(),
+        style: LineStyle::Dotted,
+        points: vec![[-180.0, level], [180.0, level]],
+    }]);
+    Ok(in_units(figure, [[0, 0]; 2], units))
 }
 
 /// Power spectra with their bands.
@@ -173,15 +173,15 @@ pub(super) fn spectra(measurement: &Measurement, units: &Shown) -> Result<Option
         *line = line.replace("; bands: 95 % intervals over bodies", "");
     }
     let unit = if units.is_physical() { " (model units)" } else { "" };
-    let figure = BandFigure {
+    let figure = Chart {
         title: title(measurement, "power spectra"),
         caption,
         x_label: "frequency".to_owned(),
         y_label: format!("power spectral density{unit}"), // of quantities of several dimensions
-        curves: found.iter().map(curve).filter(|curve| !curve.points.is_empty()).take(CURVES).collect(),
         logarithmic_x: true,
         logarithmic_y: true,
-        ..BandFigure::default()
-    };
-    Ok(bands(figure, [RATE, [0, 0]], units))
+        ..Chart::default()
+    }
+    .with(found.iter().map(curve).filter(|curve| !curve.points.is_empty()).take(CURVES));
+    Ok(in_units(figure, [RATE, [0, 0]], units))
 }

@@ -1,12 +1,11 @@
 //! Displacements: mean square, its exponent, first-passage times.
 
-use super::units::{SQUARE, bands, bars, in_words};
+use super::units::{SQUARE, in_units, in_words};
 use super::{caption, title};
 use crate::statistics::summary::value_in;
 use crate::statistics::{Measurement, Result};
 use motiform_figures::{
-    BandCurve, BandFigure, BandPoint, ErrorBarFigure, ErrorBarSeries, ExpectedLine, Figure, Interval,
-    LineStyle, Measured as Point,
+    BandCurve, BandPoint, Chart, ErrorBarSeries, ExpectedLine, Figure, Interval, LineStyle, Measured as Point,
 };
 use motiform_statistics::{Measured, furth};
 use motiform_study::Shown;
@@ -46,19 +45,19 @@ pub(super) fn displacements(measurement: &Measurement, units: &Shown) -> Result<
     let shown: Vec<BandPoint> = points.into_iter().filter(apart).collect();
     let intervals =
         shown.iter().filter(|p| p.low < p.high).map(|p| Interval { x: p.x, low: p.low, high: p.high });
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         title: title(measurement, "mean-square displacement"),
         caption: caption(measurement, units, "bars", &note.iter().map(String::as_str).collect::<Vec<_>>())?,
         x_label: "lag *τ*".to_owned(),
         y_label: "⟨|***r***(*t*+*τ*) − ***r***(*t*)|^2⟩".to_owned(),
-        lines,
-        intervals: intervals.collect(),
-        series: vec![measured(shown.iter().map(|p| (p.x, p.y)))],
         logarithmic_x: true,
         logarithmic_y: true,
-        ..ErrorBarFigure::default()
-    };
-    Ok(Some(bars(figure, [TIME, SQUARE], units)))
+        ..Chart::default()
+    }
+    .with(lines)
+    .with([intervals.collect::<Vec<_>>()])
+    .with([measured(shown.iter().map(|p| (p.x, p.y)))]);
+    Ok(in_units(figure, [TIME, SQUARE], units))
 }
 
 /// Values whose intervals are drawn by themselves.
@@ -139,18 +138,18 @@ pub(super) fn exponents(measurement: &Measurement, units: &Shown) -> Result<Opti
         ExpectedLine { label: label.to_owned(), style, points }
     };
     let lines = vec![level("ballistic", LineStyle::Dashed, 2.0), level("diffusive", LineStyle::Dotted, 1.0)];
-    let figure = BandFigure {
+    let figure = Chart {
         title: title(measurement, "exponent of the mean-square displacement"),
         caption: caption(measurement, units, "bands", &[])?,
         x_label: "lag *τ*".to_owned(),
         y_label: "d ln MSD / d ln *τ*".to_owned(),
-        lines,
-        curves: vec![BandCurve { label: "measured".to_owned(), points }],
         zero_line: true,
         logarithmic_x: true,
-        ..BandFigure::default()
-    };
-    Ok(bands(figure, [TIME, [0, 0]], units))
+        ..Chart::default()
+    }
+    .with([BandCurve { label: "measured".to_owned(), points }])
+    .with(lines);
+    Ok(in_units(figure, [TIME, [0, 0]], units))
 }
 
 /// Mean first-passage times against the radius.
@@ -177,17 +176,17 @@ pub(super) fn passages(measurement: &Measurement, units: &Shown) -> Result<Optio
         "Not drawn: {left_out} radii that more than half of the starts did not leave within the tracks."
     );
     let more = if left_out > 0 { vec![note.as_str()] } else { Vec::new() };
-    let figure = ErrorBarFigure {
+    let figure = Chart {
         title: title(measurement, "mean first-passage time out of a disc"),
         caption: caption(measurement, units, "bars", &more)?,
         x_label: "radius *r*".to_owned(),
         y_label: "mean first-passage time".to_owned(),
-        series: vec![measured(known.iter().map(|(x, m)| (*x, m.value)))],
-        intervals: known.iter().filter_map(interval).collect(),
-        lines,
         logarithmic_x: true,
         logarithmic_y: true,
-        ..ErrorBarFigure::default()
-    };
-    Ok(Some(bars(figure, [LENGTH, TIME], units)))
+        ..Chart::default()
+    }
+    .with(lines)
+    .with([known.iter().filter_map(interval).collect::<Vec<_>>()])
+    .with([measured(known.iter().map(|(x, m)| (*x, m.value)))]);
+    Ok(in_units(figure, [LENGTH, TIME], units))
 }
