@@ -50,6 +50,7 @@ mod plane;
 mod portable;
 #[cfg(feature = "raster")]
 mod raster;
+pub mod report;
 mod rescale;
 mod return_map;
 mod room;

@@ -1,6 +1,6 @@
 //! Short constructors of claims and their verdicts.
 
-use motiform_report::{Claim, Source, Verdict};
+use motiform_figures::report::{Claim, Source, Verdict};
 
 /// What the report is.
 pub(crate) const ABOUT: &str = "Every figure of Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, *Dynamics of a deformable \

@@ -8,8 +8,8 @@ use motiform_analysis::{PeriodicOrbit, Regime};
 use motiform_continuation::{CurvePoint, Degenerate, Motion, Point, Settings, Special, WholeCurve};
 use motiform_diagrams::{Branches, Followed};
 use motiform_dynamics::order::ascending;
+use motiform_figures::report::Claim;
 use motiform_figures::{ExpectedLine, LineStyle};
-use motiform_report::Claim;
 use motiform_study::Error;
 use std::sync::Arc;
 

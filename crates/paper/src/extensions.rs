@@ -8,8 +8,8 @@ use super::context::Context;
 use motiform_analysis::Verdict;
 use motiform_diagrams::draw::{Ordinate, branch_diagram};
 use motiform_diagrams::{follow, summary};
+use motiform_figures::report::{Claim, ReportFigure, Section};
 use motiform_lab::draw::sheet;
-use motiform_report::{Claim, ReportFigure, Section};
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
 use motiform_study::{Error, Study};
 

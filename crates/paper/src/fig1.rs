@@ -9,10 +9,10 @@ use super::claims::{check, claim};
 use super::context::Context;
 use crate::lines::Continued;
 use grid::{Grid, found_line};
+use motiform_figures::report::{Claim, ReportFigure, Section};
 use motiform_lab::draw::{boundary_lines, phase_diagram, sheet};
 use motiform_lab::scan::Axis;
 use motiform_models::tensor::reduced::{Line, Motion, Reduced};
-use motiform_report::{Claim, ReportFigure, Section};
 use motiform_study::Error;
 
 const ABOUT: &str = "Velocity *v* and ellipse *S* alone, *a*_1 = 1, *b*_1 = 0.5, *b*_3 = 1, over the plane (*κ*_2, *γ*). \

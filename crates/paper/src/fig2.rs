@@ -7,9 +7,9 @@ use super::context::Context;
 use motiform_analysis::regime::Regime;
 use motiform_analysis::{Ends, Legs, PathSample, legs, rests};
 use motiform_figures::literal;
+use motiform_figures::report::{Claim, ReportFigure, Section};
 use motiform_lab::draw;
 use motiform_models::tensor::reduced::Reduced;
-use motiform_report::{Claim, ReportFigure, Section};
 use motiform_study::{Dataset, Error};
 use std::f64::consts::FRAC_PI_2;
 

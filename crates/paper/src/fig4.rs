@@ -12,7 +12,7 @@ use super::context::Context;
 use crate::branches::{self, at};
 use crate::curves::Curves;
 use motiform_figures::Drawn;
-use motiform_report::{ReportFigure, Section};
+use motiform_figures::report::{ReportFigure, Section};
 use motiform_study::{Error, Random, Study};
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {

@@ -7,8 +7,8 @@ mod zigzag;
 
 use super::context::Context;
 use super::fig4::power;
+use motiform_figures::report::{ReportFigure, Section};
 use motiform_lab::draw;
-use motiform_report::{ReportFigure, Section};
 use motiform_study::{Dataset, Error};
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {

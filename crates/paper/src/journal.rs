@@ -1,6 +1,6 @@
 //! Finished chapters as items of a journal.
 
-use motiform_report::Section;
+use motiform_figures::report::Section;
 use motiform_store::Journal;
 use motiform_study::Error;
 use motiform_study::dataset::VERSION;

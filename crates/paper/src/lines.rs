@@ -7,10 +7,10 @@ use motiform_analysis::RelativeEquilibrium;
 use motiform_continuation::{
     Branch, CurvePoint, Degenerate, Family2, Point, Settings, Special, WholeCurve, switch,
 };
+use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Measured};
 use motiform_lab::draw::sheet;
 use motiform_models::tensor::reduced::{Line, Reduced};
-use motiform_report::{Claim, ReportFigure};
 use motiform_study::Error;
 
 /// The box of the figure, without a strip about kappa2 = 0, where lines of different kinds meet.

@@ -3,7 +3,7 @@
 //! A claim names the sentences that it checks; tests see to it that every number appears once and that every checked sentence has
 //! its claim.
 
-use motiform_report::Sentence;
+use motiform_figures::report::Sentence;
 
 const TEXT: &str = include_str!("sentences.txt");
 

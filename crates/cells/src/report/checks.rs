@@ -4,10 +4,10 @@ use crate::Fitted;
 use crate::Units;
 use crate::report::numbers::{plain, with_error};
 use crate::report::terms::typeset;
+use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart};
 use motiform_inference::{Channel, Coefficient};
 use motiform_lab::draw::sheet;
-use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_study::Error;
 
 /// Half the width of a 95 % interval in standard errors.

@@ -5,9 +5,9 @@ use crate::report::Case;
 use crate::report::numbers::plain;
 use crate::report::outlines::{observed, track};
 use crate::{Agreement, Axis, Comparison, Kind, Prediction};
+use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart, TrackPanels};
 use motiform_lab::draw::{FigureFormat, Picture, files, sheet};
-use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_study::Error;
 
 pub(crate) fn section(case: &Case<'_>, prediction: &Prediction, units: &Units) -> Result<Section, Error> {

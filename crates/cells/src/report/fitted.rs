@@ -6,8 +6,8 @@ use crate::report::numbers::{estimate, plain, with_error};
 use crate::report::terms::{typeset, unit};
 use crate::{CellFit, Fitted};
 use motiform_figures::literal;
+use motiform_figures::report::{Cell, Section, Table};
 use motiform_inference::{Coefficient, EquationKnowledge, paper};
-use motiform_report::{Cell, Section, Table};
 
 pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
     let title = "Fitted equations".to_owned();

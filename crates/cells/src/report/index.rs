@@ -7,9 +7,9 @@ use crate::report::{Case, Maps, fitted, free, page_name, population, words};
 use crate::{Agreement, CellFit, Fitted, Sample};
 use motiform_analysis::regime::Regime;
 use motiform_figures::literal;
+use motiform_figures::report::{Cell, Report, ReportFigure, Section, Table};
 use motiform_inference::{Place, Placement};
 use motiform_lab::draw::sheet;
-use motiform_report::{Cell, Report, ReportFigure, Section, Table};
 use motiform_study::Error;
 
 pub(crate) fn report(

@@ -24,9 +24,9 @@ pub use maps::Maps;
 
 use crate::{CellFit, CellTrack, Observation, Prediction, Sample, Units};
 use motiform_dynamics::Watch;
+use motiform_figures::report::Report;
 use motiform_inference::{Placement, Plane};
 use motiform_lab::pool;
-use motiform_report::Report;
 use motiform_study::Error;
 use motiform_tracks::Cell;
 use std::collections::HashMap;

@@ -4,9 +4,9 @@ use crate::Units;
 use crate::report::numbers::{answer, plain, with_error};
 use crate::report::{Case, relatives};
 use crate::{AtLag, Memory, MotionStatistics};
+use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart, literal};
 use motiform_lab::draw::sheet;
-use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_study::Error;
 
 pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> {

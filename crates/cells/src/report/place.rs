@@ -3,10 +3,10 @@
 use crate::Fitted;
 use crate::report::Maps;
 use crate::report::numbers::{estimate, plain};
+use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{MapPlace, PlaceMap, literal};
 use motiform_inference::{Coordinate, Place, Placement, Plane, coordinates, draws};
 use motiform_lab::draw::sheet;
-use motiform_report::{Cell, ReportFigure, Section, Table};
 use motiform_study::Error;
 
 /// Models of the cloud, and the seed of their draws.

@@ -8,7 +8,7 @@ use crate::{
     CellFit, FittedPopulation, NameShare, Observation, OverCells, PopulationNumbers, fitted_population,
     observed_population, population_numbers, population_statistics,
 };
-use motiform_report::{Cell, Section, Table};
+use motiform_figures::report::{Cell, Section, Table};
 use motiform_study::Error;
 
 /// Nothing for a single cell.

@@ -5,9 +5,9 @@ use crate::report::motion::capital;
 use crate::report::numbers::plain;
 use crate::{Finding, ObservedLegs, ObservedRests, Relatives, SpectralPeak};
 use motiform_figures::palette::CATEGORIES;
+use motiform_figures::report::{Cell, ReportFigure, Table};
 use motiform_figures::{Chart, SpectrumCurve};
 use motiform_lab::draw::sheet;
-use motiform_report::{Cell, ReportFigure, Table};
 use motiform_study::Error;
 
 /// What the record shows of them, and why it does not show the others.

@@ -3,7 +3,7 @@
 use crate::Fitted;
 use crate::report::Case;
 use crate::report::index::{agreement, fitted_of, fitted_regime, place_words};
-use motiform_report::Section;
+use motiform_figures::report::Section;
 
 pub(crate) fn section(case: &Case<'_>) -> Section {
     let observed = case.observation.motion.regime;

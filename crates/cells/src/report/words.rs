@@ -1,6 +1,6 @@
 //! Words that the pages define.
 
-use motiform_report::Definition;
+use motiform_figures::report::Definition;
 
 /// All of them, in the order of the pages.
 pub(crate) fn glossary() -> Vec<Definition> {

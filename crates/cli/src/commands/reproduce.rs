@@ -3,10 +3,10 @@
 use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
+use motiform_figures::report::{Claim, Counts, Picture, Report};
 use motiform_figures::{DEFAULT_SCALE, png};
 use motiform_lab::draw::undrawable;
 use motiform_paper::{Keeping, Kept, Options, reproduce_kept};
-use motiform_report::{Claim, Counts, Picture, Report};
 use motiform_store::{Folder, Kind, Opening, end_of_work};
 use motiform_study::Error;
 use serde_json::json;

@@ -6,7 +6,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand, Package};
 use std::process::Command;
 
 /// Each folder of `crates/`, and those below it whose crates it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &str); 20] = [
+const LAYERS: [(&str, &str); 19] = [
     ("dynamics", ""),
     ("figures", ""),
     ("store", ""),
@@ -18,16 +18,15 @@ const LAYERS: [(&str, &str); 20] = [
     ("kernels", "analysis dynamics models"),
     ("study", "analysis dynamics models store"),
     ("tracks", "store"),
-    ("report", "figures"),
     ("lab", "analysis dynamics figures kernels models statistics store study"),
-    ("diagrams", "analysis continuation dynamics figures lab models report store study"),
-    ("cells", "analysis diagrams dynamics figures inference lab models report statistics store study tracks"),
-    ("paper", "analysis continuation diagrams dynamics figures lab models report store study"),
+    ("diagrams", "analysis continuation dynamics figures lab models store study"),
+    ("cells", "analysis diagrams dynamics figures inference lab models statistics store study tracks"),
+    ("paper", "analysis continuation diagrams dynamics figures lab models store study"),
     ("explorer", "analysis diagrams dynamics figures lab models store study"),
     ("web", "explorer lab"),
     (
         "cli",
-        "analysis cells continuation diagrams dynamics explorer figures inference lab models paper report statistics store study tracks",
+        "analysis cells continuation diagrams dynamics explorer figures inference lab models paper statistics store study tracks",
     ),
     ("python", "analysis cells diagrams dynamics figures lab models statistics store study tracks"),
 ];

@@ -7,8 +7,8 @@ use crate::atlas::grid::Found;
 use crate::atlas::region::{Region, regions};
 use crate::atlas::summary::words;
 use crate::curves::{codimension_2, curve_ends};
+use motiform_figures::report::{Cell, Report, ReportFigure, Section, Table};
 use motiform_lab::draw::{sheet, symbol};
-use motiform_report::{Cell, Report, ReportFigure, Section, Table};
 use motiform_study::Error;
 use motiform_study::titles::number;
 

@@ -8,10 +8,10 @@ use motiform_dynamics::steppers::KROGSTAD4;
 use motiform_dynamics::{
     ExponentialOrbit, Outcome, Request, Semilinear, Sink, StepControl, StopOnly, System, VectorField,
 };
+use motiform_figures::report::Claim;
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, Measured};
 use motiform_lab::draw::sheet;
 use motiform_models::cell::{CellField, CellParameters};
-use motiform_report::Claim;
 use motiform_study::Error;
 use motiform_study::initial::Uniform;
 use std::f64::consts::TAU;

@@ -4,8 +4,8 @@ use super::super::claims::claim;
 use super::super::context::Context;
 use super::fields::{C, Monomial, Z, apart, parameters, rates, state, turned};
 use super::least_squares::least_squares;
+use motiform_figures::report::Claim;
 use motiform_models::tensor::TensorParameters;
-use motiform_report::Claim;
 use motiform_study::initial::Uniform;
 
 /// Random states of a fit, and sets of random coefficients.

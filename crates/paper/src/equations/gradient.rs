@@ -3,7 +3,7 @@
 use super::super::claims::claim;
 use super::super::context::Context;
 use super::terms::{PAPER, Term, derivative, inner, random};
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 
 /// The size of round-off for a variational term.
 const NOTHING: f64 = 1e-8;

@@ -4,7 +4,7 @@ use super::super::claims::claim;
 use super::super::context::Context;
 use super::super::fig6;
 use motiform_analysis::Regime;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::{Error, Study};
 
 /// Damping of long waves, against g2 = g3 = 1. From 1/4 on nothing grows at all.

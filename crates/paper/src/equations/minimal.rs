@@ -3,7 +3,7 @@
 use super::super::claims::claim;
 use super::super::context::Context;
 use super::super::fig6;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::Error;
 
 /// Coefficients of the general equation: g2, g3, g5 (of the other sign).

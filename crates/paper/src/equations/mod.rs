@@ -15,7 +15,7 @@ mod terms;
 mod velocity;
 
 use super::context::Context;
-use motiform_report::{ReportFigure, Section};
+use motiform_figures::report::{ReportFigure, Section};
 use motiform_study::Error;
 
 const ABOUT: &str = "What can be said of the equations as they are written. The tensor form of the first model, with its indices as in the \

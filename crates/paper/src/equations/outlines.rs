@@ -3,7 +3,7 @@
 use super::super::claims::claim;
 use super::super::context::Context;
 use super::fields::{state, tensors};
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::initial::Uniform;
 use std::f64::consts::TAU;
 

@@ -3,8 +3,8 @@
 use super::super::claims::claim;
 use super::super::context::Context;
 use super::fields::{C, Z, amplitudes, apart, parameters, rates, state, tensors, turned};
+use motiform_figures::report::Claim;
 use motiform_models::tensor::indices::Tensors;
-use motiform_report::Claim;
 use motiform_study::initial::Uniform;
 
 pub(super) fn claims(context: &Context<'_>) -> [Claim; 2] {

@@ -4,8 +4,8 @@ use super::super::claims::{claim, differs};
 use super::super::context::Context;
 use super::terms::{PAPER, POINTS, Term, random};
 use motiform_dynamics::VectorField as _;
+use motiform_figures::report::Claim;
 use motiform_models::cell::{CellField, CellParameters};
-use motiform_report::Claim;
 use std::f64::consts::TAU;
 
 pub(super) fn claims(context: &Context<'_>) -> [Claim; 2] {

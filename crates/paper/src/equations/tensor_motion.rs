@@ -3,8 +3,8 @@
 use super::super::claims::{claim, differs};
 use super::super::context::Context;
 use motiform_analysis::{Regime, Verdict};
+use motiform_figures::report::Claim;
 use motiform_models::ModelInfo;
-use motiform_report::Claim;
 use motiform_study::titles::number;
 use motiform_study::{Error, Study};
 

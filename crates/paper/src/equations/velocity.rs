@@ -2,7 +2,7 @@
 
 use super::super::claims::claim;
 use super::super::context::Context;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::initial::Uniform;
 use std::f64::consts::TAU;
 

@@ -4,7 +4,7 @@ use super::verdict;
 use crate::claims::check;
 use crate::context::Context;
 use motiform_analysis::regime::Course;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::Error;
 
 pub(super) fn claims(context: &Context<'_>) -> Result<Vec<Claim>, Error> {

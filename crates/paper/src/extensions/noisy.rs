@@ -3,7 +3,7 @@
 use super::with;
 use crate::claims::check;
 use crate::context::Context;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::Error;
 use std::f64::consts::PI;
 

@@ -2,9 +2,9 @@
 
 use super::{check, claim};
 use motiform_analysis::regime::Regime;
+use motiform_figures::report::Claim;
 use motiform_lab::scan::CellSummary;
 use motiform_models::tensor::reduced::{Expected, Line, Motion, Reduced};
-use motiform_report::Claim;
 use motiform_study::ScanPlan;
 
 /// Points of a line that cells are compared with.

@@ -8,11 +8,11 @@ use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{
     InPlane, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, Sink, StepControl, StopOnly,
 };
+use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_models::tensor::reduced::Reduced;
 use motiform_models::tensor::{Tensor, TensorParameters};
-use motiform_report::{Claim, ReportFigure};
 use motiform_study::Error;
 
 /// Seed of the noise.

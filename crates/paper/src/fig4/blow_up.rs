@@ -12,9 +12,9 @@ use super::super::context::Context;
 use super::approach::{Approach, follow};
 use super::{at, figure, power};
 use motiform_dynamics::Outcome;
+use motiform_figures::report::{ReportFigure, Section};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
-use motiform_report::{ReportFigure, Section};
 use motiform_study::{Error, Study};
 
 /// The point that is examined.
@@ -137,7 +137,7 @@ fn compare(times: &[Ended], approach: &Approach) -> (f64, String) {
 
 /// An explicit scheme of fixed step breaks down where |z1|^2 dt is about 2, its limit of stability: at
 /// t* - t = C sqrt(dt/2).
-fn paper_steps(fixed: &[Ended], t_star: f64, c: f64) -> motiform_report::Claim {
+fn paper_steps(fixed: &[Ended], t_star: f64, c: f64) -> motiform_figures::report::Claim {
     let steps: Vec<(&str, f64, f64)> = FIXED
         .iter()
         .zip(fixed)
@@ -165,7 +165,7 @@ fn paper_steps(fixed: &[Ended], t_star: f64, c: f64) -> motiform_report::Claim {
 }
 
 /// The cubic terms omitted in the paper bound the motion.
-fn bounded(context: &Context<'_>, start: &Study) -> Result<motiform_report::Claim, Error> {
+fn bounded(context: &Context<'_>, start: &Study) -> Result<motiform_figures::report::Claim, Error> {
     let mut study = start.clone();
     study.set("b3", 0.01)?;
     study.set("d3", 0.01)?;

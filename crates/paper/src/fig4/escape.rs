@@ -4,10 +4,10 @@ use super::super::claims::check;
 use super::super::context::Context;
 use super::{at, figure, power};
 use motiform_analysis::Stay;
+use motiform_figures::report::Section;
 use motiform_figures::{Chart, Drawn, ExpectedLine, LineStyle, SurvivalCurve, SurvivalStep};
 use motiform_lab::draw::sheet;
 use motiform_lab::saddle::Saddle;
-use motiform_report::Section;
 use motiform_study::Error;
 
 /// Time for the starts to reach the saddle.
@@ -77,7 +77,7 @@ fn stays(one: &Saddle) -> Vec<Stay> {
     escaped.chain(stayed).collect()
 }
 
-fn statistics(found: &[(f64, Saddle)]) -> motiform_report::Claim {
+fn statistics(found: &[(f64, Saddle)]) -> motiform_figures::report::Claim {
     let mut words = Vec::new();
     let (mut rates, mut agree) = (0, true);
     for (kappa2, one) in found {

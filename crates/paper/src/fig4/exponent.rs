@@ -4,9 +4,9 @@ use super::super::claims::{check, claim, differs};
 use super::super::context::Context;
 use super::{at, figure, power};
 use motiform_analysis::Estimate;
+use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
-use motiform_report::{Claim, Section};
 use motiform_study::Error;
 
 /// Values of kappa2.
@@ -76,7 +76,11 @@ fn left(context: &Context<'_>, kappa2: f64) -> Result<Option<Left>, Error> {
     Ok(found.exponent.map(of))
 }
 
-fn picture(runs: &[Run], saddles: &[Left], span: f64) -> Result<motiform_report::ReportFigure, Error> {
+fn picture(
+    runs: &[Run],
+    saddles: &[Left],
+    span: f64,
+) -> Result<motiform_figures::report::ReportFigure, Error> {
     let measured = |kappa2: f64, e: Estimate| Measured { x: kappa2, y: e.value, error: e.error };
     let attractors = runs.iter().filter(|run| run.largest.is_some_and(|e| e.value > -1.0));
     let points = attractors.filter_map(|run| Some(measured(run.kappa2, run.largest?))).collect();

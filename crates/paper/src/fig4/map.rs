@@ -8,9 +8,9 @@ use crate::curves::{Curves, Place};
 use motiform_analysis::Regime;
 use motiform_dynamics::order::ascending;
 use motiform_figures::PhaseDiagram;
+use motiform_figures::report::{Claim, Section};
 use motiform_lab::draw::{phase_diagram, sheet};
 use motiform_lab::scan::Axis;
-use motiform_report::{Claim, Section};
 use motiform_study::Error;
 
 /// Where the triangle relaxes faster than this there shall be nothing but circles and straight lines. The text gives no number;

@@ -4,7 +4,7 @@ use super::super::claims::claim;
 use super::super::context::Context;
 use super::{at, power};
 use motiform_analysis::Regime;
-use motiform_report::Section;
+use motiform_figures::report::Section;
 use motiform_study::{Error, Study};
 
 /// A place in each region: kappa2, kappa3; and the paper's name of the motion there.

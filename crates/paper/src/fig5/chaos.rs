@@ -5,8 +5,8 @@ use super::super::context::Context;
 use super::super::fig4::power;
 use super::drawings;
 use motiform_analysis::Lyapunov;
+use motiform_figures::report::{Claim, Section};
 use motiform_lab::saddle::Saddle;
-use motiform_report::{Claim, Section};
 use motiform_study::{Error, Study};
 
 pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Error> {

@@ -5,9 +5,9 @@ use super::super::context::Context;
 use super::super::fig4::figure;
 use super::chaos;
 use motiform_analysis::Estimate;
+use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
-use motiform_report::{Claim, Section};
 use motiform_study::{Dataset, Error, Study};
 
 /// Size of the difference at the start.

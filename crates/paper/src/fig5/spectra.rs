@@ -5,9 +5,9 @@ use super::super::context::Context;
 use super::super::fig4::figure;
 use motiform_analysis::{Spectrum, welch, zero_one};
 use motiform_figures::palette::CATEGORIES;
+use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Chart, Drawn, SpectrumCurve};
 use motiform_lab::draw::sheet;
-use motiform_report::{Claim, Section};
 use motiform_study::{Dataset, Error};
 
 /// Time between samples: the fastest oscillation has a period of some ten time units.

@@ -4,7 +4,7 @@ use super::super::claims::claim;
 use super::super::context::Context;
 use super::drawings;
 use motiform_analysis::{Regime, Verdict};
-use motiform_report::{Claim, Section};
+use motiform_figures::report::{Claim, Section};
 use motiform_study::{Dataset, Error};
 
 /// The angle that the paper gives, and what 'about' may mean (degrees).

@@ -5,7 +5,7 @@ use super::super::context::Context;
 use super::tracks::Track;
 use motiform_analysis::Spread;
 use motiform_dynamics::{Model, Outline};
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::Error;
 
 /// Points of the polygons whose lengths are measured; the error falls with their square.

@@ -4,10 +4,10 @@ use super::super::claims::differs;
 use super::super::context::Context;
 use super::onset::{Onsets, WINDOWS};
 use motiform_dynamics::VectorField as _;
+use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
 use motiform_models::cell::{CellField, CellParameters};
-use motiform_report::{Claim, ReportFigure};
 use motiform_study::Error;
 
 /// How far, as a part of the length, such a point may lie from its window to be near it.

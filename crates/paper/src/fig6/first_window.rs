@@ -7,7 +7,7 @@ use super::lengths::Lengths;
 use super::quasi::Search;
 use super::windows::{number, places};
 use motiform_analysis::Regime;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use std::f64::consts::TAU;
 
 /// Share of the lengths that must be rectangular: with finite accuracy a run may repeat exactly beside the cycle.

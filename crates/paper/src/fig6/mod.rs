@@ -28,7 +28,7 @@ use atlas::Atlas;
 use edges::Edges;
 use exponents::Exponents;
 use lengths::Lengths;
-use motiform_report::Section;
+use motiform_figures::report::Section;
 use motiform_study::Error;
 use onset::Onsets;
 use priors::Priors;

@@ -5,7 +5,7 @@ use super::super::context::Context;
 use super::edges::Edges;
 use super::lengths::study;
 use super::windows::number;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::Error;
 use std::f64::consts::TAU;
 

@@ -6,9 +6,9 @@ use super::exponents::Exponents;
 use super::lengths::Lengths;
 use super::tracks::Track;
 use motiform_analysis::Regime;
+use motiform_figures::report::ReportFigure;
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_lab::draw::sheet;
-use motiform_report::ReportFigure;
 use motiform_study::Error;
 
 /// The paper's windows.

@@ -10,7 +10,7 @@ use motiform_analysis::Regime;
 use motiform_analysis::symmetry::wrap;
 use motiform_dynamics::Shape;
 use motiform_dynamics::order::ascending;
-use motiform_report::{Cell as Field, Claim, Table};
+use motiform_figures::report::{Cell as Field, Claim, Table};
 use motiform_study::{Dataset, Error};
 
 /// Priors n^-p: in a full, and in a quick run; the one that is used elsewhere is the middle one.

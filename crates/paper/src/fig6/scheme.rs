@@ -7,8 +7,8 @@ use super::priors::{Shapes, seen, shapes_of};
 use super::tracks::Track;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Outcome, Request, Sink};
+use motiform_figures::report::Claim;
 use motiform_models::cell::CellParameters;
-use motiform_report::Claim;
 use motiform_study::{Error, Plan};
 
 /// The paper's 128 wave modes: *n* = ±1 to ±64; and the step that is taken with them.

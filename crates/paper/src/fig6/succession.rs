@@ -4,7 +4,7 @@ use super::super::claims::claim;
 use super::lengths::Lengths;
 use super::tracks::Track;
 use motiform_analysis::Regime;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 
 /// The motions that the paper names for the cell.
 const NAMED: [Regime; 6] = [

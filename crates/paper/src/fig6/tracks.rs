@@ -6,7 +6,7 @@ use super::boundary::Boundary;
 use super::lengths::modes_for;
 use motiform_analysis::{Verdict, welch};
 use motiform_dynamics::order::ascending;
-use motiform_report::ReportFigure;
+use motiform_figures::report::ReportFigure;
 use motiform_study::{Dataset, Error, Study};
 
 /// Rows at which the boundary is measured: in a full, and in a quick run.

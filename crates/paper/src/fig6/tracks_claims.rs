@@ -6,7 +6,7 @@ use super::exponents::Exponents;
 use super::tracks::Track;
 use motiform_analysis::Regime;
 use motiform_analysis::symmetry::wrap;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 
 /// Tolerance in degrees of an angle measured in a picture.
 const ANGLE: f64 = 6.0;

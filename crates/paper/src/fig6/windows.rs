@@ -7,7 +7,7 @@ use super::lengths::Lengths;
 use super::onset::Onsets;
 use super::zigzags::Zigzags;
 use motiform_analysis::Regime;
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 
 /// How far an edge may lie from the paper's, which has three digits and was found by looking: the spacing of the scan.
 const NEAR: f64 = 0.1;

@@ -7,8 +7,8 @@ use super::lengths::{Lengths, study};
 use super::tracks::Track;
 use super::windows::{number, words};
 use motiform_analysis::Regime;
+use motiform_figures::report::Claim;
 use motiform_lab::scan::{Axis, CellSummary};
-use motiform_report::Claim;
 use motiform_study::Error;
 
 /// Lengths at which the zigzag is started, in hundredths.

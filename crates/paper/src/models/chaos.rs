@@ -3,7 +3,7 @@
 use super::super::claims::claim;
 use super::super::context::Context;
 use motiform_analysis::{Regime, Verdict};
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::Error;
 
 /// Sentences 4, 184 and 185: the chaotic motions of Fig. 5(b) and Fig. 6(a), by the same classifier.

@@ -6,7 +6,7 @@ use super::super::fig6;
 use super::steady::Steady;
 use motiform_analysis::equilibrium::Saddle;
 use motiform_analysis::{Regime, Verdict};
-use motiform_report::Claim;
+use motiform_figures::report::Claim;
 use motiform_study::{Error, Study};
 
 /// A term: what the paper says, where it is looked for, and what makes it so.

@@ -7,7 +7,7 @@ mod steady;
 mod zigzags;
 
 use super::context::Context;
-use motiform_report::Section;
+use motiform_figures::report::Section;
 use motiform_study::Error;
 
 const ABOUT: &str = "The tensor model has a velocity, an ellipse and a triangle, and 21 parameters; the active cell has a closed \

@@ -4,10 +4,10 @@ use super::super::claims::claim;
 use super::super::context::Context;
 use super::super::fig6::Branch;
 use motiform_dynamics::VectorField as _;
+use motiform_figures::report::Claim;
 use motiform_models::cell::reduction::{Slaved, amplitudes, reduce};
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_models::tensor::{Coefficients, FourierField};
-use motiform_report::Claim;
 use motiform_study::Error;
 use motiform_study::initial::Uniform;
 

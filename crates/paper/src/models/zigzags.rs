@@ -5,9 +5,9 @@ use super::super::context::Context;
 use super::super::fig6::Track;
 use motiform_analysis::{Regime, Verdict};
 use motiform_dynamics::order::ascending;
+use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, Measured};
 use motiform_lab::draw::sheet;
-use motiform_report::{Claim, ReportFigure};
 use motiform_study::Error;
 
 /// Modes that are looked at.

@@ -8,9 +8,9 @@
 
 use crate::paper::KEPT;
 use motiform_analysis::{Estimate, Regime, Verdict};
+use motiform_figures::report::Verdict as Judged;
 use motiform_lab::scan::CellSummary;
 use motiform_paper::{Fault, claims_under, names};
-use motiform_report::Verdict as Judged;
 use motiform_study::{Dataset, Study};
 use std::collections::BTreeMap;
 use std::sync::Mutex;

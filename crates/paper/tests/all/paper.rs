@@ -1,7 +1,7 @@
 //! What every chapter's report must fulfil.
 
+use motiform_figures::report::{Report, Verdict};
 use motiform_paper::{Keeping, Kept, Options, checked_in, entry_of, reproduce_kept};
-use motiform_report::{Report, Verdict};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::LazyLock;

@@ -4,8 +4,8 @@
 
 use crate::paper;
 
+use motiform_figures::report::Verdict;
 use motiform_paper::Options;
-use motiform_report::Verdict;
 
 #[test]
 fn no_claim_of_simulations_one_fails() {

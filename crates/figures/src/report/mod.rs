@@ -8,7 +8,7 @@ mod page;
 mod section;
 mod sentence;
 mod table;
-#[cfg(test)]
+#[cfg(all(test, feature = "raster"))]
 mod tests;
 
 pub use claim::{Claim, Counts, Source, Verdict};
@@ -16,7 +16,7 @@ pub use glossary::Definition;
 pub use sentence::Sentence;
 pub use table::{Cell, Table};
 
-use motiform_figures::{Drawn, Label};
+use crate::{Drawn, Label};
 use serde::{Deserialize, Serialize};
 
 /// A page of sections.

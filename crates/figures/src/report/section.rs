@@ -3,10 +3,10 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 
-use crate::glossary::{Definition, linked};
-use crate::{Claim, Picture, ReportFigure, Section, Verdict, inline, paragraphs, table};
-use motiform_figures::svg::escape;
-use motiform_figures::{Label, embedded};
+use crate::report::glossary::{Definition, linked};
+use crate::report::{Claim, Picture, ReportFigure, Section, Verdict, inline, paragraphs, table};
+use crate::svg::escape;
+use crate::{Label, embedded};
 
 pub(super) fn html(number: usize, section: &Section, glossary: &[Definition]) -> String {
     let names = section.figure_names(number);

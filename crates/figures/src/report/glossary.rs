@@ -1,7 +1,7 @@
 //! Definitions at the end of a page, and links to them.
 
-use crate::{inline, paragraphs};
-use motiform_figures::Label;
+use crate::Label;
+use crate::report::{inline, paragraphs};
 
 /// A word and what it means.
 #[derive(Debug, Clone, PartialEq, Eq)]

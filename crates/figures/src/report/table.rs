@@ -1,8 +1,8 @@
 //! Tables of results.
 
-use crate::glossary::{Definition, linked};
-use crate::inline;
-use motiform_figures::svg::escape;
+use crate::report::glossary::{Definition, linked};
+use crate::report::inline;
+use crate::svg::escape;
 use serde::{Deserialize, Serialize};
 
 /// A table.
@@ -52,7 +52,7 @@ impl Cell {
             Some(page) => format!("<a href=\"{}\">{}</a>", escape(page), inline(&self.text)),
             None => linked(&self.text, glossary),
         };
-        let name = escape(&motiform_figures::Label::parse(head).plain());
+        let name = escape(&crate::Label::parse(head).plain());
         format!("<td{class} data-name=\"{name}\">{shown}</td>")
     }
 }

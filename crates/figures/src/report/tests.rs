@@ -1,7 +1,7 @@
 //! What holds for every report.
 
-use crate::*;
-use motiform_figures::{Chart, png};
+use crate::report::*;
+use crate::{Chart, png};
 
 fn claim(verdict: Verdict) -> Claim {
     Claim {

@@ -1,10 +1,10 @@
 //! The page around the sections: head, verdict, summary table, contents.
 
-use crate::{
+use crate::report::{
     Claim, Counts, Picture, Report, ReportFigure, Section, glossary, inline, paragraphs, section, sentence,
 };
-use motiform_figures::svg::escape;
-use motiform_figures::{Label, font_rules};
+use crate::svg::escape;
+use crate::{Label, font_rules};
 
 const STYLE: &str = include_str!("style.css");
 

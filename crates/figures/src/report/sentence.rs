@@ -1,6 +1,6 @@
 //! The paper, sentence by sentence: which claims check it, or why none does.
 
-use crate::{Claim, Report, inline, section};
+use crate::report::{Claim, Report, inline, section};
 
 /// One sentence, or neighbours that stand together.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
