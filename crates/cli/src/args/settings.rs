@@ -80,11 +80,23 @@ impl<K: Keys> Args for RunOptions<K> {
     }
 }
 
+/// What stands for a number in help texts, where it is not X.
+const SYMBOLS: [(&str, &str); 8] = [
+    ("t_end", "T"),
+    ("transient", "T"),
+    ("dt_out", "D"),
+    ("step", "H"),
+    ("rtol", "R"),
+    ("atol", "A"),
+    ("noise", "ETA"),
+    ("noise_velocity", "ETA"),
+];
+
 /// The option of a setting.
 fn argument(key: &'static Key) -> Arg {
     let (kind, name) = (key.kind(), key.name());
     let (unit, parser) = match kind.as_str() {
-        "number" => ("X", ValueParser::new(|text: &str| number(text).map(Value::from))),
+        "number" => (symbol(name), ValueParser::new(|text: &str| number(text).map(Value::from))),
         "integer" => ("N", ValueParser::new(|text: &str| whole(text).map(Value::from))),
         _ => ("NAME", ValueParser::new(|text: &str| Ok::<_, String>(Value::from(text)))),
     };
@@ -96,6 +108,10 @@ fn argument(key: &'static Key) -> Arg {
         .help(meaning(key))
         .value_parser(parser)
         .allow_hyphen_values(true)
+}
+
+fn symbol(name: &str) -> &'static str {
+    SYMBOLS.iter().find(|(known, _)| *known == name).map_or("X", |(_, symbol)| symbol)
 }
 
 /// The meaning of a setting, with other settings named as options.
