@@ -4,9 +4,11 @@
 pub mod atlas;
 pub mod branches;
 pub mod curves;
+mod verify;
 
 pub use branches::{
     Allowance, BranchEnd, BranchFolder, Branches, Coefficient, Followed, Keep, Leg, Link, Origin, Reading,
-    Sample, SpecialEntry, Verification, columns, default_folder, draw, follow, follow_kept, follow_within,
+    Sample, SpecialEntry, columns, default_folder, draw, follow, follow_kept, follow_within,
     is_stable, path, settle, starts, stated, stretches, summary, sweep,
 };
+pub use verify::Verification;

@@ -16,7 +16,7 @@ pub(crate) fn verify(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     let (found, raised) =
-        Caller::beside(py, progress, |watch| motiform_diagrams::atlas::verify(&path, all, watch));
+        Caller::beside(py, progress, |watch| motiform_diagrams::Verification::of(&path, all, watch));
     match (found.map_err(python)?, raised) {
         (_, Some(error)) => Err(error),
         (Some(found), None) => Ok(found.json().to_string()),

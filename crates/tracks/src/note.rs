@@ -74,10 +74,10 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownScale { file } => {
-                write!(f, "{file}: no scale: lengths are in pixels; give the pixel size")
+                write!(f, "{file}: no scale: lengths are in pixels; give the pixel size (pixel_size)")
             }
             Self::UnknownInterval { file } => {
-                write!(f, "{file}: no frame interval: times are in frames; give the frame interval")
+                write!(f, "{file}: no frame interval: times are in frames; give the frame interval (interval)")
             }
             Self::ScaleOne { file, what } => {
                 write!(

@@ -4,12 +4,11 @@ use crate::args::VerifyOptions;
 use crate::output::{End, print};
 use crate::progress::Progress;
 use motiform_diagrams::Verification;
-use motiform_diagrams::atlas::verify;
 use std::fmt::Write;
 
 pub(crate) fn run(options: &VerifyOptions) -> anyhow::Result<End> {
     let watch = Progress::new(1.0, "of the numbers");
-    let found = verify(&options.folder, options.all, &watch);
+    let found = Verification::of(&options.folder, options.all, &watch);
     watch.finish();
     let Some(found) = found? else { return Ok(End::Interrupted) };
     print(&if options.json { found.json().to_string() } else { text(options, &found)? })?;

@@ -34,4 +34,4 @@ pub use summary::atlas_summary;
 pub use survey::survey;
 pub use tables::{cell_columns, curve_columns};
 pub use trace::trace;
-pub use verify::verify;
+pub(crate) use verify::verify_atlas;

@@ -1,12 +1,10 @@
 //! An atlas on disk compared with its plan and its numbers.
 
-use crate::Verification;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::survey::place;
 use motiform_dynamics::Watch;
 use motiform_lab::scan::{Classify, rows_at};
 use motiform_lab::verify::Repeated;
-use motiform_store::Kind;
 use motiform_study::Error;
 use std::path::Path;
 
@@ -16,20 +14,9 @@ const CELLS: usize = 24;
 /// Cells that are computed again together.
 const TOGETHER: usize = 192;
 
-/// [`Verification::of`] for a result of any kind, an atlas among them.
-///
-/// # Errors
-/// As there.
-pub fn verify(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Option<Verification>, Error> {
-    let checked = "plan hash; cells computed again, points of curves are not";
-    Verification::with(folder, all, watch, &|kind| {
-        (kind == Kind::Atlas).then(|| (checked, verify_atlas(folder, all, watch)))
-    })
-}
-
 /// Classifies cells of an atlas again and compares their motions and numbers: all computed ones with `all`, otherwise some, evenly spaced. `None` if the
 /// watch stopped it.
-fn verify_atlas(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Option<Repeated>, Error> {
+pub(crate) fn verify_atlas(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Option<Repeated>, Error> {
     let AtlasFolder { plan, grid, .. } = AtlasFolder::read(folder)?;
     let computed: Vec<usize> =
         (0..grid.places.len()).filter(|cell| grid.places[*cell].like.is_none()).collect();

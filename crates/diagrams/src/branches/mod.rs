@@ -26,7 +26,6 @@ mod stretches;
 pub(crate) mod summary;
 pub mod sweep;
 mod table;
-mod verify;
 
 pub use folder::{BranchFolder, default_folder};
 pub use follow::{Keep, follow, follow_kept, follow_within};
@@ -38,4 +37,3 @@ pub use result::{Branches, Followed, Leg, Link, Sample};
 pub use stretches::{is_stable, stretches};
 pub use summary::{SpecialEntry, summary};
 pub use table::columns;
-pub use verify::Verification;

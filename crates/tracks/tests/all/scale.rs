@@ -18,7 +18,7 @@ fn unknown_stays_pixel_and_frame() {
     let tracks = read(csv(3)).unwrap();
     assert_eq!(units(&tracks), (PIXEL, FRAME));
     let notes = notes(&tracks);
-    assert!(notes.contains("give the pixel size") && notes.contains("give the frame interval"), "{notes}");
+    assert!(notes.contains("(pixel_size)") && notes.contains("(interval)"), "{notes}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! A result on disk compared with what its inventory, its plan and the program say of it.
 
 use crate::BranchFolder;
+use crate::atlas::verify_atlas;
 use crate::curves::CurveFolder;
 use motiform_dynamics::Watch;
 use motiform_lab::verify::{Repeated, verify_dataset, verify_scan};
@@ -21,9 +22,6 @@ pub struct Verification {
     pub found: Repeated,
 }
 
-/// What was computed again; `None` if a watch stopped it.
-type Found = Result<Option<Repeated>, Error>;
-
 impl Verification {
     /// Checks digests and plan hashes, and computes numbers again where this costs no more than computing them did: all of them with `all`, otherwise a
     /// sample. `None` if the watch stopped it.
@@ -31,22 +29,8 @@ impl Verification {
     /// # Errors
     /// [`Error::Store`] for a folder without an inventory, or one that cannot be read.
     pub fn of(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Option<Self>, Error> {
-        Self::with(folder, all, watch, &|_| None)
-    }
-
-    /// As [`Self::of`], with the check of a kind that crates above know: what is checked, in a sentence, and what was found.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn with(
-        folder: &Path,
-        all: bool,
-        watch: &dyn Watch,
-        other: &dyn Fn(Kind) -> Option<(&'static str, Found)>,
-    ) -> Result<Option<Self>, Error> {
         let audit = Audit::of(folder)?;
-        let kind = Kind::of_name(&audit.inventory.kind);
-        let (checked, found) = match kind {
+        let (checked, found) = match Kind::of_name(&audit.inventory.kind) {
             Some(Kind::Dataset) => {
                 ("plan hash; rows of the trajectory computed again", verify_dataset(folder, all, watch))
             }
@@ -59,9 +43,11 @@ impl Verification {
             Some(Kind::Curves) => {
                 ("plan hash; points are not computed again", readable(CurveFolder::read(folder)))
             }
-            _ => kind.and_then(other).unwrap_or_else(|| {
-                ("digests only: numbers of this kind are not computed again", readable(Ok(())))
-            }),
+            Some(Kind::Atlas) => (
+                "plan hash; cells computed again, points of curves are not",
+                verify_atlas(folder, all, watch),
+            ),
+            _ => ("digests only: numbers of this kind are not computed again", readable(Ok(()))),
         };
         let found = match found {
             Err(Error::Interrupted) => None,
