@@ -77,7 +77,10 @@ impl fmt::Display for Note {
                 write!(f, "{file}: no scale: lengths are in pixels; give the pixel size (pixel_size)")
             }
             Self::UnknownInterval { file } => {
-                write!(f, "{file}: no frame interval: times are in frames; give the frame interval (interval)")
+                write!(
+                    f,
+                    "{file}: no frame interval: times are in frames; give the frame interval (interval)"
+                )
             }
             Self::ScaleOne { file, what } => {
                 write!(
