@@ -9,7 +9,7 @@ use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
 /// What the library is told of a model of one's own.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct About {
     /// Its name, for study files, folders and titles: letters, digits and `-`.
     pub name: &'static str,
@@ -46,6 +46,7 @@ type Build = dyn Fn(&[f64]) -> Result<Box<dyn Model>, Error> + Send + Sync;
 
 /// The names and the construction of a model of one's own.
 pub(crate) struct Own {
+    about: About,
     pub(crate) parameters: &'static [ParameterSpec],
     pub(crate) coordinates: Vec<Coordinate>,
     build: Box<Build>,
@@ -70,10 +71,10 @@ static ALL: Mutex<Vec<&'static ModelInfo>> = Mutex::new(Vec::new());
 
 /// Makes a model known by its name. `build` makes it from its parameters, which [`parameters!`](crate::parameters!) declares.
 ///
-/// The same name with the same equations gives the same entry again.
+/// The same name with the same equations, parameters and description gives the same entry again.
 ///
 /// # Errors
-/// [`Error::OwnModel`]: a name that is not usable or taken, or a model that `build` refuses at its default parameters.
+/// [`Error::OwnModel`]: a name that is not usable or taken, a time or size that is not above 0, or a model that `build` refuses at its default parameters.
 pub fn register<P, M>(
     about: &About,
     build: impl Fn(&P) -> Result<M, Error> + Send + Sync + 'static,
@@ -90,6 +91,12 @@ where
     if about.name == amplitudes::NAME || MODELS.iter().any(|known| known.name == about.name) {
         return Err(refuse("a model that is built in has this name: give another one".to_owned()));
     }
+    if let Some((key, value)) = [("look", about.look), ("size", about.size)]
+        .into_iter()
+        .find(|(_, value)| !(*value > 0.0 && value.is_finite()))
+    {
+        return Err(refuse(format!("{key} = {value}: give a number above 0")));
+    }
     let make = move |values: &[f64]| -> Result<Box<dyn Model>, Error> {
         Ok(Box::new(build(&crate::registry::from_values::<P>(values))?))
     };
@@ -98,7 +105,8 @@ where
     let field = fingerprint(P::specs(), &defaults, &make);
     let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = all.iter().find(|info| info.name == about.name) {
-        let same = matches!(&known.inner, Source::Own(own) if own.field == field);
+        let is_this = |own: &Own| own.about == *about && own.parameters == P::specs() && own.field == field;
+        let same = matches!(&known.inner, Source::Own(own) if is_this(own));
         return if same {
             Ok(known)
         } else {
@@ -106,8 +114,8 @@ where
         };
     }
     let coordinates = body.coordinates().to_vec();
-    let own = Own { parameters: P::specs(), coordinates, build: Box::new(make), field };
-    let info: &'static ModelInfo = Box::leak(Box::new(info(about, own)));
+    let own = Own { about: *about, parameters: P::specs(), coordinates, build: Box::new(make), field };
+    let info: &'static ModelInfo = Box::leak(Box::new(info(own)));
     all.push(info);
     Ok(info)
 }
@@ -123,7 +131,8 @@ pub(crate) fn all() -> Vec<&'static ModelInfo> {
     ALL.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
-fn info(about: &About, own: Own) -> ModelInfo {
+fn info(own: Own) -> ModelInfo {
+    let about = own.about;
     let sides = own.parameters.iter().take(2).map(|spec| (spec.name, spec.range.0, spec.range.1));
     let plane: &'static [(&'static str, f64, f64)] = Vec::leak(sides.collect());
     ModelInfo {

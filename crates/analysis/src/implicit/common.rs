@@ -4,8 +4,8 @@ use super::modes::Mode;
 use super::tableau::STAGES;
 use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
 
-/// `I - h A (x) J` in the eigenvectors of `A^-1`, where it falls apart into `(lambda - h J) / lambda`: one real matrix of the size of `J` and two complex
-/// ones, with the conjugates of two, in place of one of five times the size.
+/// `I - h A (x) J` in the basis of the eigenvectors of `A^-1`. There it is block diagonal, with a block `(lambda - h J) / lambda` for each eigenvalue `lambda`. One eigenvalue
+/// is real; the others are two complex conjugate pairs, and the block of a conjugate needs no factorisation of its own.
 ///
 /// Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8.
 pub(super) struct Common {

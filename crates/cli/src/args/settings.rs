@@ -48,6 +48,11 @@ impl<K> RunOptions<K> {
         self.given.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
     }
 
+    /// The names of the settings that were given.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.given.iter().map(|(name, _)| *name)
+    }
+
     /// Puts what was given in the place of what is set.
     pub(crate) fn apply(&self, run: &mut RunSettings) -> Result<(), Error> {
         for (key, value) in &self.given {

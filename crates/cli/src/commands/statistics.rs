@@ -69,12 +69,13 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
         ("--preset", options.preset.is_some()),
         ("--set", !options.parameters.set.is_empty()),
         ("--tie", !options.parameters.ties.is_empty()),
-        ("--t-end", options.run.get("t_end").is_some()),
-        ("--dt-out", options.run.get("dt_out").is_some()),
-        ("--noise", options.run.get("noise").or(options.run.get("noise_velocity")).is_some()),
+        ("--initial", !options.method.initial.is_empty()),
+        ("--random", options.method.random.is_some()),
         ("--resume", options.resume),
     ];
-    if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
+    let option = given.into_iter().find(|(_, given)| *given).map(|(key, _)| key);
+    let mut settings_given = options.run.names().chain(options.method.run.names());
+    if let Some(key) = option.or_else(|| settings_given.find(|name| *name != "transient")) {
         let remedy = "datasets are recorded already: leave it out, or give a model or a study";
         return Err(Error::Setting { key, value: "given".into(), remedy }.into());
     }

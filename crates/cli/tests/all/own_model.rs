@@ -130,6 +130,11 @@ fn other_equations_of_the_same_name_are_refused() {
         Ok(Memory(MemoryParameters { tau: 2.0 * parameters.tau, ..*parameters }))
     });
     assert!(other.unwrap_err().to_string().contains("another model has this name"));
+    let changed = About { name: "memory", look: 50.0, ..About::default() };
+    assert!(register(&changed, |parameters: &MemoryParameters| Ok(Memory(*parameters))).is_err());
+    let timeless = About { name: "timeless", look: 0.0, ..About::default() };
+    let refused = register(&timeless, |parameters: &MemoryParameters| Ok(Memory(*parameters))).unwrap_err();
+    assert!(refused.to_string().contains("look = 0: give a number above 0"), "{refused}");
     let taken = About { name: "tensor", ..About::default() };
     assert!(register(&taken, |parameters: &MemoryParameters| Ok(Memory(*parameters))).is_err());
 }

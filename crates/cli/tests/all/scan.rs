@@ -53,6 +53,26 @@ fn start(folder: &Folder, words: &str, parts: usize) -> Child {
     child
 }
 
+/// The options of the method are those of the plan, and `classify` with the same ones has the same motion.
+#[test]
+fn a_scan_has_the_method_that_was_asked_for() {
+    let folder = Folder::new();
+    let method = "--rtol 1e-6 --stepper dopri5 --json";
+    let words = "scan tensor --preset fig5a --axis kappa2=0.8,0.9 --no-figures --out scan";
+    folder.run(&format!("{words} {method}")).expect(0);
+    let manifest = std::fs::read_to_string(folder.path("scan/_manifest.json")).unwrap();
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap();
+    let plan = &manifest["plan"]["computation"];
+    assert_eq!((&plan["stepper"], &plan["control"]["rtol"]), (&"dopri5".into(), &1e-6.into()), "{plan}");
+    let refused =
+        folder.run("scan tensor --preset fig5a --axis kappa2=0.8 --stepper dopri --out other").expect(2);
+    assert!(refused.stderr.contains("did you mean dopri5?"), "{}", refused.stderr);
+    for kappa2 in ["0.8", "0.9"] {
+        let done = folder.run(&format!("classify tensor --preset fig5a --set kappa2={kappa2} {method}"));
+        assert_eq!(done.expect(0).json()["regime"], "zigzag", "{kappa2}");
+    }
+}
+
 #[test]
 fn killed_at_any_moment_and_resumed() {
     let folder = Folder::new();
