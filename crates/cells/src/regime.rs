@@ -7,7 +7,7 @@ use motiform_dynamics::{StopOnly, Watch};
 use motiform_inference::{Fit, Selection, Subset, Track, draws, equations, refit_with};
 use motiform_lab::analyse;
 use motiform_models::amplitudes::info;
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 use serde::{Deserialize, Serialize};
 
 /// A motion is named if this share of the models has it.
@@ -164,7 +164,7 @@ pub(crate) fn begin(
 fn classify(fit: &Fit, at: (&[f64], &[f64]), watch: &dyn Watch) -> Result<Regime> {
     let mut study = natural_study(fit, at)?;
     study.run.max_steps = MOST_STEPS;
-    let plan = Plan::new(&study)?;
+    let plan = RunPlan::new(&study)?;
     let verdict =
         analyse::classify(&plan, 0.0, &StopOnly(watch))?.ok_or(motiform_study::Error::Interrupted)?;
     Ok(verdict.regime)

@@ -90,7 +90,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut study = Study::of_model(memory);
     study.set("k", 0.9)?;
     study.run.t_end = 60.0;
-    let plan = Plan::new(&study)?;
+    let plan = RunPlan::new(&study)?;
 
     // Its motion, named, with the evidence.
     let verdict = classify(&plan, 0.0, &())?.ok_or("interrupted")?;

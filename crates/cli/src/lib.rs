@@ -62,5 +62,5 @@ pub mod prelude {
     pub use motiform_lab::simulate::simulate;
     pub use motiform_models::{About, ModelInfo, Parameters, register};
     pub use motiform_study::scan::Axis;
-    pub use motiform_study::{BranchPlan, Dataset, Plan, ScanPlan, Study, presets};
+    pub use motiform_study::{BranchPlan, Dataset, Plan, RunPlan, ScanPlan, Study, presets};
 }

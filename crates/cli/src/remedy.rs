@@ -1,7 +1,7 @@
 //! What to type after an error: the library speaks of values, the command line of its options.
 
 use motiform_cells::Error as CellError;
-use motiform_store::Error as StoreError;
+use motiform_store::{Error as StoreError, Kind};
 use motiform_study::Error;
 use motiform_tracks::Error as TrackError;
 
@@ -40,9 +40,12 @@ fn remedy(error: &Error) -> Option<&'static str> {
         Error::Setting { key: "curve", .. } => ": --in NAME,NAME=LOW:HIGH",
         Error::Setting { key: "in", .. } => ": --curve KIND",
         Error::Store(error) => return in_place(error),
-        Error::OtherScan { .. } | Error::OtherBranches { .. } => {
-            "; choose another --out, or --force to replace it"
+        Error::OtherPlan { .. } => "; choose another --out, or --force to replace it",
+        Error::NoResult { kind: Kind::Scan, .. } => "; give a folder written by `motiform scan`",
+        Error::NoResult { kind: Kind::Branches | Kind::Curves, .. } => {
+            "; give a folder written by `motiform continue`"
         }
+        Error::NoResult { kind: Kind::Atlas, .. } => "; give a folder written by `motiform atlas`",
         Error::PartFailed { .. } | Error::InTheWay { .. } => "; --resume continues it",
         _ => return None,
     })

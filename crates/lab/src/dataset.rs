@@ -4,6 +4,7 @@ use motiform_store::{
     Fields, Format, Staged, Table, mend, read_table, table_metadata, write_fields, write_table,
 };
 use motiform_study::dataset::{Dataset, Manifest};
+use motiform_study::plan::pretty;
 use motiform_study::{Error, input};
 use std::path::{Path, PathBuf};
 
@@ -44,10 +45,7 @@ pub fn write_rest(
     if let Some(fields) = fields {
         write_fields(&staged.path().join("fields.h5"), fields).map_err(|error| staged.shown(error))?;
     }
-    let mut json =
-        serde_json::to_vec_pretty(manifest).map_err(|error| Error::write_failed(staged.target(), error))?;
-    json.push(b'\n');
-    Ok(staged.write(MANIFEST, &json)?)
+    Ok(staged.write(MANIFEST, &pretty(manifest, staged.target())?)?)
 }
 
 /// Reads a dataset folder back.

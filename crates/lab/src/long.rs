@@ -63,7 +63,7 @@ impl Shown {
             group
                 .columns
                 .iter()
-                .for_each(|column| self.table.push(&column.name, &*column.meaning, Vec::new()));
+                .for_each(|column| self.table.push(&column.name, column.meaning.clone(), Vec::new()));
             self.keep(&all);
         }
         self.keep(&group);

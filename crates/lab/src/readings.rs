@@ -18,7 +18,7 @@ pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, c: &Computation
 /// The columns of a trajectory, without rows.
 pub(crate) fn columns(model: &dyn Model) -> Table {
     let mut table = Table::default();
-    let mut push = |name: &str, meaning: &str| table.push(name, meaning, Vec::new());
+    let mut push = |name: &str, meaning: &'static str| table.push(name, meaning, Vec::new());
     push("t", "model time");
     push("x", "position of the centre of mass (model length)");
     push("y", "position of the centre of mass (model length)");

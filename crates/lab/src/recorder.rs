@@ -259,12 +259,12 @@ mod tests {
     use motiform_dynamics::Outcome;
     use motiform_models::ModelInfo;
     use motiform_store::table::same_bits;
-    use motiform_study::{Plan, presets};
+    use motiform_study::{RunPlan, presets};
 
-    fn plan(model: &str, preset: &str, change: impl Fn(&mut motiform_study::Study)) -> Plan {
+    fn plan(model: &str, preset: &str, change: impl Fn(&mut motiform_study::Study)) -> RunPlan {
         let mut study = presets::find(ModelInfo::find(model).unwrap(), preset).unwrap();
         change(&mut study);
-        Plan::new(&study).unwrap()
+        RunPlan::new(&study).unwrap()
     }
 
     /// Rows that fail after a number of them.

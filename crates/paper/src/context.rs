@@ -11,7 +11,7 @@ use motiform_lab::pool;
 use motiform_lab::saddle::{Saddle, saddle};
 use motiform_lab::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
 use motiform_lab::simulate::simulate;
-use motiform_study::{Dataset, Error, Plan, Random, ScanPlan, Study, presets};
+use motiform_study::{Dataset, Error, Random, RunPlan, ScanPlan, Study, presets};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -68,7 +68,7 @@ impl Context<'_> {
 
     /// Runs a study.
     pub(crate) fn simulate(&self, study: &Study) -> Result<Dataset, Error> {
-        let plan = Plan::new(study)?;
+        let plan = RunPlan::new(study)?;
         let run = || {
             let dataset = simulate(&plan, &StopOnly(self.watch))?;
             match dataset.manifest.outcome.outcome {
@@ -84,7 +84,7 @@ impl Context<'_> {
 
     /// Classifies the motion of a study.
     pub(crate) fn classify(&self, study: &Study) -> Result<Verdict, Error> {
-        let plan = Plan::new(study)?;
+        let plan = RunPlan::new(study)?;
         let classify = || analyse::classify(&plan, 0.0, &StopOnly(self.watch))?.ok_or(Error::Interrupted);
         let mut verdict = self.kept.once(&format!("motion {}", plan.hash()), classify)?;
         self.changed(&mut verdict, |fault| fault.verdict);
@@ -93,7 +93,7 @@ impl Context<'_> {
 
     /// The largest exponents of a study's motion: `times` are those before and of the average.
     pub(crate) fn lyapunov(&self, study: &Study, count: usize, times: (f64, f64)) -> Result<Lyapunov, Error> {
-        let plan = Plan::new(study)?;
+        let plan = RunPlan::new(study)?;
         let compute = || {
             let times = (Some(times.0), Some(times.1));
             let found = analyse::lyapunov(&plan, count, times, &StopOnly(self.watch))?;
@@ -115,7 +115,7 @@ impl Context<'_> {
         runs: usize,
         times: (Option<f64>, Option<f64>),
     ) -> Result<Saddle, Error> {
-        let plan = Plan::new(study)?;
+        let plan = RunPlan::new(study)?;
         let compute =
             || saddle(&plan, runs, times, self.threads, &StopOnly(self.watch))?.ok_or(Error::Interrupted);
         let mut found = self.kept.once(&format!("saddle {runs} {times:?} {}", plan.hash()), compute)?;

@@ -7,7 +7,7 @@ use crate::watch::Caller;
 use motiform_analysis::Lyapunov;
 use motiform_dynamics::Direction;
 use motiform_lab::samples::{self, Basins, Escapes, Samples};
-use motiform_study::{Error, Plan, Random};
+use motiform_study::{Error, Random, RunPlan};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -21,7 +21,7 @@ pub(crate) fn answer<T>((answer, raised): (Result<Option<T>, Error>, Option<PyEr
 }
 
 /// The accuracy of a motion: stepper, and its tolerances or step.
-fn accuracy(plan: &Plan) -> PyResult<Value> {
+fn accuracy(plan: &RunPlan) -> PyResult<Value> {
     let mut entry = serde_json::to_value(plan.computation.control).map_err(of_json)?;
     entry["stepper"] = json!(plan.computation.stepper);
     Ok(entry)
@@ -37,7 +37,7 @@ pub(crate) fn classify(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     let perturbed = study.0.perturbed().map_err(python)?.0;
-    let plan = Plan::new(&perturbed).map_err(python)?;
+    let plan = RunPlan::new(&perturbed).map_err(python)?;
     let verdict =
         answer(Caller::here(py, progress, |watch| motiform_lab::analyse::classify(&plan, budget, watch)))?;
     let mut entry = serde_json::to_value(&verdict).map_err(of_json)?;

@@ -4,8 +4,7 @@ use crate::errors::{of_json, python};
 use crate::study::Study;
 use crate::watch::Caller;
 use motiform_diagrams::atlas::{
-    AtlasFolder, AtlasPlan, AtlasSettings, atlas_map, atlas_summary, cell_columns, curve_columns, survey,
-    trace,
+    AtlasFolder, atlas_map, atlas_summary, cell_columns, curve_columns, survey, trace,
 };
 use motiform_dynamics::{Part, Watch};
 use motiform_figures::{Style, Width};
@@ -13,6 +12,7 @@ use motiform_lab::draw::{FigureFormat, files};
 use motiform_store::columns::{Column, to_csv};
 use motiform_store::{Folder, Journal, Opening};
 use motiform_study::Error;
+use motiform_study::atlas::{self, AtlasPlan, AtlasSettings};
 use motiform_study::scan::Axis;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -43,11 +43,10 @@ pub(crate) fn make_atlas(
     let (samples, lines, branches, budget, threads) = counts;
     let mut study = study.0.clone();
     if let Some(axes) = axes {
-        let axes: Result<Vec<Axis>, Error> =
-            axes.iter().map(|text| motiform_diagrams::atlas::axis(text)).collect();
+        let axes: Result<Vec<Axis>, Error> = axes.iter().map(|text| atlas::axis(text)).collect();
         study.scan.axes = axes.map_err(python)?;
     }
-    study.scan.samples = motiform_diagrams::atlas::samples(&study, samples);
+    study.scan.samples = atlas::samples(&study, samples);
     study.scan.budget = budget.unwrap_or(study.scan.budget);
     let study = study.perturbed().map_err(python)?.0;
     let plan = AtlasPlan::new(&study, &AtlasSettings { lines, branches, steady }).map_err(python)?;

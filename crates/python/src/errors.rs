@@ -32,7 +32,7 @@ fn remedy(error: &Error) -> Option<&'static str> {
     Some(match error {
         Error::NoAxis { .. } => "; give axes={\"NAME\": values}",
         Error::Store(error) => return in_place(error),
-        Error::OtherScan { .. } => "; choose another one, or overwrite=True to replace it",
+        Error::OtherPlan { .. } => "; choose another one, or overwrite=True to replace it",
         Error::PartFailed { .. } | Error::InTheWay { .. } => "; resume=True continues it",
         _ => return None,
     })

@@ -204,7 +204,7 @@ impl Field {
         let mut table = Table::default();
         table.push("t", "time of the crossing", crossings.iter().map(|crossing| crossing.t).collect());
         for (place, name) in self.names.iter().enumerate() {
-            table.push(name, name, crossings.iter().map(|crossing| crossing.state[place]).collect());
+            table.push(name, name.clone(), crossings.iter().map(|crossing| crossing.state[place]).collect());
         }
         let rising = crossings.iter().map(|crossing| f64::from(u8::from(crossing.rising))).collect();
         table.push("rising", "1 where the coordinate grows, 0 where it falls", rising);

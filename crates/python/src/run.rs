@@ -42,7 +42,7 @@ impl Columns {
         for column in table.columns {
             block.extend_from_slice(&column.values); // and frees the column
             names.push(column.name);
-            meanings.push(column.meaning);
+            meanings.push(column.meaning.into_owned());
         }
         let block = PyArray1::from_vec(py, block).reshape([count, rows])?;
         Ok(Self { names, meanings, block: block.unbind() })

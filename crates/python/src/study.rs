@@ -218,6 +218,6 @@ pub(crate) fn set_run(run: &mut RunSettings, name: &str, value: &Bound<'_, PyAny
 }
 
 /// The plan of a study.
-pub(crate) fn plan(study: &Study) -> Result<motiform_study::Plan, Error> {
-    motiform_study::Plan::new(&study.0)
+pub(crate) fn plan(study: &Study) -> Result<motiform_study::RunPlan, Error> {
+    motiform_study::RunPlan::new(&study.0)
 }

@@ -55,7 +55,7 @@ pub use staged::Staged;
 pub use table::parquet_input::decoding;
 pub use table::{
     Format, GROUP_ROWS, Table, TableWriter, columns, read_columns, read_groups, read_table, table_metadata,
-    table_to_csv, write_table,
+    write_table,
 };
 
 /// Version of motiform, as inventories state it.

@@ -1,11 +1,13 @@
 //! Branches as data: which motion is followed, along which parameter, how far.
 
-use crate::plan::{Computation, check, check_no_noise, sha256_hex};
-use crate::{Error, Given, Plan, Stride, Study, Ties, Towards};
+use crate::plan::{Computation, Plan, Question, RunPlan, check, check_no_noise};
+use crate::titles::capital;
+use crate::{Error, Given, Stride, Study, Ties, Towards};
 use motiform_analysis::Regime;
-use motiform_models::ModelInfo;
 use motiform_models::parameters::index_of;
 use motiform_models::spelling::ascii;
+use motiform_models::{ModelInfo, ModelName};
+use motiform_store::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan of branches; part of the hash. A change that moves a number raises it.
@@ -67,16 +69,8 @@ impl BranchSettings {
     }
 }
 
-/// What will be computed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BranchPlan {
-    /// Short name of the study.
-    pub name: String,
-    /// Title of the figures as typed, or nothing: see [`BranchPlan::title`].
-    pub title: String,
-    /// What is computed: the hash covers this.
-    pub computation: BranchComputation,
-}
+/// The plan of branches.
+pub type BranchPlan = Plan<BranchComputation>;
 
 /// Everything that the numbers depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -193,7 +187,7 @@ impl BranchPlan {
     /// [`Error`] naming the key, the value and the remedy.
     pub fn new(study: &Study, settings: &BranchSettings) -> Result<Self, Error> {
         let BranchSettings { along, origin, points, branches, samples, stride, given } = settings.clone();
-        let plan = Plan::new(study)?;
+        let plan = RunPlan::new(study)?;
         let start = plan.computation;
         check_no_noise(start.noise.map_or(0.0, |noise| noise.largest()))?;
         let info = study.info()?;
@@ -225,33 +219,7 @@ impl BranchPlan {
             ties,
             start,
         };
-        Ok(Self { name: plan.name, title: plan.title, computation })
-    }
-
-    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
-    #[must_use]
-    pub fn hash(&self) -> String {
-        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
-    }
-
-    /// The registry entry of its model.
-    ///
-    /// # Errors
-    /// An unknown model.
-    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(self.computation.start.model.info()?)
-    }
-
-    /// The title of the figures: the one typed, or one made of model and parameter.
-    #[must_use]
-    pub fn title(&self) -> String {
-        let c = &self.computation;
-        if !self.title.is_empty() {
-            return self.title.clone();
-        }
-        let specs = self.info().map_or(&[][..], ModelInfo::parameters);
-        let symbol = specs.iter().find(|spec| spec.name == c.along.name).map_or("", |spec| spec.symbol);
-        format!("{} model: branches along {symbol}", crate::titles::capital(c.start.model.as_str()))
+        Ok(Self::of(&plan.name, &plan.title, computation))
     }
 
     /// The value of the varied parameter at the start.
@@ -265,6 +233,26 @@ impl BranchPlan {
     pub fn parameters_at(&self, value: f64) -> Vec<f64> {
         let c = &self.computation;
         c.parameters_with(|name| (name == c.along.name).then_some(value))
+    }
+}
+
+impl Question for BranchComputation {
+    type Figure = ();
+    const KIND: Kind = Kind::Branches;
+    const KEY: &'static str = "branches";
+
+    fn format(&self) -> u32 {
+        self.format
+    }
+
+    fn model(&self) -> &ModelName {
+        &self.start.model
+    }
+
+    fn title(&self, _: &str) -> String {
+        let specs = self.model().info().map_or(&[][..], ModelInfo::parameters);
+        let symbol = specs.iter().find(|spec| spec.name == self.along.name).map_or("", |spec| spec.symbol);
+        format!("{} model: branches along {symbol}", capital(self.model().as_str()))
     }
 }
 

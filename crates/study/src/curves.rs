@@ -2,11 +2,12 @@
 
 use crate::branches::{Along, BranchComputation, BranchPlan};
 use crate::error::nearest_of;
-use crate::plan::sha256_hex;
+use crate::plan::{Plan, Question};
 use crate::{Error, Study};
-use motiform_models::ModelInfo;
+use motiform_models::ModelName;
 use motiform_models::parameters::index_of;
 use motiform_models::spelling::ascii;
+use motiform_store::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan of curves; part of the hash. A change that moves a number raises it.
@@ -124,16 +125,8 @@ pub struct CurveSettings {
     pub plane: Plane,
 }
 
-/// Curves that will be computed: branches along one parameter, and the special points on them over two.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CurvePlan {
-    /// Short name of the study.
-    pub name: String,
-    /// Title of the figures as typed, or nothing: see [`CurvePlan::title`].
-    pub title: String,
-    /// What is computed: the hash covers this.
-    pub computation: CurveComputation,
-}
+/// The plan of curves: branches along one parameter, and the special points on them over two.
+pub type CurvePlan = Plan<CurveComputation>;
 
 /// Everything that the numbers depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -146,6 +139,24 @@ pub struct CurveComputation {
     pub plane: [Along; 2],
     /// The branches whose special points are followed.
     pub branches: BranchComputation,
+}
+
+impl Question for CurveComputation {
+    type Figure = ();
+    const KIND: Kind = Kind::Curves;
+    const KEY: &'static str = "curves";
+
+    fn format(&self) -> u32 {
+        self.format
+    }
+
+    fn model(&self) -> &ModelName {
+        self.branches.model()
+    }
+
+    fn title(&self, _: &str) -> String {
+        format!("{} model: curves of bifurcations", crate::titles::capital(self.model().as_str()))
+    }
 }
 
 impl CurvePlan {
@@ -172,44 +183,16 @@ impl CurvePlan {
         }
         let [first, second] = [0, 1].map(|side| range(study, &branches, &plane.0[side]));
         let plane = [first?, second?];
-        let BranchPlan { name, title, computation } = branches;
+        let BranchPlan { name, title, computation, .. } = branches;
         let computation =
             CurveComputation { format: CURVE_FORMAT, kinds: kinds.clone(), plane, branches: computation };
-        Ok(Self { name, title, computation })
+        Ok(Self::of(&name, &title, computation))
     }
 
     /// The branches whose special points are followed.
     #[must_use]
     pub fn branches(&self) -> BranchPlan {
-        BranchPlan {
-            name: self.name.clone(),
-            title: self.title.clone(),
-            computation: self.computation.branches.clone(),
-        }
-    }
-
-    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
-    #[must_use]
-    pub fn hash(&self) -> String {
-        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
-    }
-
-    /// The registry entry of its model.
-    ///
-    /// # Errors
-    /// An unknown model.
-    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(self.computation.branches.start.model.info()?)
-    }
-
-    /// The title of the figures: the one typed, or one made of the model.
-    #[must_use]
-    pub fn title(&self) -> String {
-        if !self.title.is_empty() {
-            return self.title.clone();
-        }
-        let model = crate::titles::capital(self.computation.branches.start.model.as_str());
-        format!("{model} model: curves of bifurcations")
+        BranchPlan::of(&self.name, &self.title, self.computation.branches.clone())
     }
 
     /// Which side of the plane the branches are followed along: 0 or 1.

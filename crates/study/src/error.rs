@@ -1,6 +1,7 @@
 //! Errors from the study file to the figure.
 
 use motiform_models::nearest;
+use motiform_store::Kind;
 use std::path::{Path, PathBuf};
 
 /// An input that cannot be used, or a file that cannot be read or written.
@@ -167,12 +168,6 @@ pub enum Error {
         /// Why it cannot be followed, and the remedy.
         problem: String,
     },
-    /// A folder that holds other branches, curves or orbits.
-    #[error("{} holds other branches, curves or orbits than those asked for", .path.display())]
-    OtherBranches {
-        /// The folder.
-        path: PathBuf,
-    },
     /// A scan without an axis.
     #[error(
         "nothing to vary: a scan needs one or two axes, each with values of a parameter of the model{free}"
@@ -181,22 +176,23 @@ pub enum Error {
         /// The parameters that the study leaves free, in brackets.
         free: String,
     },
-    /// A folder that is not a scan.
-    #[error("{} contains no scan: {reason}; give a folder written by `motiform scan`", .path.display())]
-    NoScan {
+    /// A folder without the result that is asked for.
+    #[error("{} contains no {}: {reason}", .path.display(), .kind.name())]
+    NoResult {
         /// The folder.
         path: PathBuf,
+        /// The kind of result.
+        kind: Kind,
         /// The reason.
         reason: String,
     },
-    /// A folder that contains the scan of another plan.
-    #[error(
-        "{} contains a different scan from the one requested ({differences})",
-        .path.display()
-    )]
-    OtherScan {
+    /// A folder that contains the result of another plan.
+    #[error("{} contains the {} of another plan ({differences})", .path.display(), .kind.name())]
+    OtherPlan {
         /// The folder.
         path: PathBuf,
+        /// The kind of result.
+        kind: Kind,
         /// The differences: each key with its value in the folder and the requested value.
         differences: String,
     },

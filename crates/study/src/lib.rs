@@ -1,9 +1,11 @@
-//! Studies as data: a file or a preset -> [`Study`] (as typed) -> [`Plan`] or [`ScanPlan`] (explicit, checked, hashed). A run produces a
+//! Studies as data: a file or a preset -> [`Study`] (as typed) -> [`Plan`] of a run, a scan, branches, curves or an atlas
+//! (explicit, checked, hashed). A run produces a
 //! [`Dataset`]: tables, and a manifest with their provenance.
 //!
 //! This crate does not compute, draw or write.
 
 mod amplitudes;
+pub mod atlas;
 pub mod branches;
 mod checks;
 mod control;
@@ -34,6 +36,7 @@ mod toml_reader;
 pub mod units;
 mod written;
 
+pub use atlas::AtlasPlan;
 pub use branches::BranchPlan;
 pub use curves::CurvePlan;
 pub use dataset::{Dataset, Manifest};
@@ -42,7 +45,7 @@ pub use ending::Ending;
 pub use error::Error;
 pub use given::Given;
 pub use perturbation::Perturbation;
-pub use plan::Plan;
+pub use plan::{Plan, Provenance, Question, RunPlan};
 pub use random::Random;
 pub use remarks::{idle_ties, remarks};
 pub use scan::ScanPlan;

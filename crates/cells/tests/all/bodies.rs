@@ -7,7 +7,7 @@ use motiform_dynamics::Normal;
 use motiform_lab::simulate::simulate;
 use motiform_models::amplitudes::NAME;
 use motiform_study::presets::find_any;
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::synthetic::Synthetic;
 use motiform_tracks::{Options, Outline, write_csv};
@@ -44,7 +44,7 @@ fn modes(columns: &dyn Fn(&str) -> Option<Vec<f64>>, row: usize) -> Vec<[f64; 2]
 
 /// The body as outlines about a circle of this radius, with noisy vertices; frames are numbered from 0.
 pub(crate) fn outlines(study: &Study, radius: f64, vertex_noise: f64) -> Vec<Outline> {
-    let dataset = simulate(&Plan::new(study).unwrap(), &()).unwrap();
+    let dataset = simulate(&RunPlan::new(study).unwrap(), &()).unwrap();
     let column = |name: &str| dataset.trajectory.get(name).map(<[f64]>::to_vec);
     let [t, x, y] = ["t", "x", "y"].map(|name| column(name).unwrap());
     let mut normal = Normal::new(study.run.seed.wrapping_add(8), 0);

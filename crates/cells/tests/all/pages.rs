@@ -6,7 +6,7 @@ use motiform_cells::report::{Case, Maps, pages, planes};
 use motiform_cells::{CellFit, CellTrack, FitOptions, Observation, Sample, fit_cells, fit_together, observe};
 use motiform_dynamics::Normal;
 use motiform_lab::simulate::simulate;
-use motiform_study::{Plan, presets::find_any};
+use motiform_study::{RunPlan, presets::find_any};
 use motiform_tracks::synthetic::{Synthetic, blur};
 use motiform_tracks::{Cell, Outline, Tracks};
 
@@ -19,7 +19,7 @@ fn outlines() -> Vec<Outline> {
     study.run.dt_out = 0.5;
     study.run.t_end = 0.5 * (FRAMES - 1) as f64;
     study.run.noise = 0.01;
-    let dataset = simulate(&Plan::new(&study).unwrap(), &()).unwrap();
+    let dataset = simulate(&RunPlan::new(&study).unwrap(), &()).unwrap();
     let column = |name: &str| dataset.trajectory.get(name).unwrap();
     let mut normal = Normal::new(7, 0);
     let frame = |k: usize| {

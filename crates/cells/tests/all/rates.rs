@@ -6,7 +6,7 @@ use super::bodies::{RADIUS, cell_of, preset, sampled};
 use motiform_analysis::regime::Regime;
 use motiform_cells::{CellTrack, FitOptions, fit_cells};
 use motiform_lab::analyse;
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
 /// A motion: a preset with its parameters, its name, and the radius of the circle that it deforms.
 type Case = (&'static str, &'static [(&'static str, f64)], Regime, f64);
@@ -60,7 +60,7 @@ fn named(studies: &[Study], (radius, vertex_noise): (f64, f64), truth: Regime) -
 fn true_motion(study: &Study) -> Regime {
     let mut quiet = study.clone();
     quiet.run.noise = 0.0;
-    analyse::classify(&Plan::new(&quiet).unwrap(), 0.0, &()).unwrap().unwrap().regime
+    analyse::classify(&RunPlan::new(&quiet).unwrap(), 0.0, &()).unwrap().unwrap().regime
 }
 
 /// The motions that are measured: MOTIFORM_CASE picks those whose names contain it.

@@ -7,10 +7,10 @@ use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::Regime;
 use motiform_diagrams::atlas::{
-    AtlasFolder, AtlasPlan, AtlasSettings, Boundary, Grid, Line, atlas_summary, axis, boundaries,
-    default_atlas_folder, regions, samples, survey, trace,
+    AtlasFolder, Boundary, Grid, Line, atlas_summary, boundaries, regions, survey, trace,
 };
 use motiform_store::{Folder, Opening};
+use motiform_study::atlas::{AtlasPlan, AtlasSettings, axis, samples};
 use motiform_study::{Error, Study};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ pub(crate) fn run(options: &AtlasOptions) -> anyhow::Result<End> {
     let study = study(options)?;
     let plan = AtlasPlan::new(&study, &settings(options))?;
     ties(&study, &plan.computation.scan.axes.iter().map(|axis| axis.name.as_str()).collect::<Vec<_>>())?;
-    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(default_atlas_folder(&plan)));
+    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(plan.default_folder()));
     let files = AtlasFolder::open(&out, &plan, Opening::of(options.resume, options.force))?;
     files.notes().iter().for_each(|note| warn(note));
     let Some((grid, lines)) = compute(options, &plan, &files)? else {

@@ -3,7 +3,7 @@
 use crate::args::CheckOptions;
 use crate::commands::remarks;
 use crate::output::{End, plain, print};
-use motiform_study::{Plan, ScanPlan, Study, Ties, study};
+use motiform_study::{RunPlan, ScanPlan, Study, Ties, study};
 use std::fmt::Write;
 
 pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
@@ -12,7 +12,7 @@ pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
         return Ok(End::Done);
     };
     let study = Study::read(path)?;
-    let plan = Plan::new(&study)?;
+    let plan = RunPlan::new(&study)?;
     remarks::remark(&study, &[remarks::of_scan(&study), remarks::of_branches(&study)].concat())?;
     let scan = if study.scan.axes.is_empty() { None } else { Some(ScanPlan::new(&study)?) };
     let text = match (options.json, &scan) {
@@ -29,7 +29,7 @@ pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
     Ok(End::Done)
 }
 
-fn summary(plan: &Plan, ties: &Ties) -> anyhow::Result<String> {
+fn summary(plan: &RunPlan, ties: &Ties) -> anyhow::Result<String> {
     let c = &plan.computation;
     let mut text = format!("{}: {}\nmodel       {}\n", plan.name, plain(&plan.title()), c.model);
     let set: Vec<String> = c

@@ -8,8 +8,7 @@ use crate::progress::Progress;
 use motiform_diagrams::draw::branch_figures;
 use motiform_diagrams::starts::StartPoint;
 use motiform_diagrams::{
-    BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, default_folder, follow_kept, stated,
-    stretches, summary,
+    BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, follow_kept, stated, stretches, summary,
 };
 use motiform_lab::draw::{self, Figures, Picture};
 use motiform_store::{Folder, Journal, Opening};
@@ -38,7 +37,7 @@ pub(super) fn no_units(of: &str) -> Error {
 }
 
 fn branches(options: &ContinueOptions, plan: BranchPlan, units: &Shown) -> anyhow::Result<End> {
-    let out = output(options, default_folder(&plan));
+    let out = output(options, plan.default_folder());
     let (files, before) = prepare(options, out, |path, opening| BranchFolder::open(path, &plan, opening))?;
     let watch = Progress::new(plan.computation.branches as f64, "branches");
     let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| BranchFolder::keep(found, folder));

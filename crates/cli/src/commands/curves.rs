@@ -5,8 +5,7 @@ use crate::args::ContinueOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_diagrams::curves::{
-    CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, default_curve_folder,
-    follow_curves_kept, not_found,
+    CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, follow_curves_kept, not_found,
 };
 use motiform_diagrams::draw::{check_scan, curve_figures};
 use motiform_lab::scan::ScanFolder;
@@ -18,7 +17,7 @@ pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result
     if let Some(folder) = &over {
         check_scan(plan, folder.plan())?;
     }
-    let out = output(options, default_curve_folder(plan));
+    let out = output(options, plan.default_folder());
     let (files, before) = prepare(options, out, |path, opening| CurveFolder::open(path, plan, opening))?;
     let watch = Progress::new(1.0, "of branches and curves");
     let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| CurveFolder::keep(found, folder));

@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use motiform_dynamics::simd::InstructionSet;
 use motiform_lab::samples::{self, Samples};
 use motiform_models::ModelInfo;
-use motiform_study::{Plan, Random, presets};
+use motiform_study::{Random, RunPlan, presets};
 use serde_json::json;
 use std::fmt::Write;
 use std::process::{Command, Stdio};
@@ -87,7 +87,7 @@ fn lanes() -> (&'static str, u32) {
 
 /// Motions named per second on one thread and on all; `None` if it was stopped.
 fn rates(threads: usize) -> anyhow::Result<Option<[f64; 2]>> {
-    let plan = Plan::new(&presets::find(ModelInfo::find("tensor")?, "fig4")?)?;
+    let plan = RunPlan::new(&presets::find(ModelInfo::find("tensor")?, "fig4")?)?;
     let watch = Progress::new(2.0 * STARTS as f64, "motions");
     let mut rates = [0.0; 2];
     for (rate, threads) in rates.iter_mut().zip([1, threads]) {

@@ -5,12 +5,12 @@ use crate::commands::subject;
 use crate::output::{End, print};
 use crate::progress::Progress;
 use motiform_lab::equilibria::{Equilibrium, FoundBy, equilibria};
-use motiform_study::Plan;
+use motiform_study::RunPlan;
 use serde_json::json;
 use std::fmt::Write;
 
 pub(crate) fn run(options: &EquilibriaOptions) -> anyhow::Result<End> {
-    let plan = Plan::new(&subject::motion(&options.motion)?)?;
+    let plan = RunPlan::new(&subject::motion(&options.motion)?)?;
     let watch = Progress::new(f64::from(options.starts), "starts");
     let found = equilibria(&plan, options.starts as usize, &watch);
     watch.finish();

@@ -6,7 +6,7 @@ use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_lab::draw::{files, scan_figures};
-use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals, default_folder};
+use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals};
 use motiform_study::{Error, ScanPlan, Study};
 use serde_json::json;
 use std::fmt::Write;
@@ -16,7 +16,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     let study = study(options)?;
     let (plan, units) = (ScanPlan::new(&study)?, options.units.of(Some(&study))?);
     let shard = options.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse)?;
-    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(default_folder(&plan)));
+    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(plan.default_folder()));
     let scan = Scan::open(&out, &plan, shard, Opening::of(options.resume, options.force))?;
     scan.notes().iter().for_each(|note| warn(note));
     for damaged in scan.damaged() {

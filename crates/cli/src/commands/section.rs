@@ -6,9 +6,9 @@ use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_dynamics::Direction;
 use motiform_lab::section::section;
+use motiform_store::columns::to_csv;
 use motiform_store::table::Table;
-use motiform_store::table_to_csv;
-use motiform_study::{Error, Plan};
+use motiform_study::{Error, RunPlan};
 use serde_json::{Map, Value, json};
 
 pub(crate) fn run(options: &SectionOptions) -> anyhow::Result<End> {
@@ -33,7 +33,7 @@ pub(crate) fn run(options: &SectionOptions) -> anyhow::Result<End> {
         });
         print(&serde_json::to_string(&object)?)?;
     } else {
-        print(String::from_utf8_lossy(&table_to_csv(&table)).trim_end())?;
+        print(String::from_utf8_lossy(&to_csv(&table.columns)).trim_end())?;
     }
     if !ending.is_complete() {
         warn(&format!("the run {ending}"));
@@ -41,11 +41,11 @@ pub(crate) fn run(options: &SectionOptions) -> anyhow::Result<End> {
     Ok(End::from(&ending.outcome))
 }
 
-fn plan(options: &SectionOptions) -> Result<Plan, Error> {
+fn plan(options: &SectionOptions) -> Result<RunPlan, Error> {
     let mut study = subject::motion(&options.motion)?;
     options.run.apply(&mut study.run)?;
     study.run.dt_out = 0.0; // there are no rows: those of a preset may be too many for this span
-    Plan::new(&study)
+    RunPlan::new(&study)
 }
 
 /// An object for each crossing.

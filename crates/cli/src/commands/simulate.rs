@@ -14,14 +14,14 @@ use motiform_lab::recorder::{Rows, Unwanted};
 use motiform_lab::simulate::{Run, columns, simulate_into};
 use motiform_store::table::Table;
 use motiform_store::{Format, Kind, Staged, StagedFile, TableWriter};
-use motiform_study::{Dataset, Error, Manifest, Plan, Study};
+use motiform_study::{Dataset, Error, Manifest, RunPlan, Study};
 use serde_json::json;
 use std::fmt::Write;
 use std::path::PathBuf;
 
 pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     film::check(&options.drawing.film)?;
-    let plan = Plan::new(&study(options)?)?;
+    let plan = RunPlan::new(&study(options)?)?;
     let target = Target::prepare(options, &plan)?;
     target.notes().iter().for_each(|note| warn(note));
     let c = &plan.computation;
@@ -83,11 +83,11 @@ enum Target {
 
 impl Target {
     /// Prepared before any computing, so that a wrong --out costs nothing.
-    fn prepare(options: &SimulateOptions, plan: &Plan) -> Result<Self, Error> {
+    fn prepare(options: &SimulateOptions, plan: &RunPlan) -> Result<Self, Error> {
         let out = match &options.out {
             Some(path) => path.clone(),
             None if options.json => return Ok(Self::Nowhere),
-            None => PathBuf::from(default_folder(plan)),
+            None => PathBuf::from(plan.default_folder()),
         };
         Ok(match Format::of_path(&out) {
             Some(format) => Self::Table(StagedFile::new(&out, Kind::Table, options.force)?, format),
@@ -105,7 +105,7 @@ impl Target {
     }
 
     /// Where the rows of the trajectory go.
-    fn rows(&self, options: &SimulateOptions, plan: &Plan) -> Result<Box<dyn Destination>, Error> {
+    fn rows(&self, options: &SimulateOptions, plan: &RunPlan) -> Result<Box<dyn Destination>, Error> {
         let (path, format) = match self {
             Self::Nowhere => return Ok(Box::new(Unwanted::default())),
             Self::Table(staged, format) => (staged.path(), *format),
@@ -215,11 +215,6 @@ fn pictures(
         }
     };
     figure::pictures(&Dataset { manifest, trajectory, crossings: run.crossings.clone() }, &options.drawing)
-}
-
-fn default_folder(plan: &Plan) -> String {
-    let model = &plan.computation.model;
-    if plan.name == model.as_str() { model.to_string() } else { format!("{model}-{}", plan.name) }
 }
 
 fn json(manifest: &Manifest) -> anyhow::Result<String> {

@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use motiform_lab::statistics::{Measurement, read, sentences, simulated_kept, summary, write};
 use motiform_statistics::Settings;
 use motiform_store::{Folder, Journal, Opening};
-use motiform_study::{Error, Plan, Shown, Study};
+use motiform_study::{Error, RunPlan, Shown, Study};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -23,7 +23,7 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
     } else {
         let (study, count) = (study(options)?, options.bodies.unwrap_or(BODIES));
         units = options.units.of(Some(&study))?;
-        let folder = open(options, Some((&Plan::new(&study)?, count)))?;
+        let folder = open(options, Some((&RunPlan::new(&study)?, count)))?;
         let found = bodies(options, &study, count, folder.as_ref());
         (folder, found)
     };
@@ -84,7 +84,7 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
 }
 
 /// Opens the output before any computing.
-fn open(options: &StatisticsOptions, bodies: Option<(&Plan, u64)>) -> Result<Option<Folder>, Error> {
+fn open(options: &StatisticsOptions, bodies: Option<(&RunPlan, u64)>) -> Result<Option<Folder>, Error> {
     let Some(out) = &options.out else { return Ok(None) };
     let folder = motiform_lab::statistics::open(out, Opening::of(options.resume, options.force), bodies)?;
     folder.notes().iter().for_each(|note| warn(note));

@@ -7,7 +7,7 @@ use motiform_lab::samples::Samples;
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::NAME;
 use motiform_study::presets::{self, Preset};
-use motiform_study::{Error, Plan, Random, Study};
+use motiform_study::{Error, Random, RunPlan, Study};
 use std::path::Path;
 
 /// The study of a command about one motion.
@@ -20,10 +20,10 @@ pub(crate) fn motion(options: &MotionOptions) -> Result<Study, Error> {
 }
 
 /// The plan of a study for the analysis of one motion, and the samples if there are several.
-pub(crate) fn plan(mut study: Study, many: &SamplesOptions) -> Result<(Plan, Option<Samples>), Error> {
+pub(crate) fn plan(mut study: Study, many: &SamplesOptions) -> Result<(RunPlan, Option<Samples>), Error> {
     let random = Random::of(study.random, many.samples.map_or(1, u64::from), study.info()?);
     study.random = Some(random); // the first of many is drawn like the others
-    let plan = Plan::new(&study)?;
+    let plan = RunPlan::new(&study)?;
     let samples = samples(many, &study, random);
     Ok((plan, samples))
 }

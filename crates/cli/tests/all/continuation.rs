@@ -189,7 +189,7 @@ fn the_folder_holds_points_summary_figures_and_the_plan() {
         folder.run(&format!("{ZIGZAG} kappa2=0.85:0.95 --branches 1 --out run")).expect_error(2).stderr;
     assert!(error.contains("exists"), "{error}");
     let error = folder.run(&format!("{ZIGZAG} kappa2=0.8:0.95 --out run --resume")).expect_error(2).stderr;
-    assert!(error.contains("other branches"), "{error}");
+    assert!(error.contains("branches of another plan (along.from: 0.85 there, 0.8 requested"), "{error}");
 }
 
 #[test]

@@ -158,7 +158,7 @@ fn bodies_of_another_plan_are_refused() {
     let done = folder
         .run("statistics tensor --preset fig5b --bodies 4 --t-end 50 --transient 0 --out found --resume")
         .expect(2);
-    assert!(done.stderr.contains("holds other"), "{}", done.stderr);
+    assert!(done.stderr.contains("another plan (bodies: 3 there, 4 requested)"), "{}", done.stderr);
     assert!(contents(&folder.path("found")) == before);
     folder.run(&format!("{words} --resume")).expect(0);
     assert!(contents(&folder.path("found")) == before);

@@ -39,7 +39,7 @@ fn its_motions_are_named() {
     for (k, regime, speed, turning) in
         [(0.3, "straight", 0.7_f64.sqrt(), 0.0), (0.9, "circular", 0.5_f64.sqrt(), 0.8_f64.sqrt() / 2.0)]
     {
-        let verdict = classify(&Plan::new(&study(k)).unwrap(), 0.0, &()).unwrap().unwrap();
+        let verdict = classify(&RunPlan::new(&study(k)).unwrap(), 0.0, &()).unwrap().unwrap();
         assert_eq!(verdict.regime.name(), regime);
         assert!((verdict.speed.unwrap().mean - speed).abs() < 1e-8);
         assert!((verdict.turning_rate.unwrap_or(0.0).abs() - turning).abs() < 1e-8);
@@ -52,13 +52,13 @@ fn its_studies_are_files() {
     let text = study(0.3).to_toml().unwrap();
     assert!(text.contains("[model.memory]"), "{text}");
     let read = Study::parse(&text, "memory.toml", "memory").unwrap();
-    assert_eq!(Plan::new(&read).unwrap().hash(), Plan::new(&study(0.3)).unwrap().hash());
+    assert_eq!(RunPlan::new(&read).unwrap().hash(), RunPlan::new(&study(0.3)).unwrap().hash());
 }
 
 /// On the circle: 0 along the orbit (its heading), and none above.
 #[test]
 fn its_exponents_are_computed() {
-    let found = lyapunov(&Plan::new(&study(0.9)).unwrap(), 4, (None, None), &()).unwrap();
+    let found = lyapunov(&RunPlan::new(&study(0.9)).unwrap(), 4, (None, None), &()).unwrap();
     let values: Vec<f64> = found.exponents.iter().map(|exponent| exponent.value).collect();
     assert!(values[0].abs() < 1e-3 && values[1] < 0.0, "{values:?}");
     // the sum is the mean divergence: 2 (gamma - 2 v^2) - 2/tau with v^2 = gamma - 1/tau
@@ -120,10 +120,10 @@ fn its_scans_are_resumed() {
 /// A result says which equations it has: others of the same name do not go on with it.
 #[test]
 fn other_equations_of_the_same_name_are_refused() {
-    let plan = Plan::new(&study(0.9)).unwrap();
+    let plan = RunPlan::new(&study(0.9)).unwrap();
     let text = serde_json::to_string(&plan).unwrap();
     let field = memory().field().unwrap();
-    let changed: Plan = serde_json::from_str(&text.replace(field, "0000000000000000")).unwrap();
+    let changed: RunPlan = serde_json::from_str(&text.replace(field, "0000000000000000")).unwrap();
     assert!(changed.body().err().unwrap().to_string().contains("other equations of the same name"));
     let again = About { name: "memory", ..About::default() };
     let other = register(&again, |parameters: &MemoryParameters| {

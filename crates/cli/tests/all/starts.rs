@@ -125,7 +125,7 @@ fn points_of_branches_lead_to_the_same_branch() {
     assert_eq!(before, std::fs::read(folder.path("orbit/points.parquet")).expect("points"));
     let other = "continue --start first:1:41 --along r=13:30 --branches 1 --out orbit --resume";
     let other = folder.run(other).expect_error(2);
-    assert!(other.stderr.contains("holds other branches"), "{}", other.stderr);
+    assert!(other.stderr.contains("branches of another plan (given.time: "), "{}", other.stderr);
 }
 
 /// A state of a dataset is simulated on, or taken as a guess of a steady motion, which may be unstable.

@@ -1,11 +1,11 @@
 //! Where neighbouring cells have different motions, and which bifurcation lies between them.
 
-use crate::atlas::AtlasPlan;
 use crate::atlas::grid::{Grid, rank};
 use crate::atlas::line::{Line, LineEnd, StabilityCurve};
 use crate::branches::draw::curve_stretches;
 use motiform_analysis::Regime;
 use motiform_continuation::ConnectionKind;
+use motiform_study::AtlasPlan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! The cells of a plane, with the motions found in each.
 
-use crate::atlas::AtlasPlan;
 use motiform_analysis::Regime;
+use motiform_study::AtlasPlan;
 use serde::{Deserialize, Serialize};
 
 /// A motion found in a cell.

@@ -1,11 +1,11 @@
 //! A line across the plane: the branches that begin with a motion of one of its cells, and where their motions begin and end.
 
-use crate::atlas::plan::AtlasPlan;
 use crate::curves::{FollowedCurve, follow_curve_within};
 use crate::{Allowance, BranchEnd, Branches, Sample, follow_within, is_stable};
 use motiform_analysis::Regime;
 use motiform_continuation::ConnectionKind;
 use motiform_dynamics::Watch;
+use motiform_study::AtlasPlan;
 use motiform_study::curves::CurveKind;
 use motiform_study::{CurvePlan, Error, ScanPlan};
 use serde::{Deserialize, Serialize};

@@ -1,9 +1,9 @@
 //! Connected parts of the plane with the same motions.
 
-use crate::atlas::AtlasPlan;
 use crate::atlas::boundary::descending;
 use crate::atlas::grid::Grid;
 use motiform_analysis::Regime;
+use motiform_study::AtlasPlan;
 
 /// A region.
 #[derive(Clone, Debug, PartialEq)]

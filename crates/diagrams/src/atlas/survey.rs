@@ -1,11 +1,11 @@
 //! The motions of all cells: a coarse grid first, then finer ones where neighbours differ.
 
-use crate::atlas::AtlasPlan;
 use crate::atlas::folder::parsed;
 use crate::atlas::grid::{Found, Grid, NUMBERS, Place};
 use motiform_dynamics::{Part, Watch};
 use motiform_lab::scan::{CellSummary, Classify, Row, rows_at};
 use motiform_store::Journal;
+use motiform_study::AtlasPlan;
 use motiform_study::{Error, ScanPlan};
 use std::path::Path;
 

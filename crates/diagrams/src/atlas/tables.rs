@@ -1,9 +1,9 @@
 //! The cells and the curves as tables.
 
-use crate::atlas::AtlasPlan;
 use crate::atlas::grid::{Grid, NUMBERS};
 use crate::atlas::line::Line;
 use motiform_store::columns::{Column, Values};
+use motiform_study::AtlasPlan;
 
 fn whole(values: impl Iterator<Item = usize>) -> Values {
     Values::Whole(values.map(|value| i64::try_from(value).unwrap_or(i64::MAX)).collect())
@@ -36,7 +36,7 @@ pub fn cell_columns(plan: &AtlasPlan, grid: &Grid) -> Vec<Column> {
     all.push(Column::new("computed", computed, whole(is_computed)));
     for (place, (name, meaning)) in NUMBERS.iter().enumerate() {
         let values = rows.iter().map(|row| row.2.numbers[place].unwrap_or(f64::NAN)).collect();
-        all.push(Column::new(name, meaning, Values::Number(values)));
+        all.push(Column::new(name, *meaning, Values::Number(values)));
     }
     all
 }

@@ -27,7 +27,7 @@ pub(crate) mod summary;
 pub mod sweep;
 mod table;
 
-pub use folder::{BranchFolder, default_folder};
+pub use folder::BranchFolder;
 pub use follow::{Keep, follow, follow_kept, follow_within};
 pub use motiform_continuation::{Allowance, Coefficient, End as BranchEnd, stated};
 pub use origin::Origin;

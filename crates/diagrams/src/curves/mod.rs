@@ -12,7 +12,7 @@ mod follow;
 mod summary;
 mod table;
 
-pub use folder::{CurveFolder, default_curve_folder};
+pub use folder::CurveFolder;
 pub use follow::{
     CurveLeg, CurveSample, Curves, FollowedCurve, follow_curve, follow_curve_within, follow_curves,
     follow_curves_kept,

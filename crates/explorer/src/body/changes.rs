@@ -7,7 +7,7 @@ use crate::protocol::Put;
 use motiform_dynamics::Normal;
 use motiform_lab::live::start;
 use motiform_study::plan::check;
-use motiform_study::{Error, Plan, Random};
+use motiform_study::{Error, Random, RunPlan};
 use std::collections::BTreeMap;
 
 /// The strongest kick, relative to the shape.
@@ -117,7 +117,7 @@ impl Setting {
 
     /// The body at its initial state, without the transient, but with these coordinates of the shape.
     pub(super) fn started(&self, coordinates: &BTreeMap<String, f64>, radius: f64) -> Result<Self, Error> {
-        let plan = Plan::new(self.study())?;
+        let plan = RunPlan::new(self.study())?;
         let mut state = start(&plan, self.model());
         if !coordinates.is_empty() {
             state = self.with_coordinates(&plan, &state, coordinates)?;
@@ -128,7 +128,7 @@ impl Setting {
     /// A state with other values of these coordinates of the shape.
     fn with_coordinates(
         &self,
-        plan: &Plan,
+        plan: &RunPlan,
         state: &[f64],
         coordinates: &BTreeMap<String, f64>,
     ) -> Result<Vec<f64>, Error> {

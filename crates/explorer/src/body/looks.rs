@@ -8,7 +8,7 @@ use crate::protocol::{Export, Section, SectionKind, Spectrum, Strips};
 use motiform_dynamics::Outcome;
 use motiform_lab::draw;
 use motiform_lab::live::{Record, dataset, spectra};
-use motiform_store::table_to_csv;
+use motiform_store::columns::to_csv;
 use motiform_study::{Dataset, Study};
 
 /// The motion since the last change.
@@ -101,7 +101,7 @@ pub(super) fn maker(look: &Look<'_>, export: &Export) -> Option<Maker> {
         }
         ("motion", "csv") => {
             let dataset = look.dataset(section);
-            Box::new(move || Ok(dataset.map(|dataset| Made::Bytes(table_to_csv(&dataset.trajectory)))))
+            Box::new(move || Ok(dataset.map(|dataset| Made::Bytes(to_csv(&dataset.trajectory.columns)))))
         }
         ("body", "apng") => {
             let dataset = look.dataset(section);

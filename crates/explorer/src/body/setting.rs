@@ -9,7 +9,7 @@ use motiform_lab::draw::radius_for;
 use motiform_lab::live::{Record, Stretch, settled};
 use motiform_study::plan::check;
 use motiform_study::study::{DisplaySettings, ReturnMapSettings};
-use motiform_study::{Error, Plan, Study};
+use motiform_study::{Error, RunPlan, Study};
 use std::rc::Rc;
 use std::time::Duration;
 
@@ -32,8 +32,8 @@ pub(crate) struct Setting {
     /// The study as started: a restart uses its initial state.
     study: Study,
     /// From the state below, with the noise and without.
-    plan: Plan,
-    quiet: Plan,
+    plan: RunPlan,
+    quiet: RunPlan,
     model: Box<dyn Model>,
     revision: u32,
     t: f64,
@@ -63,7 +63,7 @@ impl Setting {
             check_noise(noise, study.run.noise)?;
             (study.run.noise, study.run.noise_velocity) = (noise, None);
         }
-        let plan = Plan::new(&study)?;
+        let plan = RunPlan::new(&study)?;
         let model = plan.body()?;
         let state = match &begin.state {
             Some(coordinates) => state_of(model.as_ref(), coordinates, begin.position.unwrap_or_default())?,
@@ -86,9 +86,9 @@ impl Setting {
         let model = study.body()?;
         within(t, &state, model.dim())?;
         let mut now = at(&study, model.as_ref(), &state);
-        let plan = Plan::new(&now)?;
+        let plan = RunPlan::new(&now)?;
         now.run.silence();
-        let quiet = Plan::new(&now)?;
+        let quiet = RunPlan::new(&now)?;
         Ok(Self { model_name, preset, origin, study, plan, quiet, model, revision, t, state, radius: 0.0 })
     }
 
@@ -141,7 +141,7 @@ impl Setting {
         self.model.as_ref()
     }
 
-    pub(crate) fn plan(&self) -> &Plan {
+    pub(crate) fn plan(&self) -> &RunPlan {
         &self.plan
     }
 
@@ -172,7 +172,7 @@ impl Setting {
     pub(crate) fn motion_at(&self, state: &[f64]) -> Result<Motion, Error> {
         let mut study = self.study_at(state);
         study.run.silence();
-        Ok(Motion { revision: self.revision, plan: Plan::new(&study)?, again: true })
+        Ok(Motion { revision: self.revision, plan: RunPlan::new(&study)?, again: true })
     }
 
     /// The study that continues from a state.

@@ -11,7 +11,7 @@ use motiform_lab::analyse;
 use motiform_lab::live::{Record, Stretch, start};
 use motiform_lab::scan::Row;
 use motiform_study::plan::check;
-use motiform_study::{Error, Plan, Random};
+use motiform_study::{Error, Random, RunPlan};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -44,7 +44,7 @@ pub(crate) struct Swarms {
 #[derive(Serialize, Deserialize)]
 struct Job {
     revision: u32,
-    plans: Vec<Option<Plan>>,
+    plans: Vec<Option<RunPlan>>,
 }
 
 /// Classifies all bodies, on all cores. Its reports are messages to the page.
@@ -87,7 +87,7 @@ impl Task for Classification {
 }
 
 /// The motion that a body ends in; `None` if this was stopped.
-fn regime(plan: &Plan, watch: &dyn Watch) -> Option<Regime> {
+fn regime(plan: &RunPlan, watch: &dyn Watch) -> Option<Regime> {
     Row::of_evaluation(0, 0, analyse::classify(plan, 0.0, watch)).map(|row| row.regime)
 }
 
@@ -177,7 +177,7 @@ impl<'s> Swimmers<'s> {
             let plan = |state: &Vec<f64>| {
                 let mut study = setting.study_at(state);
                 study.run.silence();
-                Plan::new(&study).ok()
+                RunPlan::new(&study).ok()
             };
             let plans = states.iter().map(plan).collect();
             swarms.worker.put(Job { revision: setting.revision(), plans });
@@ -237,7 +237,7 @@ fn begins(wish: Swarm, k: u16, setting: &Setting, state: &[f64]) -> Result<Vec<f
             study.random = Some(Random::basins(study.info()?));
             study.run.transient = 0.0;
             study.run.seed = u64::from(k) + 1;
-            let random = start(&Plan::new(&study)?, setting.model());
+            let random = start(&RunPlan::new(&study)?, setting.model());
             begun[..dim].copy_from_slice(&random[..dim]);
         }
     }

@@ -7,7 +7,7 @@ use super::store::Store;
 use crate::protocol::Side;
 use motiform_lab::scan::{Axis, Row, ScanComputation};
 use motiform_models::parameters::index_of;
-use motiform_study::{Error, Plan, ScanPlan, Study};
+use motiform_study::{Error, RunPlan, ScanPlan, Study};
 
 /// Maximum and minimum number of cells along an axis.
 const COUNTS: (u16, u16) = (8, 160);
@@ -167,7 +167,7 @@ fn of_map(study: &Study, axes: Vec<Axis>) -> Result<Study, Error> {
     if varies_start || study.initial.is_empty() && !axes.iter().any(|axis| axis.name == "modes") {
         study.scan.axes = Vec::new();
         let complete = if varies_start { study.perturbed()?.0 } else { study.clone() };
-        study.initial = Plan::new(&complete)?.computation.initial.0;
+        study.initial = RunPlan::new(&complete)?.computation.initial.0;
     }
     study.scan.samples = 1;
     study.scan.axes = axes;

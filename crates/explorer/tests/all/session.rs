@@ -8,7 +8,7 @@ use common::{Page, Running};
 use motiform_lab::analyse;
 use motiform_models::ModelInfo;
 use motiform_study::presets::PRESETS;
-use motiform_study::{Plan, Study, presets};
+use motiform_study::{RunPlan, Study, presets};
 use serde_json::Value;
 use std::time::Duration;
 use tungstenite::Message;
@@ -259,7 +259,7 @@ fn files_are_what_they_are_called() {
     let study = Study::parse(&toml, "study.toml", "study").unwrap();
     let now = page.advance(0.0).coordinates;
     assert_eq!(study.initial[..6].iter().map(|entry| entry.1).collect::<Vec<_>>(), now);
-    Plan::new(&study).unwrap();
+    RunPlan::new(&study).unwrap();
 }
 
 /// The strips of Fig. 3 from the page: a closed curve of many points, and spectra with the right names.
@@ -352,7 +352,7 @@ fn named(page: &mut Page, revision: u64) -> String {
 }
 
 fn classified(study: &Study) -> String {
-    let verdict = analyse::classify(&Plan::new(study).unwrap(), 0.0, &()).unwrap().unwrap();
+    let verdict = analyse::classify(&RunPlan::new(study).unwrap(), 0.0, &()).unwrap().unwrap();
     verdict.regime.name().to_owned()
 }
 

@@ -8,6 +8,7 @@ use crate::pool::{Keeping, complete};
 use follow::{End, Followed, Follower};
 use motiform_analysis::{LifeCount, LifeLaws, MeanLife, Stay, compare_life_laws, mean_life};
 use motiform_dynamics::Watch;
+use motiform_store::Kind;
 use motiform_study::plan::check;
 use motiform_study::units::TIME;
 use motiform_study::{Dimension, Error, ScanPlan, input};
@@ -89,6 +90,9 @@ pub fn lifetimes(
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lives {
     plan_hash: String,
+    /// Absent in what version 0.2.0 left unfinished.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    plan: Option<ScanPlan>,
     orbits: Vec<Option<Followed>>,
 }
 
@@ -117,13 +121,13 @@ pub fn follow_lives_kept(
     keep: &(dyn Fn(&Lives) -> Result<(), Error> + Sync),
     watch: &dyn Watch,
 ) -> Result<Lives, Error> {
-    let keep = |orbits: &[Option<Followed>]| keep(&Lives { plan_hash: plan.hash(), orbits: orbits.to_vec() });
+    let keep = |orbits: &[Option<Followed>]| keep(&Lives::of(plan, orbits.to_vec()));
     let keeping = Keeping { every: KEPT_EVERY, keep: &keep };
     let follower = Follower::new(plan, looks(plan)? as usize, watch)?;
     let mut orbits = before.map_or_else(Vec::new, |lives| lives.orbits);
     orbits.resize(plan.rows(), None);
     let orbits = complete(orbits, threads, keeping, watch, |jobs| follower.run(jobs))?;
-    Ok(Lives { plan_hash: plan.hash(), orbits })
+    Ok(Lives::of(plan, orbits))
 }
 
 /// The longest time of an orbit, in whole looks of the model.
@@ -133,17 +137,24 @@ fn looks(plan: &ScanPlan) -> Result<f64, Error> {
 }
 
 impl Lives {
+    fn of(plan: &ScanPlan, orbits: Vec<Option<Followed>>) -> Self {
+        Self { plan_hash: plan.hash(), plan: Some(plan.clone()), orbits }
+    }
+
     /// Reads the lives of `plan` from a file, to go on with.
     ///
     /// # Errors
-    /// [`Error::Store`]; [`Error::OtherBranches`] for another plan.
+    /// [`Error::Store`]; [`Error::OtherPlan`] for another plan.
     pub fn read(path: &Path, plan: &ScanPlan) -> Result<Self, Error> {
         let text = input::manifest(path).map_err(|error| Error::unreadable(path, error))?;
         let lives: Self = serde_json::from_str(&text).map_err(|error| Error::unreadable(path, error))?;
         if lives.plan_hash == plan.hash() && lives.orbits.len() == plan.rows() {
             Ok(lives)
         } else {
-            Err(Error::OtherBranches { path: path.to_owned() })
+            let differences =
+                lives.plan.map_or_else(|| "other settings".to_owned(), |there| there.differences(plan));
+            let path = path.parent().unwrap_or(path).to_owned();
+            Err(Error::OtherPlan { path, kind: Kind::Lifetimes, differences })
         }
     }
 

@@ -6,7 +6,7 @@ use motiform_dynamics::{InPlane, Model, Outcome};
 use motiform_models::ModelInfo;
 use motiform_store::table::same_bits;
 use motiform_study::study::ReturnMapSettings;
-use motiform_study::{Plan, Study, presets};
+use motiform_study::{RunPlan, Study, presets};
 use std::time::Duration;
 
 const PLENTY: Duration = Duration::from_secs(60);
@@ -15,7 +15,7 @@ fn study(model: &str, preset: &str) -> Study {
     presets::find(ModelInfo::find(model).unwrap(), preset).unwrap()
 }
 
-fn built(plan: &Plan) -> (Box<dyn Model>, Vec<f64>) {
+fn built(plan: &RunPlan) -> (Box<dyn Model>, Vec<f64>) {
     let model = plan.body().unwrap();
     let values = plan.computation.initial.values();
     let mut state = values.clone();
@@ -24,7 +24,7 @@ fn built(plan: &Plan) -> (Box<dyn Model>, Vec<f64>) {
 }
 
 /// Moves a plan's body to its end in looks of length `look`.
-fn watched(plan: &Plan, look: f64) -> (Record, Box<dyn Model>, Option<Outcome>, Vec<f64>) {
+fn watched(plan: &RunPlan, look: f64) -> (Record, Box<dyn Model>, Option<Outcome>, Vec<f64>) {
     let (model, state) = built(plan);
     let mut record = Record::new(model.as_ref(), 0.0, 100_000);
     let (outcome, end) = {
@@ -46,7 +46,7 @@ fn looking_does_not_change_the_motion() {
     for (model, preset, t_end) in [("tensor", "fig5b", 30.0), ("cell", "fig6a", 100.0)] {
         let mut study = study(model, preset);
         (study.run.transient, study.run.t_end) = (0.0, t_end);
-        let plan = Plan::new(&study).unwrap();
+        let plan = RunPlan::new(&study).unwrap();
         let simulated = simulate(&plan, &()).unwrap();
         let once = watched(&plan, t_end);
         let often = watched(&plan, 0.037 * t_end);
@@ -68,7 +68,7 @@ fn looking_does_not_change_the_motion() {
 /// A record forgets the oldest samples, and its memory is bounded.
 #[test]
 fn a_record_keeps_the_last_samples() {
-    let plan = Plan::new(&study("tensor", "fig5a")).unwrap();
+    let plan = RunPlan::new(&study("tensor", "fig5a")).unwrap();
     let (model, state) = built(&plan);
     let body = InPlane(model.as_ref());
     let mut record = Record::new(model.as_ref(), 0.0, 50);
@@ -86,7 +86,7 @@ fn a_record_keeps_the_last_samples() {
 /// Short of time, a body is shown where it got to.
 #[test]
 fn a_body_that_is_late_says_so() {
-    let plan = Plan::new(&study("tensor", "fig5b")).unwrap();
+    let plan = RunPlan::new(&study("tensor", "fig5b")).unwrap();
     let (model, state) = built(&plan);
     let body = InPlane(model.as_ref());
     let mut record = Record::new(model.as_ref(), 0.0, 50);
@@ -105,7 +105,7 @@ fn a_blow_up_is_an_end() {
         study.set_initial(name, value).unwrap();
     }
     (study.run.transient, study.run.dt_out) = (0.0, 0.001);
-    let plan = Plan::new(&study).unwrap();
+    let plan = RunPlan::new(&study).unwrap();
     let (_, _, outcome, _) = watched(&plan, 1.0);
     let simulated = simulate(&plan, &()).unwrap().manifest.outcome.outcome;
     assert!(matches!(simulated, Outcome::Escaped { singular: true, .. }));
@@ -117,7 +117,7 @@ fn a_blow_up_is_an_end() {
 fn crossings_of_the_path_are_those_of_the_run() {
     let mut study = study("tensor", "fig3");
     (study.run.transient, study.run.t_end) = (3000.0, 9000.0);
-    let plan = Plan::new(&study).unwrap();
+    let plan = RunPlan::new(&study).unwrap();
     let dataset = simulate(&plan, &()).unwrap();
     let expected = dataset.crossings.as_ref().unwrap().get("x").unwrap().to_vec();
     // The same motion from the start of the recording, which the run moved to put its centre on the origin.
@@ -126,7 +126,7 @@ fn crossings_of_the_path_are_those_of_the_run() {
         study.set_initial(name, row(name)).unwrap();
     }
     study.run.transient = 0.0;
-    let plan = Plan::new(&study).unwrap();
+    let plan = RunPlan::new(&study).unwrap();
     let (record, model, _, _) = watched(&plan, 11.0);
     let settings = plan.computation.return_map.clone().unwrap();
     let (found, centre) = crossings_of_path(&record, model.as_ref(), &settings);
@@ -146,13 +146,13 @@ fn crossings_of_the_path_are_those_of_the_run() {
 fn maxima_and_spectra_of_a_periodic_motion() {
     let mut study = study("tensor", "fig5a");
     (study.run.transient, study.run.t_end) = (1000.0, 1500.0);
-    let plan = Plan::new(&study).unwrap();
+    let plan = RunPlan::new(&study).unwrap();
     let after = simulate(&plan, &()).unwrap();
     for name in ["v1", "v2", "s11", "s12", "u111", "u222"] {
         study.set_initial(name, after.trajectory.get(name).unwrap()[0]).unwrap();
     }
     study.run.transient = 0.0;
-    let plan = Plan::new(&study).unwrap();
+    let plan = RunPlan::new(&study).unwrap();
     let (record, model, _, _) = watched(&plan, 3.0);
     let maxima = maxima_of_speed(&record);
     let highest = maxima.iter().copied().fold(0.0, f64::max);

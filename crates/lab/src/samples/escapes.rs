@@ -9,7 +9,7 @@ use motiform_dynamics::drive::drive;
 use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Outcome, Request, StopOnly};
 use motiform_kernels::Kernel;
-use motiform_study::{Error, Plan};
+use motiform_study::{Error, RunPlan};
 use serde::Serialize;
 
 /// Maximum number of chaotic starts that are followed: enough for a rate, and fast.
@@ -65,7 +65,7 @@ impl Escapes {
     /// # Errors
     /// Input that only the numerics can reject.
     pub fn of_verdicts(
-        plan: &Plan,
+        plan: &RunPlan,
         samples: Samples,
         verdicts: &[Verdict],
         budget: f64,
@@ -96,7 +96,7 @@ impl Escapes {
     ///
     /// # Errors
     /// An unknown model.
-    pub fn of_orbits(plan: &Plan, orbits: &[Lyapunov]) -> Result<Option<Self>, Error> {
+    pub fn of_orbits(plan: &RunPlan, orbits: &[Lyapunov]) -> Result<Option<Self>, Error> {
         let chaotic =
             |orbit: &&Lyapunov| orbit.separates() || matches!(orbit.outcome, Outcome::Escaped { .. });
         let look = plan.info()?.look;
@@ -208,7 +208,7 @@ fn rate(gone: &[f64], stays: &[Stay], look: f64) -> Option<EscapeLimits> {
 }
 
 /// How long the members of the population remain, up to `until`; `None` if the watch stopped it.
-fn follow(plan: &Plan, population: &Population<'_>, until: f64) -> Result<Option<Vec<Stay>>, Error> {
+fn follow(plan: &RunPlan, population: &Population<'_>, until: f64) -> Result<Option<Vec<Stay>>, Error> {
     let (method, c) = (plan.method()?, &plan.computation);
     let model = population.model.as_ref();
     population.run(|asked| {
@@ -273,8 +273,8 @@ mod tests {
     /// An exponent of two and a half errors is no chaos, and neither is a growth by e^8: no orbit is watched for its escape.
     #[test]
     fn orbits_count_as_chaotic_by_the_rule_of_the_classifier() {
-        let plan =
-            Plan::new(&motiform_study::Study::parse("preset = \"fig5b\"", "text", "test").unwrap()).unwrap();
+        let plan = RunPlan::new(&motiform_study::Study::parse("preset = \"fig5b\"", "text", "test").unwrap())
+            .unwrap();
         let orbit = |value, error, time| Lyapunov {
             exponents: vec![motiform_analysis::Estimate { value, error }],
             neutral: 2,

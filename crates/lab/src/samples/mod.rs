@@ -12,7 +12,7 @@ use motiform_dynamics::Watch;
 use motiform_dynamics::{Outcome, StopOnly};
 use motiform_kernels::{Kernel, Row, classify_rows, exponents_of_body, has_exponents};
 use motiform_study::plan::check;
-use motiform_study::{Error, Plan, Random};
+use motiform_study::{Error, Random, RunPlan};
 use population::{Asked, Population};
 use serde::Serialize;
 pub use shares::{Basins, MotionShare, Starts};
@@ -44,7 +44,7 @@ impl Samples {
 /// # Errors
 /// Input that only the numerics can reject.
 pub fn classify(
-    plan: &Plan,
+    plan: &RunPlan,
     samples: Samples,
     budget: f64,
     watch: &dyn Watch,
@@ -61,7 +61,12 @@ pub fn classify(
     })
 }
 
-fn classify_in_lanes(plan: &Plan, kernel: Kernel, settings: &Settings, asked: &Asked<'_, '_, '_, Verdict>) {
+fn classify_in_lanes(
+    plan: &RunPlan,
+    kernel: Kernel,
+    settings: &Settings,
+    asked: &Asked<'_, '_, '_, Verdict>,
+) {
     let mut next = || {
         let (key, start) = asked.next()?;
         let body = plan.body().ok()?;
@@ -92,7 +97,7 @@ pub struct Exponents {
 /// # Errors
 /// As [`analyse::lyapunov`].
 pub fn lyapunov(
-    plan: &Plan,
+    plan: &RunPlan,
     samples: Samples,
     count: usize,
     spans: (Option<f64>, Option<f64>),
@@ -204,8 +209,8 @@ mod tests {
     use super::*;
     use motiform_study::Study;
 
-    fn plan(text: &str) -> Plan {
-        Plan::new(&Study::parse(text, "text", "test").unwrap()).unwrap()
+    fn plan(text: &str) -> RunPlan {
+        RunPlan::new(&Study::parse(text, "text", "test").unwrap()).unwrap()
     }
 
     fn samples(count: usize, threads: usize) -> Samples {

@@ -1,12 +1,13 @@
 //! Merging of folders with shards of one scan.
 
-use super::folder::{MANIFEST, ScanFolder, differences, manifest};
+use super::folder::{ScanFolder, ScanManifest};
 use super::part::PartError;
 use super::rows::same_rows;
 use super::{Parts, ScanPlan, read_part};
 use motiform_store::Error as StoreError;
 use motiform_store::{Kind, Staged};
-use motiform_study::Error;
+use motiform_study::scan::ScanComputation;
+use motiform_study::{Error, Question as _};
 use std::path::{Path, PathBuf};
 
 /// The result of a merge.
@@ -25,7 +26,7 @@ pub struct Merged {
 ///
 /// # Errors
 /// [`Error::Unmergeable`] for folders of different scans, [`Error::Conflict`] for a part that two folders contain with
-/// different numbers, [`Error::NoScan`], and errors of writing.
+/// different numbers, [`Error::NoResult`], and errors of writing.
 pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Error> {
     let folders = folders.iter().map(|path| ScanFolder::read(path)).collect::<Result<Vec<_>, _>>()?;
     let Some((first, others)) = folders.split_first() else {
@@ -36,7 +37,7 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Err
             return Err(Error::Unmergeable {
                 first: other.path().to_owned(),
                 second: first.path().to_owned(),
-                differences: differences(other.plan(), first.plan()),
+                differences: other.plan().differences(first.plan()),
             });
         }
     }
@@ -45,7 +46,7 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged, Err
         return Err(StoreError::Exists { path: out.to_owned() }.into());
     }
     let staged = Staged::new(out, Kind::Scan, force)?;
-    staged.write(MANIFEST, &manifest(plan, out)?)?;
+    staged.write(ScanComputation::MANIFEST, &ScanManifest::new(plan, None).encode(out)?)?;
     let sources: Vec<Parts> = folders.iter().map(ScanFolder::parts).collect();
     let mut merged = Merged { missing: 0, damaged: Vec::new(), notes: staged.notes().to_vec() };
     for part in 0..plan.parts() {

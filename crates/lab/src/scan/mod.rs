@@ -19,7 +19,7 @@ mod table;
 mod work;
 
 pub use evaluate::{Classify, Done, Evaluate};
-pub use folder::{ScanFolder, ScanManifest, default_folder};
+pub use folder::{ScanFolder, ScanManifest};
 pub use merge::{Merged, merge};
 pub use motiform_store::Opening;
 pub use motiform_study::scan::{Axis, SCAN_FORMAT, ScanComputation, ScanPlan, Shard};

@@ -166,7 +166,7 @@ pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
     ));
     for (place, (name, meaning, _)) in NUMBERS.iter().enumerate() {
         let values = rows.iter().map(|row| row.numbers[place]).collect();
-        columns.push(Column::new(name, meaning, Values::Number(values)));
+        columns.push(Column::new(name, *meaning, Values::Number(values)));
     }
     columns.push(Column::new("why", "the evidence in one sentence", text(|row| &row.why)));
     columns

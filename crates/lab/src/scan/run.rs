@@ -1,14 +1,15 @@
 //! The folder of a scan that is being computed: opening it, finding missing parts, storing results.
 
 use super::evaluate::Evaluate;
-use super::folder::{MANIFEST, ScanFolder, differences, manifest};
+use super::folder::ScanFolder;
 use super::part::PartError;
 use super::work::{Ended, Store, compute};
 use super::{Row, ScanPlan, Shard};
 use motiform_dynamics::Watch;
 use motiform_store::{Error as StoreError, Inventory};
 use motiform_store::{Folder, Kind, Opening};
-use motiform_study::Error;
+use motiform_study::scan::ScanComputation;
+use motiform_study::{Error, Question as _};
 use std::path::Path;
 
 /// A scan that is being computed. While it lives, no other process computes in its folder.
@@ -27,35 +28,19 @@ impl Scan {
     /// Opens the folder of a scan, creating it if it does not exist, and checks the parts in it.
     ///
     /// # Errors
-    /// [`Error::Store`] where it exists, is not ours, is used by others or cannot be written; [`Error::NoScan`], [`Error::OtherScan`].
+    /// [`Error::Store`] where it exists, is not ours, is used by others or cannot be written; [`Error::NoResult`], [`Error::OtherPlan`].
     pub fn open(path: &Path, plan: &ScanPlan, shard: Shard, opening: Opening) -> Result<Self, Error> {
         if opening == Opening::Resume && path.exists() {
-            return Self::resume(path, plan, shard);
-        }
-        let files = Folder::open(path, Kind::Scan, opening, &[(MANIFEST, &manifest(plan, path)?)])?;
-        let whole = vec![false; plan.parts()];
-        Ok(Self { folder: ScanFolder::read(path)?, shard, whole, damaged: Vec::new(), files })
-    }
-
-    fn resume(path: &Path, plan: &ScanPlan, shard: Shard) -> Result<Self, Error> {
-        let folder = ScanFolder::read(path)?;
-        if folder.plan().hash() != plan.hash() {
-            let differences = differences(folder.plan(), plan);
-            return Err(Error::OtherScan { path: path.to_owned(), differences });
-        }
-        if Inventory::read(path)?.is_none() {
-            adopt(&folder)?;
-        }
-        let files = Folder::resume(path, Kind::Scan)?;
-        let parts = folder.parts();
-        let (mut whole, mut damaged) = (vec![false; plan.parts()], Vec::new());
-        for (part, whole) in whole.iter_mut().enumerate().filter(|(part, _)| shard.holds(*part)) {
-            match parts.check(part) {
-                Ok(_) => *whole = true,
-                Err(PartError::Missing) => {}
-                Err(PartError::Damaged(how)) => damaged.push(how),
-                Err(PartError::InTheWay(path)) => return Err(Error::InTheWay { path }),
+            plan.check_folder(path)?;
+            if Inventory::read(path)?.is_none() {
+                adopt(&ScanFolder::read(path)?)?;
             }
+        }
+        let (files, earlier) = plan.open(path, opening, None)?;
+        let folder = ScanFolder::read(path)?;
+        let (mut whole, mut damaged) = (vec![false; plan.parts()], Vec::new());
+        if earlier {
+            (whole, damaged) = survey(&folder, shard)?;
         }
         Ok(Self { folder, shard, whole, damaged, files })
     }
@@ -169,11 +154,27 @@ impl Store for Scan {
     }
 }
 
+/// The parts of a shard that are there and undamaged, and descriptions of the damaged ones.
+fn survey(folder: &ScanFolder, shard: Shard) -> Result<(Vec<bool>, Vec<String>), Error> {
+    let parts = folder.parts();
+    let (mut whole, mut damaged) = (vec![false; folder.plan().parts()], Vec::new());
+    for (part, whole) in whole.iter_mut().enumerate().filter(|(part, _)| shard.holds(*part)) {
+        match parts.check(part) {
+            Ok(_) => *whole = true,
+            Err(PartError::Missing) => {}
+            Err(PartError::Damaged(how)) => damaged.push(how),
+            Err(PartError::InTheWay(path)) => return Err(Error::InTheWay { path }),
+        }
+    }
+    Ok((whole, damaged))
+}
+
 /// Gives a scan of an earlier version its inventory: its manifest gives the hash of its plan, and whole parts give their own digests.
 fn adopt(folder: &ScanFolder) -> Result<(), Error> {
     let parts = folder.parts();
     let whole = (0..folder.plan().parts()).filter(|&part| parts.check(part).is_ok());
-    let names: Vec<String> =
-        std::iter::once(MANIFEST.to_owned()).chain(whole.map(|part| parts.name(part))).collect();
+    let names: Vec<String> = std::iter::once(ScanComputation::MANIFEST.to_owned())
+        .chain(whole.map(|part| parts.name(part)))
+        .collect();
     Ok(Folder::adopt(folder.path(), Kind::Scan, &names)?)
 }

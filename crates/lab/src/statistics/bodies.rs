@@ -10,7 +10,7 @@ use crate::statistics::record::{Measurement, Recorder, measured, title};
 use motiform_dynamics::{Model, Outcome, Part, StopOnly, Watch};
 use motiform_statistics::{Settings, Track};
 use motiform_store::Journal;
-use motiform_study::{Error, Plan, Study};
+use motiform_study::{Error, RunPlan, Study};
 use serde_json::json;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -92,7 +92,7 @@ pub fn simulated_kept(
 }
 
 /// The plan of each body.
-fn plans(study: &Study, count: usize) -> Result<Vec<Plan>> {
+fn plans(study: &Study, count: usize) -> Result<Vec<RunPlan>> {
     if !(1..=MOST).contains(&count) {
         let remedy = "give a number from 1 to 100000";
         return Err(Error::Setting { key: "bodies", value: count.to_string(), remedy }.into());
@@ -101,13 +101,13 @@ fn plans(study: &Study, count: usize) -> Result<Vec<Plan>> {
     study.return_map = None; // its second pass would be for nothing
     let first = study.run.seed;
     let given = study.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
-    if count > 1 && given && Plan::new(&study)?.computation.noise.is_none() {
+    if count > 1 && given && RunPlan::new(&study)?.computation.noise.is_none() {
         let remedy = "without noise all bodies with this start are the same: leave out the initial values, or give noise";
         return Err(Error::Setting { key: "bodies", value: count.to_string(), remedy }.into());
     }
     let plan = |body: usize| {
         study.run.seed = first.wrapping_add(body as u64);
-        Plan::new(&study)
+        RunPlan::new(&study)
     };
     Ok((0..count).map(plan).collect::<std::result::Result<_, _>>()?)
 }
@@ -116,9 +116,9 @@ fn plans(study: &Study, count: usize) -> Result<Vec<Plan>> {
 pub(crate) type Body = Option<(Outcome, Track)>;
 
 /// Runs of their own, with noise, of models without lanes.
-fn one_by_one(plans: &[Plan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
+fn one_by_one(plans: &[RunPlan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
     let done = AtomicUsize::new(0);
-    let run = |&(number, plan): &(usize, &Plan)| {
+    let run = |&(number, plan): &(usize, &RunPlan)| {
         if watch.stopped() {
             return Ok(None);
         }
@@ -138,12 +138,12 @@ fn one_by_one(plans: &[Plan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch
         }
         Ok(body)
     };
-    let plans: Vec<(usize, &Plan)> = plans.iter().enumerate().collect();
+    let plans: Vec<(usize, &RunPlan)> = plans.iter().enumerate().collect();
     Ok(pool::each(&plans, threads, &(), run)?) // the watch is asked above: what is finished is kept
 }
 
 /// Tracks of an ensemble, some bodies at a time.
-fn in_lanes(plans: &[Plan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
+fn in_lanes(plans: &[RunPlan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch) -> Result<Vec<Body>> {
     plans[0].check_in_memory()?;
     let c = &plans[0].computation;
     let rows = (c.t_end / c.dt_out * (1.0 + 1e-12)).floor() as usize;
@@ -173,7 +173,7 @@ fn in_lanes(plans: &[Plan], kept: &Kept<'_>, threads: usize, watch: &dyn Watch) 
     Ok(found)
 }
 
-fn member(plan: &Plan) -> Member {
+fn member(plan: &RunPlan) -> Member {
     let c = &plan.computation;
     Member { parameters: c.parameters.values(), start: c.initial.values() }
 }

@@ -10,7 +10,7 @@ use motiform_lab::samples::{self, Samples};
 use motiform_lab::{analyse, scan::Axis};
 use motiform_models::amplitudes::{Definition, NAME, ParameterDefinition, info};
 use motiform_study::presets::{find_any, names_of};
-use motiform_study::{Plan, Random, ScanPlan, Study};
+use motiform_study::{Random, RunPlan, ScanPlan, Study};
 
 /// All terms of the tensor model: (Z1), (Z2), (Z3) with the paper's table of coefficients.
 const TENSOR: [&str; 3] = [
@@ -50,11 +50,11 @@ fn rows_of_amplitude_equations_are_those_of_single_orbits() {
 #[test]
 fn samples_exponents_and_tracks_are_those_of_single_orbits() {
     for name in ["chiral", "force"] {
-        check_samples(&Plan::new(&find_any(name, NAME).unwrap()).unwrap());
+        check_samples(&RunPlan::new(&find_any(name, NAME).unwrap()).unwrap());
     }
 }
 
-fn check_samples(plan: &Plan) {
+fn check_samples(plan: &RunPlan) {
     let count = plan.info().unwrap().build(&plan.computation.parameters.values()).unwrap().dim();
     let many = |count| Samples { count, random: 0.1.into(), given: false, threads: 2 };
     let verdicts = samples::classify(plan, many(5), 0.0, &()).unwrap().unwrap();
@@ -83,7 +83,7 @@ fn as_text(preset: &Study) -> Study {
         noise: std::collections::BTreeMap::new(),
     };
     let mut study = Study::of_model(info(&definition).unwrap());
-    let c = Plan::new(preset).unwrap().computation;
+    let c = RunPlan::new(preset).unwrap().computation;
     for (name, value) in &c.parameters.0 {
         study.set(name, *value).unwrap();
     }
@@ -105,8 +105,9 @@ fn presets_of_the_tensor_model_are_amplitude_files_too() {
         let study = find_any(name, "tensor").unwrap();
         let file = as_text(&study).to_toml().unwrap();
         let text = Study::parse(&file, "text", name).unwrap();
-        let (plan, plan_of_text) = (Plan::new(&study).unwrap(), Plan::new(&text).unwrap());
-        let body = |plan: &Plan| plan.info().unwrap().build(&plan.computation.parameters.values()).unwrap();
+        let (plan, plan_of_text) = (RunPlan::new(&study).unwrap(), RunPlan::new(&text).unwrap());
+        let body =
+            |plan: &RunPlan| plan.info().unwrap().build(&plan.computation.parameters.values()).unwrap();
         let bodies = [&plan, &plan_of_text].map(body);
         for sample in 0..20_u32 {
             let u: [f64; 6] = std::array::from_fn(|i| (f64::from(7 * sample) + 1.7 * i as f64).sin());

@@ -7,7 +7,7 @@ use motiform_lab::analyse;
 use motiform_models::amplitudes::NAME;
 use motiform_study::presets::{EXTENSIONS, find_any};
 use motiform_study::scan::Axis;
-use motiform_study::{Plan, ScanPlan, Study};
+use motiform_study::{RunPlan, ScanPlan, Study};
 
 fn preset(name: &str) -> Study {
     find_any(name, NAME).unwrap()
@@ -24,16 +24,16 @@ fn presets_read_back_as_they_are() {
             }
             let back = Study::parse(&study.to_toml().unwrap(), "text", &study.name).unwrap();
             assert_eq!(back, study, "{}", study.to_toml().unwrap());
-            assert_eq!(Plan::new(&back).unwrap().hash(), Plan::new(&study).unwrap().hash());
+            assert_eq!(RunPlan::new(&back).unwrap().hash(), RunPlan::new(&study).unwrap().hash());
         }
     }
 }
 
 #[test]
 fn plans_hold_their_equations() {
-    let plan = Plan::new(&preset("chiral")).unwrap();
+    let plan = RunPlan::new(&preset("chiral")).unwrap();
     let text = serde_json::to_string(&plan).unwrap();
-    let back: Plan = serde_json::from_str(&text).unwrap();
+    let back: RunPlan = serde_json::from_str(&text).unwrap();
     assert_eq!(back, plan);
     assert_eq!(back.info().unwrap().parameters()[1].name, "omega");
     let mut study = preset("chiral");
@@ -46,7 +46,7 @@ fn plans_hold_their_equations() {
 
 /// The regime and the verdict's numbers of a study.
 fn verdict(study: &Study) -> motiform_analysis::Verdict {
-    analyse::classify(&Plan::new(study).unwrap(), 0.0, &()).unwrap().unwrap()
+    analyse::classify(&RunPlan::new(study).unwrap(), 0.0, &()).unwrap().unwrap()
 }
 
 /// Straight below gamma_c = kappa^2/(a b) + kappa/2 = 0.75, circular above it: Ohta and Ohkuma (2009).
@@ -187,7 +187,7 @@ fn errors_are_shown_at_their_place_in_the_file() {
 fn exponents_of_contracting_orbits() {
     let text = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\n\
                 z1 = \"(1 + 0.3*i - |z1|^2)*z1 + 0.1\"";
-    let plan = Plan::new(&Study::parse(text, "text", "drift").unwrap()).unwrap();
+    let plan = RunPlan::new(&Study::parse(text, "text", "drift").unwrap()).unwrap();
     let found = analyse::classify(&plan, 0.0, &()).unwrap().unwrap();
     // the mean of the divergence 2 - 4 |z|^2 over a long orbit, by the trapezoidal rule
     let (mut z, h) = ([1.0_f64, 0.0_f64], 1e-3);
@@ -212,7 +212,7 @@ fn exponents_of_contracting_orbits() {
     let of = |omega: f64| {
         let mut study = find_any("chiral", NAME).unwrap();
         study.set("omega", omega).unwrap();
-        analyse::classify(&Plan::new(&study).unwrap(), 0.0, &()).unwrap().unwrap().exponents
+        analyse::classify(&RunPlan::new(&study).unwrap(), 0.0, &()).unwrap().unwrap().exponents
     };
     let (left, right) = (of(0.05), of(-0.05));
     assert_eq!((left.len(), right.len()), (6, 6));

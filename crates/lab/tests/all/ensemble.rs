@@ -7,7 +7,7 @@ use crate::common;
 use common::{preset, run};
 use motiform_dynamics::Outcome;
 use motiform_lab::ensemble::{Member, random_members, tracks};
-use motiform_study::{Plan, Random, Study};
+use motiform_study::{Random, RunPlan, Study};
 
 const TIMES: [f64; 3] = [0.0, 1.5, 12.0];
 
@@ -30,7 +30,7 @@ fn alone(study: &Study, member: &Member) -> Vec<f64> {
 
 fn check(name: &str, change: impl FnOnce(&mut Study), count: usize, tolerance: f64) {
     let study = preset(name, change);
-    let plan = Plan::new(&study).unwrap();
+    let plan = RunPlan::new(&study).unwrap();
     let mut members = random_members(&plan, count, Random::Within(0.3)).unwrap();
     for (place, member) in members.iter_mut().enumerate() {
         member.parameters[1] *= 1.0 + 0.001 * place as f64;
@@ -63,7 +63,7 @@ fn tracks_end_where_single_runs_end() {
 /// With a term beyond those of the paper a body has another kernel. A track does not depend on what the other members are.
 #[test]
 fn members_with_other_terms_have_their_own_tracks() {
-    let plan = Plan::new(&preset("fig5a", |_| {})).unwrap();
+    let plan = RunPlan::new(&preset("fig5a", |_| {})).unwrap();
     let mut members = random_members(&plan, 7, Random::Within(0.3)).unwrap();
     let place = plan.info().unwrap().parameters().iter().position(|spec| spec.name == "a5").unwrap();
     for member in members.iter_mut().skip(2) {
@@ -79,7 +79,7 @@ fn members_with_other_terms_have_their_own_tracks() {
 
 #[test]
 fn input_that_makes_no_sense_is_refused() {
-    let plan = Plan::new(&preset("fig5a", |_| {})).unwrap();
+    let plan = RunPlan::new(&preset("fig5a", |_| {})).unwrap();
     let members = random_members(&plan, 2, Random::Within(0.3)).unwrap();
     for times in [&[1.0, 1.0][..], &[-1.0], &[f64::NAN]] {
         assert!(tracks(&plan, &members, times, 1, &()).unwrap_err().to_string().contains("increasing"));

@@ -14,7 +14,7 @@ use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Total
 use motiform_store::{Audit, INVENTORY, Inventory};
 use motiform_store::{Format, Kind, Staged, decoding, read_fields, write_fields};
 use motiform_study::presets::{EXTENSIONS, PRESETS};
-use motiform_study::{Plan, ScanPlan, Study};
+use motiform_study::{RunPlan, ScanPlan, Study};
 use mutate::{Mutator, cases, each, in_turn};
 use std::fs;
 use std::path::Path;
@@ -48,7 +48,7 @@ fn dataset(folder: &Path, format: Format, name: &str) {
 fn planned(text: &[u8]) -> bool {
     match Study::parse(&String::from_utf8_lossy(text), "study.toml", "study") {
         Ok(study) => {
-            let _ = (Plan::new(&study), ScanPlan::new(&study));
+            let _ = (RunPlan::new(&study), ScanPlan::new(&study));
             true
         }
         Err(error) => {

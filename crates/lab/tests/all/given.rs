@@ -7,7 +7,7 @@ use motiform_lab::given::{Flow, Given, Settings, Span, exponents, record, tracks
 use motiform_lab::simulate::simulate;
 use motiform_models::zoo::Lorenz;
 use motiform_study::study::RunSettings;
-use motiform_study::{Plan, presets};
+use motiform_study::{RunPlan, presets};
 
 /// A function of Rust as one given from outside, with its Jacobian or without.
 struct Function<F, J> {
@@ -79,7 +79,7 @@ fn rows_lie_on_the_exact_solution() {
 fn a_built_in_model_has_the_same_bits() {
     let mut study = presets::find_any("fig5b", "tensor").unwrap();
     (study.run.t_end, study.run.transient) = (60.0, 0.0);
-    let plan = Plan::new(&study).unwrap();
+    let plan = RunPlan::new(&study).unwrap();
     let dataset = simulate(&plan, &()).unwrap();
     let model = plan.info().unwrap().build(&plan.computation.parameters.values()).unwrap();
     let body = InPlane(model.as_ref());
@@ -94,7 +94,7 @@ fn a_built_in_model_has_the_same_bits() {
     assert_eq!(&same, x);
 }
 
-fn start_of(plan: &Plan, model: &dyn Model) -> Vec<f64> {
+fn start_of(plan: &RunPlan, model: &dyn Model) -> Vec<f64> {
     let values = plan.computation.initial.values();
     let mut start = vec![0.0; model.dim()];
     model.encode(&values[..model.dim()], &mut start);

@@ -8,7 +8,7 @@
 
 use motiform_analysis::Attractor;
 use motiform_lab::analyse;
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
 const MODEL: &str = include_str!("models/w63.toml");
 
@@ -23,7 +23,7 @@ fn an_unstable_torus_is_not_what_remains() {
         let mut study = Study::parse(MODEL, "text", "w63").unwrap();
         study.set("c1", 1.1312).unwrap();
         study.run.seed = seed;
-        let verdict = analyse::classify(&Plan::new(&study).unwrap(), 0.0, &()).unwrap().unwrap();
+        let verdict = analyse::classify(&RunPlan::new(&study).unwrap(), 0.0, &()).unwrap().unwrap();
         println!(
             "seed {seed}: {} ({:?}), margin {:?}: {}",
             verdict.regime, verdict.attractor, verdict.margin, verdict.why

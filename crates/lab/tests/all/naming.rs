@@ -9,7 +9,7 @@ use common::{column, preset, run};
 use motiform_dynamics::Outcome;
 use motiform_lab::{draw, naming};
 use motiform_models::ModelInfo;
-use motiform_study::{Dataset, Manifest, Plan, Study};
+use motiform_study::{Dataset, Manifest, RunPlan, Study};
 
 fn named(study: &Study) -> (Dataset, Option<String>) {
     let mut dataset = run(study);
@@ -45,7 +45,7 @@ fn no_name_without_evidence() {
 
 #[test]
 fn titles_follow_the_parameters() {
-    let title = |study: &Study| Plan::new(study).unwrap().title();
+    let title = |study: &Study| RunPlan::new(study).unwrap().title();
     let mut study = preset("fig5a", |_| ());
     study.set("kappa2", 0.9).unwrap();
     assert_eq!(title(&study), "Zigzag motion", "the value that it has");

@@ -8,7 +8,7 @@ use common::{column, preset, run};
 use motiform_lab::analyse;
 use motiform_models::ModelInfo;
 use motiform_store::table::same_bits;
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
 fn rectangular(noise: f64, seed: u64) -> Study {
     preset("fig2", |study| {
@@ -53,10 +53,10 @@ fn the_same_seed_gives_the_same_bits() {
 
 #[test]
 fn noise_is_refused_where_it_has_no_meaning() {
-    let plan = Plan::new(&rectangular(1e-4, 1)).unwrap();
+    let plan = RunPlan::new(&rectangular(1e-4, 1)).unwrap();
     let refused = analyse::classify(&plan, 0.0, &()).unwrap_err().to_string();
     assert!(refused.contains("noise = 0.0001") && refused.contains("set it to 0"), "{refused}");
-    let negative = Plan::new(&rectangular(-1.0, 1)).unwrap_err().to_string();
+    let negative = RunPlan::new(&rectangular(-1.0, 1)).unwrap_err().to_string();
     assert!(negative.contains("noise = -1"), "{negative}");
 }
 
@@ -188,7 +188,7 @@ fn vanishing_noise_leaves_the_motion_alone() {
 
 #[test]
 fn the_plan_says_what_the_noise_is() {
-    let settings = |study: &Study| Plan::new(study).unwrap().computation.noise.unwrap();
+    let settings = |study: &Study| RunPlan::new(study).unwrap().computation.noise.unwrap();
     let mut study = noisy("tensor", &[("gamma", 1.0)], 0.5, (10.0, 0.5));
     let both = settings(&study);
     assert_eq!((both.velocity, both.shape), (0.5, 0.5));
@@ -199,12 +199,12 @@ fn the_plan_says_what_the_noise_is() {
     (study.run.noise, study.run.noise_velocity) = (0.0, Some(0.25));
     assert_eq!((settings(&study).velocity, settings(&study).shape), (0.25, 0.0));
     study.run.noise_velocity = Some(-1.0);
-    let refused = Plan::new(&study).unwrap_err().to_string();
+    let refused = RunPlan::new(&study).unwrap_err().to_string();
     assert!(refused.contains("noise_velocity = -1"), "{refused}");
     let mut cell = noisy("cell", &[], 0.5, (10.0, 0.5));
     assert_eq!((settings(&cell).velocity, settings(&cell).shape), (0.0, 0.5));
     cell.run.noise_velocity = Some(0.1);
-    let refused = Plan::new(&cell).unwrap_err().to_string();
+    let refused = RunPlan::new(&cell).unwrap_err().to_string();
     assert!(refused.contains("noise_velocity = 0.1") && refused.contains("read off its shape"), "{refused}");
 }
 
@@ -233,9 +233,9 @@ fn noise_in_the_equations_is_that_of_the_run() {
     let study = Study::parse(IN_EQUATIONS, "text", "test").unwrap();
     let back = Study::parse(&study.to_toml().unwrap(), "text", "test").unwrap();
     assert_eq!(back, study);
-    let plan = Plan::new(&study).unwrap();
+    let plan = RunPlan::new(&study).unwrap();
     assert!(plan.computation.noise.is_some());
-    let read: Plan = serde_json::from_str(&serde_json::to_string(&plan).unwrap()).unwrap();
+    let read: RunPlan = serde_json::from_str(&serde_json::to_string(&plan).unwrap()).unwrap();
     assert_eq!(read, plan);
     let table = |plan| motiform_lab::simulate::simulate(plan, &()).unwrap().trajectory;
     let (one, again) = (table(&plan), table(&plan));
@@ -251,5 +251,5 @@ fn noise_in_the_equations_is_that_of_the_run() {
     // near speed 1: dv = -2 (v - 1) dt + s v dW
     assert!((spread / (0.2 * 0.2 / 4.0) - 1.0).abs() < 0.15, "{spread}");
     let silent = Study::parse(&IN_EQUATIONS.replace("0.3\ns = 0.2", "0.0\ns = 0.0"), "text", "test");
-    assert!(Plan::new(&silent.unwrap()).unwrap().computation.noise.is_none());
+    assert!(RunPlan::new(&silent.unwrap()).unwrap().computation.noise.is_none());
 }

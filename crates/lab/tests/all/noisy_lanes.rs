@@ -8,7 +8,7 @@ use common::{column, run};
 use motiform_dynamics::Outcome;
 use motiform_lab::ensemble::Track;
 use motiform_lab::noisy::{has_noisy_lanes, noisy_tracks};
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
 /// Additive and multiplicative noise on three modes of a handed body.
 const TEXT: &str = "[model.amplitudes]\nmodes = [1, 2, 3]\n[model.amplitudes.equations]\n\
@@ -20,12 +20,12 @@ const TEXT: &str = "[model.amplitudes]\nmodes = [1, 2, 3]\n[model.amplitudes.equ
 const TENSOR: &str = "[model.tensor]\ngamma = 1\nkappa2 = 0.9\nkappa3 = 0.1\na1 = -1\nb1 = -0.5\nb2 = 0.3\nd1 = 0.1\nd2 = 0.8\n\
     [run]\nt_end = 20\ntransient = 5\ndt_out = 0.01\nnoise = 0.05\nnoise_velocity = 0.2";
 
-fn plans(text: &str, count: u64, change: impl Fn(&mut Study)) -> Vec<(Study, Plan)> {
+fn plans(text: &str, count: u64, change: impl Fn(&mut Study)) -> Vec<(Study, RunPlan)> {
     let plan = |seed| {
         let mut study = Study::parse(text, "text", "text").unwrap();
         study.run.seed = seed;
         change(&mut study);
-        (study.clone(), Plan::new(&study).unwrap())
+        (study.clone(), RunPlan::new(&study).unwrap())
     };
     (1..=count).map(plan).collect()
 }

@@ -5,7 +5,7 @@
 use motiform_analysis::regime::{Attractor, Regime, Verdict};
 use motiform_lab::analyse;
 use motiform_models::ModelInfo;
-use motiform_study::{Plan, ScanPlan, Study, presets};
+use motiform_study::{RunPlan, ScanPlan, Study, presets};
 
 fn study(model: &str, preset: Option<&str>, initial: &[(&str, f64)]) -> Study {
     let info = ModelInfo::find(model).unwrap();
@@ -17,7 +17,7 @@ fn study(model: &str, preset: Option<&str>, initial: &[(&str, f64)]) -> Study {
 }
 
 fn verdict(study: &Study) -> Verdict {
-    analyse::classify(&Plan::new(study).unwrap(), 0.0, &()).unwrap().unwrap()
+    analyse::classify(&RunPlan::new(study).unwrap(), 0.0, &()).unwrap().unwrap()
 }
 
 /// Model, preset, initial values.
@@ -60,7 +60,7 @@ fn random_and_complete_starts_stay_as_they_are() {
     for same in [study("tensor", Some("fig1"), &[]), study("tensor", None, &all), exact] {
         let (after, perturbation) = same.perturbed().unwrap();
         assert!(perturbation.is_none());
-        assert_eq!(Plan::new(&after).unwrap().hash(), Plan::new(&same).unwrap().hash());
+        assert_eq!(RunPlan::new(&after).unwrap().hash(), RunPlan::new(&same).unwrap().hash());
     }
 }
 

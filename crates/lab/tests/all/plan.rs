@@ -8,12 +8,12 @@ use crate::common;
 use common::{column, preset, run};
 use motiform_store::table::same_bits;
 use motiform_study::study::ReturnMapSettings;
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
 type Change = (&'static str, fn(&mut Study));
 
 fn hash(study: &Study) -> String {
-    Plan::new(study).unwrap().hash()
+    RunPlan::new(study).unwrap().hash()
 }
 
 const COMPUTING: &[Change] = &[
@@ -87,9 +87,9 @@ fn the_hash_covers_what_is_computed_and_nothing_else() {
 #[test]
 fn plans_survive_json() {
     for (what, change) in COMPUTING.iter().chain(SHOWING) {
-        let plan = Plan::new(&preset("fig5a", change)).unwrap();
+        let plan = RunPlan::new(&preset("fig5a", change)).unwrap();
         for text in [serde_json::to_string(&plan).unwrap(), serde_json::to_string_pretty(&plan).unwrap()] {
-            let read: Plan = serde_json::from_str(&text).unwrap();
+            let read: RunPlan = serde_json::from_str(&text).unwrap();
             assert_eq!(read, plan, "{what}");
             assert_eq!(read.hash(), plan.hash(), "{what}");
         }

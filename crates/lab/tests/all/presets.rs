@@ -8,7 +8,7 @@ use common::{column, headings, polar, preset, run, tensor};
 use motiform_dynamics::Outcome;
 use motiform_store::table::same_bits;
 use motiform_study::presets::PRESETS;
-use motiform_study::{Dataset, Plan, Study};
+use motiform_study::{Dataset, RunPlan, Study};
 
 #[test]
 fn every_preset_plans_says_what_it_is_and_runs() {
@@ -24,7 +24,7 @@ fn every_preset_plans_says_what_it_is_and_runs() {
         let dataset = run(&study);
         assert_eq!(dataset.manifest.outcome.outcome, Outcome::Completed { t: 5.0 }, "{}", known.name);
         assert_eq!(dataset.trajectory.rows(), 2001, "{}", known.name);
-        Plan::new(&preset(known.name, |_| {})).unwrap();
+        RunPlan::new(&preset(known.name, |_| {})).unwrap();
     }
     assert_eq!(PRESETS.len(), 10);
 }

@@ -6,10 +6,10 @@ use motiform_dynamics::Direction;
 use motiform_dynamics::Watch;
 use motiform_lab::equilibria::equilibria;
 use motiform_lab::section::section;
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
-fn plan(text: &str) -> Plan {
-    Plan::new(&Study::parse(text, "text", "test").unwrap()).unwrap()
+fn plan(text: &str) -> RunPlan {
+    RunPlan::new(&Study::parse(text, "text", "test").unwrap()).unwrap()
 }
 
 /// The uncoupled model: a circle at rest, a circle that moves with |v| = sqrt(gamma), an ellipse at rest with

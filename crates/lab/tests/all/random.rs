@@ -5,10 +5,10 @@
 use crate::common;
 
 use common::{preset, tensor};
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
 fn start(study: &Study) -> Vec<f64> {
-    Plan::new(study).unwrap().computation.initial.values()
+    RunPlan::new(study).unwrap().computation.initial.values()
 }
 
 fn seeded(seed: u64) -> Study {
@@ -107,7 +107,7 @@ fn the_order_of_settings_does_not_matter() {
         }
         values.iter().for_each(|(name, value)| study.set_initial(name, *value).unwrap());
         parameters.iter().for_each(|(name, value)| study.set(name, *value).unwrap());
-        Plan::new(&study).unwrap()
+        RunPlan::new(&study).unwrap()
     };
     assert_eq!(plan(false), plan(true));
     assert_eq!(plan(false).hash(), plan(true).hash());

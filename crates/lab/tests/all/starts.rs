@@ -4,13 +4,13 @@
 
 use motiform_dynamics::model::velocity;
 use motiform_models::{MODELS, ModelInfo};
-use motiform_study::{Plan, Random, ScanPlan, Study};
+use motiform_study::{Random, RunPlan, ScanPlan, Study};
 
 /// The coordinates of the start that a study draws with this seed.
 fn start(study: &Study, seed: u64) -> Vec<f64> {
     let mut study = study.clone();
     study.run.seed = seed;
-    let all = Plan::new(&study).unwrap().computation.initial.values();
+    let all = RunPlan::new(&study).unwrap().computation.initial.values();
     all[..all.len() - 2].to_vec()
 }
 

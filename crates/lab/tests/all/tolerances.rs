@@ -7,7 +7,7 @@ use crate::common;
 use common::{preset, run};
 use motiform_models::ModelInfo;
 use motiform_study::plan::Control;
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
 const REQUESTS: [f64; 4] = [1e-6, 1e-8, 1e-10, 1e-12];
 
@@ -67,7 +67,7 @@ fn the_global_error_follows_rtol_alone() {
 
 #[test]
 fn the_absolute_tolerance_follows_unless_it_is_given() {
-    let control = |study: &Study| Plan::new(study).unwrap().computation.control;
+    let control = |study: &Study| RunPlan::new(study).unwrap().computation.control;
     for (model, rtol, atol) in [("tensor", 1e-9, 1e-12), ("cell", 1e-6, 1e-7)] {
         let mut study = Study::of_model(ModelInfo::find(model).unwrap());
         assert_eq!(control(&study), Control::Adaptive { rtol, atol }, "the default pair");

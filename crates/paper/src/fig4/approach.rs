@@ -4,7 +4,7 @@ use super::super::context::Context;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Outcome, Request, Sink};
-use motiform_study::{Error, Plan, Study};
+use motiform_study::{Error, RunPlan, Study};
 
 /// Far enough that time is resolved to 10^-6 before t*; in a quick run to 10^-4: the steps are as many as one over the time left.
 const BOUND: (f64, f64) = (1e12, 1e10);
@@ -26,7 +26,7 @@ pub(super) fn follow(context: &Context<'_>, start: &Study) -> Result<Approach, E
     let mut study = start.clone();
     let bound = context.choose(BOUND.0, BOUND.1);
     (study.run.rtol, study.run.atol, study.run.escape_norm) = (1e-13, Some(1e-16), bound);
-    let plan = Plan::new(&study)?;
+    let plan = RunPlan::new(&study)?;
     let c = &plan.computation;
     let model = plan.body()?;
     let mut shape = vec![0.0; model.dim()];

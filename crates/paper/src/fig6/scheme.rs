@@ -9,7 +9,7 @@ use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Outcome, Request, Sink};
 use motiform_figures::report::Claim;
 use motiform_models::cell::CellParameters;
-use motiform_study::{Error, Plan};
+use motiform_study::{Error, RunPlan};
 
 /// The paper's 128 wave modes: *n* = ±1 to ±64; and the step that is taken with them.
 const MODES: usize = 64;
@@ -82,7 +82,7 @@ fn onwards(
         "ifrk4".clone_into(&mut study.run.stepper);
         study.run.step = Some(STEP);
     }
-    let plan = Plan::new(&study)?;
+    let plan = RunPlan::new(&study)?;
     let c = &plan.computation;
     let (model, start) = (plan.body()?, last(track, modes)?);
     let mut orbit = plan.method()?.shape_orbit(model.as_ref(), c.control.into(), 0.0, &start)?;
@@ -173,7 +173,7 @@ fn largest_step() -> Result<f64, Error> {
     let mut paper = study(21.6, MODES)?;
     "rk4".clone_into(&mut paper.run.stepper);
     paper.run.step = Some(STEP);
-    match Plan::new(&paper) {
+    match RunPlan::new(&paper) {
         Err(Error::UnstableStep { largest, .. }) => Ok(largest),
         Err(error) => Err(error),
         Ok(_) => Ok(f64::NAN),

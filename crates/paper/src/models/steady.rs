@@ -5,7 +5,7 @@ use motiform_analysis::equilibrium::Saddle;
 use motiform_analysis::symmetry::align;
 use motiform_analysis::{Estimate, RelativeEquilibrium, SteadyMotion};
 use motiform_dynamics::Model;
-use motiform_study::{Error, Plan, Study};
+use motiform_study::{Error, RunPlan, Study};
 
 /// What is known of a steady shape.
 #[derive(Clone)]
@@ -55,7 +55,7 @@ impl Steady {
         let last = context.simulate(&run)?.manifest.state.values();
         let mut found: Option<(RelativeEquilibrium, Self)> = None;
         for study in studies {
-            let plan = Plan::new(study)?;
+            let plan = RunPlan::new(study)?;
             let model = plan.body()?;
             let mut guess = vec![0.0; model.dim()];
             match &found {

@@ -1,61 +1,96 @@
-//! Typed columns: whole numbers, numbers (null where undefined), texts. As the bytes of one Parquet file and back, and as CSV.
+//! Columns: whole numbers, numbers (null where undefined), texts. As the bytes of one Parquet file and back, and as CSV.
 
 #[cfg(feature = "formats")]
 pub use super::parquet_columns::{decode, encode, metadata};
 #[cfg(not(feature = "formats"))]
 pub use crate::absent::{decode, encode, metadata};
 
-/// A column of a part.
-pub struct Column {
-    /// Its name.
+use super::csv::write_columns;
+use std::borrow::Cow;
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column<V = Values> {
+    /// Name, ASCII.
     pub name: String,
-    meaning: &'static str,
-    /// Its values.
-    pub values: Values,
+    /// Its meaning, with its unit; for an undefined value, the reason.
+    pub meaning: Cow<'static, str>,
+    /// The values.
+    pub values: V,
 }
 
 /// The values of a column.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Values {
     /// Whole numbers.
     Whole(Vec<i64>),
-    /// Numbers; NaN is written as null.
+    /// Numbers; NaN where undefined (written as null, or an empty field).
     Number(Vec<f64>),
     /// Texts.
     Text(Vec<String>),
 }
 
-impl Column {
-    /// A column; `meaning` describes it, with its unit.
-    #[must_use]
-    pub fn new(name: &str, meaning: &'static str, values: Values) -> Self {
-        Self { name: name.to_owned(), meaning, values }
-    }
+/// The values of a column, borrowed.
+#[derive(Clone, Copy, Debug)]
+pub enum View<'c> {
+    /// Whole numbers.
+    Whole(&'c [i64]),
+    /// Numbers; NaN where undefined.
+    Number(&'c [f64]),
+    /// Texts.
+    Text(&'c [String]),
+}
 
-    /// What it contains, with its unit.
-    #[must_use]
-    pub fn meaning(&self) -> &'static str {
-        self.meaning
+/// Values that a file can hold.
+pub trait Stored {
+    /// The values, borrowed.
+    fn view(&self) -> View<'_>;
+}
+
+impl Stored for Values {
+    fn view(&self) -> View<'_> {
+        match self {
+            Self::Whole(values) => View::Whole(values),
+            Self::Number(values) => View::Number(values),
+            Self::Text(values) => View::Text(values),
+        }
     }
 }
 
-/// The columns as CSV: a header line, shortest round-trip numbers, an empty field where a number is undefined.
-pub fn to_csv(columns: &[Column]) -> Vec<u8> {
-    let rows = columns.first().map_or(0, |column| match &column.values {
-        Values::Whole(values) => values.len(),
-        Values::Number(values) => values.len(),
-        Values::Text(values) => values.len(),
-    });
-    let field = |column: &Column, row: usize| match &column.values {
-        Values::Whole(values) => values[row].to_string(),
-        Values::Number(values) if values[row].is_nan() => String::new(),
-        Values::Number(values) => format!("{:?}", values[row]),
-        Values::Text(values) => values[row].clone(),
-    };
-    let mut out = csv::Writer::from_writer(Vec::new());
-    // Writing into memory does not fail, and every record has as many fields as the first.
-    let _ = out.write_record(columns.iter().map(|column| &column.name));
-    for row in 0..rows {
-        let _ = out.write_record(columns.iter().map(|column| field(column, row)));
+impl Stored for Vec<f64> {
+    fn view(&self) -> View<'_> {
+        View::Number(self)
     }
-    out.into_inner().unwrap_or_default()
+}
+
+impl View<'_> {
+    /// Number of values.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Whole(values) => values.len(),
+            Self::Number(values) => values.len(),
+            Self::Text(values) => values.len(),
+        }
+    }
+}
+
+impl<V> Column<V> {
+    /// A column; `meaning` describes it, with its unit.
+    #[must_use]
+    pub fn new(name: &str, meaning: impl Into<Cow<'static, str>>, values: V) -> Self {
+        Self { name: name.to_owned(), meaning: meaning.into(), values }
+    }
+}
+
+/// Number of rows of columns of equal length.
+pub(crate) fn rows(columns: &[Column<impl Stored>]) -> usize {
+    columns.first().map_or(0, |column| column.values.view().len())
+}
+
+/// The columns as CSV: a header line, shortest round-trip numbers, an empty field where a number is undefined.
+#[must_use]
+pub fn to_csv(columns: &[Column<impl Stored>]) -> Vec<u8> {
+    let mut text = Vec::new();
+    let _ = write_columns(columns, &mut text); // writing into memory does not fail
+    text
 }

@@ -2,7 +2,9 @@
 
 use crate::Error;
 use crate::Table;
+use crate::table::columns::{Column, Stored, View, rows};
 use crate::table::file::places;
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::ops::Range;
@@ -18,13 +20,13 @@ impl Writer {
     /// A file with the columns of this table.
     pub(crate) fn new(table: &Table, path: &Path) -> std::io::Result<Self> {
         let mut out = BufWriter::new(File::create(path)?);
-        write_names(table, &mut out)?;
+        write_names(&table.columns, &mut out)?;
         Ok(Self(out))
     }
 
     /// Writes the rows of this table.
     pub(crate) fn rows(&mut self, table: &Table, rows: Range<usize>) -> std::io::Result<()> {
-        write_rows(table, rows, &mut self.0)
+        write_rows(&table.columns, rows, &mut self.0)
     }
 
     /// Ends the file.
@@ -33,32 +35,47 @@ impl Writer {
     }
 }
 
-/// The text of a table's CSV file.
-#[must_use]
-pub fn table_to_csv(table: &Table) -> Vec<u8> {
-    let mut text = Vec::new();
-    // Writing into memory does not fail.
-    let _ = write_names(table, &mut text).and_then(|()| write_rows(table, 0..table.rows(), &mut text));
-    text
+/// Writes a header line and all rows.
+pub(crate) fn write_columns(columns: &[Column<impl Stored>], out: &mut impl Write) -> std::io::Result<()> {
+    write_names(columns, out)?;
+    write_rows(columns, 0..rows(columns), out)
 }
 
-fn write_names(table: &Table, out: &mut impl Write) -> std::io::Result<()> {
-    let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+fn write_names<V>(columns: &[Column<V>], out: &mut impl Write) -> std::io::Result<()> {
+    let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
     writeln!(out, "{}", names.join(","))
 }
 
-fn write_rows(table: &Table, rows: Range<usize>, out: &mut impl Write) -> std::io::Result<()> {
+fn write_rows(
+    columns: &[Column<impl Stored>],
+    rows: Range<usize>,
+    out: &mut impl Write,
+) -> std::io::Result<()> {
     // Readers skip an empty line, so the only field of a row is quoted where it is empty.
-    let undefined = if table.columns.len() == 1 { "\"\"" } else { "" };
+    let empty = if columns.len() == 1 { "\"\"" } else { "" };
+    let views: Vec<View<'_>> = columns.iter().map(|column| column.values.view()).collect();
     for row in rows {
-        for (place, column) in table.columns.iter().enumerate() {
-            let comma = if place == 0 { "" } else { "," };
-            let value = column.values[row];
-            if value.is_nan() { write!(out, "{comma}{undefined}") } else { write!(out, "{comma}{value:?}") }?;
+        for (place, view) in views.iter().enumerate() {
+            out.write_all(if place == 0 { b"" } else { b"," })?;
+            match view {
+                View::Whole(values) => write!(out, "{}", values[row])?,
+                View::Number(values) if values[row].is_nan() => out.write_all(empty.as_bytes())?,
+                View::Number(values) => write!(out, "{:?}", values[row])?,
+                View::Text(values) if values[row].is_empty() => out.write_all(empty.as_bytes())?,
+                View::Text(values) => out.write_all(quoted(&values[row]).as_bytes())?,
+            }
         }
         writeln!(out)?;
     }
     Ok(())
+}
+
+/// A text as a field (RFC 4180): in quotes where it contains a comma, a quote or a line end.
+fn quoted(text: &str) -> Cow<'_, str> {
+    match text.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")).into(),
+        false => text.into(),
+    }
 }
 
 /// Gives `take` the rows of a table, some at a time; without rows, one empty group. `take` ends it by an error.
@@ -101,7 +118,22 @@ fn number(field: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::columns::Values;
     use crate::table::same_bits;
+
+    /// Texts with commas, quotes and line ends come back, from a reader that is not ours.
+    #[test]
+    fn texts_are_quoted_where_they_must_be() {
+        let texts = ["plain", "a, b", "say \"no\"", "two\nlines", ""].map(str::to_owned).to_vec();
+        let columns = [
+            Column::new("name", "", Values::Text(texts.clone())),
+            Column::new("count", "", Values::Whole(vec![1, -2, 3, 4, 5])),
+        ];
+        let text = crate::columns::to_csv(&columns);
+        let mut reader = csv::Reader::from_reader(text.as_slice());
+        let read: Vec<String> = reader.records().map(|row| row.expect("a row")[0].to_owned()).collect();
+        assert_eq!(read, texts);
+    }
 
     /// Tables of one column need care: a line with an empty field is an empty line, and readers skip those.
     #[test]

@@ -15,11 +15,12 @@ mod parquet_table;
 
 #[cfg(not(feature = "formats"))]
 use crate::absent as parquet_table;
-pub use csv::table_to_csv;
+pub use columns::Column;
 pub use file::{GROUP_ROWS, TableWriter, read_columns, read_groups, read_table, write_table};
 pub use format::Format;
 
 use crate::Error;
+use std::borrow::Cow;
 use std::path::Path;
 
 /// The text that was written with a Parquet table, such as its manifest; `None` for CSV and where there is none.
@@ -33,28 +34,17 @@ pub fn table_metadata(path: &Path) -> Result<Option<String>, Error> {
     }
 }
 
-/// A column of numbers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Column {
-    /// Name, ASCII.
-    pub name: String,
-    /// Its meaning, with its unit; for an undefined value, the reason.
-    pub meaning: String,
-    /// The values; NaN where undefined (written as null, or an empty field).
-    pub values: Vec<f64>,
-}
-
-/// Columns of equal length.
+/// Columns of numbers of equal length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     /// The columns in file order.
-    pub columns: Vec<Column>,
+    pub columns: Vec<Column<Vec<f64>>>,
 }
 
 impl Table {
     /// Appends a column.
-    pub fn push(&mut self, name: &str, meaning: impl Into<String>, values: Vec<f64>) {
-        self.columns.push(Column { name: name.to_owned(), meaning: meaning.into(), values });
+    pub fn push(&mut self, name: &str, meaning: impl Into<Cow<'static, str>>, values: Vec<f64>) {
+        self.columns.push(Column::new(name, meaning, values));
     }
 
     /// The values of a column.

@@ -1,29 +1,18 @@
 //! Columns as the bytes of one Parquet file, and back.
 
-use crate::table::columns::{Column, Values};
-use crate::table::parquet_input::{column, numbers, read, wrong};
-use crate::table::parquet_output::{self, Field};
-use parquet::column::reader::ColumnReader;
+use crate::table::columns::{Column, Stored, Values};
+use crate::table::parquet_input::{Read, read, values, wrong};
+use crate::table::parquet_output;
 use parquet::data_type::ByteArray;
 use parquet::errors::Result;
 use parquet::file::reader::FileReader;
 use std::path::Path;
 use std::sync::Arc;
 
-fn field(column: &Column) -> Field<'_> {
-    let values = match &column.values {
-        Values::Whole(values) => parquet_output::Values::Whole(values),
-        Values::Number(values) => parquet_output::Values::Number(values),
-        Values::Text(values) => parquet_output::Values::Text(values),
-    };
-    Field { name: &column.name, meaning: column.meaning(), values }
-}
-
 /// The file, with these entries in its metadata. The same columns give the same bytes.
-pub fn encode(columns: &[Column], metadata: Vec<(&str, String)>) -> Result<Vec<u8>> {
-    let fields: Vec<Field<'_>> = columns.iter().map(field).collect();
+pub fn encode(columns: &[Column<impl Stored>], metadata: Vec<(&str, String)>) -> Result<Vec<u8>> {
     // the manifest knows the version
-    parquet_output::write(Vec::new(), &fields, metadata, "motiform".to_owned())
+    parquet_output::write(Vec::new(), columns, metadata, "motiform".to_owned())
 }
 
 /// The metadata entries of a file.
@@ -41,26 +30,24 @@ pub fn decode(path: &Path) -> Result<Vec<Column>> {
             return Err(wrong("a part has one row group"));
         }
         let group = reader.get_row_group(0)?;
-        let rows = group.metadata().num_rows();
         let read = |(place, field): (usize, &Arc<parquet::schema::types::ColumnDescriptor>)| {
-            Ok(Column::new(field.name(), "", read_values(group.get_column_reader(place)?, rows)?))
+            Ok(Column::new(field.name(), "", whole(values(&*group, place)?)?))
         };
         reader.metadata().file_metadata().schema_descr().columns().iter().enumerate().map(read).collect()
     })
 }
 
-fn read_values(reader: ColumnReader, rows: i64) -> Result<Values> {
-    Ok(match reader {
-        ColumnReader::Int64ColumnReader(mut input) => Values::Whole(column(&mut input, rows, false)?.0),
-        ColumnReader::DoubleColumnReader(mut input) => {
-            let (values, levels) = column(&mut input, rows, true)?;
-            Values::Number(numbers(values, &levels))
+/// The values of a column of ours: texts and whole numbers are there in all rows.
+fn whole(found: Read) -> Result<Values> {
+    Ok(match found {
+        Read::Whole(values) => Values::Whole(values),
+        Read::Number(values) => Values::Number(values),
+        Read::Text(values) => {
+            let text = |bytes: Option<ByteArray>| match bytes {
+                Some(bytes) => bytes.as_utf8().map(str::to_owned),
+                None => Err(wrong("a text is missing")),
+            };
+            Values::Text(values.into_iter().map(text).collect::<Result<_>>()?)
         }
-        ColumnReader::ByteArrayColumnReader(mut input) => {
-            let values: Vec<ByteArray> = column(&mut input, rows, false)?.0;
-            let text = |bytes: &ByteArray| bytes.as_utf8().map(str::to_owned);
-            Values::Text(values.iter().map(text).collect::<Result<_>>()?)
-        }
-        _ => return Err(wrong("a column has an unexpected type")),
     })
 }

@@ -1,10 +1,10 @@
 //! Reading Parquet files that may be damaged: every count is checked against the data before anything is allocated.
 
-use parquet::column::reader::ColumnReaderImpl;
-use parquet::data_type::DataType;
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::ParquetMetaData;
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use std::cell::Cell;
 use std::fs::File;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -68,8 +68,54 @@ fn check(metadata: &ParquetMetaData, length: u64) -> Result<()> {
     Ok(())
 }
 
+/// The values of a column of a group of rows.
+pub enum Read {
+    /// Integers without gaps.
+    Whole(Vec<i64>),
+    /// Numbers; NaN for nulls.
+    Number(Vec<f64>),
+    /// Texts, as references to the pages: a long text that is repeated takes no memory.
+    Text(Vec<Option<ByteArray>>),
+}
+
+/// Reads a column of a group: floating-point numbers, integers (with nulls they are numbers) or texts.
+///
+/// # Errors
+/// Another type, nested values, fewer rows than the footer states.
+pub fn values(group: &dyn RowGroupReader, place: usize) -> Result<Read> {
+    let description = group.metadata().column(place).column_descr_ptr();
+    let name = description.name();
+    if description.max_rep_level() > 0 || description.max_def_level() > 1 {
+        return Err(wrong(&format!("column {name} is nested")));
+    }
+    let (rows, nulls) = (group.metadata().num_rows(), description.max_def_level() > 0);
+    macro_rules! numbers {
+        ($input:expr, $of:expr) => {{
+            let (values, levels) = column(&mut $input, rows, nulls)?;
+            let values: Vec<f64> = values.into_iter().map($of).collect();
+            Read::Number(if nulls { numbers(values, &levels) } else { values })
+        }};
+    }
+    Ok(match group.get_column_reader(place)? {
+        ColumnReader::Int64ColumnReader(mut input) if !nulls => {
+            Read::Whole(column(&mut input, rows, false)?.0)
+        }
+        ColumnReader::DoubleColumnReader(mut input) => numbers!(input, |value| value),
+        ColumnReader::FloatColumnReader(mut input) => numbers!(input, f64::from),
+        ColumnReader::Int32ColumnReader(mut input) => numbers!(input, f64::from),
+        ColumnReader::Int64ColumnReader(mut input) => numbers!(input, |value| value as f64),
+        ColumnReader::ByteArrayColumnReader(mut input) => {
+            let (values, levels) = column(&mut input, rows, nulls)?;
+            let mut texts = values.into_iter();
+            let text = |level: i16| if level == 0 { None } else { texts.next() };
+            Read::Text(if nulls { levels.into_iter().map(text).collect() } else { texts.map(Some).collect() })
+        }
+        _ => return Err(wrong(&format!("column {name} has a type that is not read here"))),
+    })
+}
+
 /// The values of a column of `rows` rows and, for a column with nulls, which rows have one (1) or none (0).
-pub fn column<T: DataType>(
+fn column<T: DataType>(
     input: &mut ColumnReaderImpl<T>,
     rows: i64,
     nulls: bool,
@@ -95,7 +141,7 @@ pub fn column<T: DataType>(
 }
 
 /// A column of numbers with NaN for each null.
-pub fn numbers(values: Vec<f64>, levels: &[i16]) -> Vec<f64> {
+fn numbers(values: Vec<f64>, levels: &[i16]) -> Vec<f64> {
     let mut defined = values.into_iter();
     levels
         .iter()

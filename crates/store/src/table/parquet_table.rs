@@ -1,11 +1,10 @@
 //! Tables as Parquet: one DOUBLE column each, null where a value is undefined; zstd; opens in pandas, polars, R, Julia.
 
 use super::file::places;
-use super::parquet_input::{self, wrong};
-use super::parquet_output::{Field, Groups, Values};
+use super::parquet_input::{self, Read, values, wrong};
+use super::parquet_output::Groups;
 use crate::Error;
-use crate::table::{Column, Table};
-use parquet::column::reader::ColumnReader;
+use crate::table::Table;
 use parquet::errors::Result;
 use parquet::file::metadata::FileMetaData;
 use parquet::file::reader::FileReader;
@@ -16,23 +15,16 @@ use std::path::Path;
 /// A file of a table that is written while its rows come.
 pub(crate) struct Writer(Groups<File>);
 
-fn fields(table: &Table) -> Vec<Field<'_>> {
-    fn field(column: &Column) -> Field<'_> {
-        Field { name: &column.name, meaning: &column.meaning, values: Values::Number(&column.values) }
-    }
-    table.columns.iter().map(field).collect()
-}
-
 impl Writer {
     /// A file with the columns of this table; its number of rows decides whether they are compressed.
     pub(crate) fn new(table: &Table, path: &Path) -> Result<Self> {
         let version = format!("motiform {}", crate::VERSION);
-        Ok(Self(Groups::new(File::create(path)?, &fields(table), table.rows(), version)?))
+        Ok(Self(Groups::new(File::create(path)?, &table.columns, table.rows(), version)?))
     }
 
     /// Writes these rows of a table as a group.
     pub(crate) fn rows(&mut self, table: &Table, rows: Range<usize>) -> Result<()> {
-        self.0.group(&fields(table), rows)
+        self.0.group(&table.columns, rows)
     }
 
     /// Ends the file; `metadata` (a JSON text) is kept under the key `motiform`, column meanings under `motiform.columns`.
@@ -60,11 +52,10 @@ pub(crate) fn groups<E: From<Error>>(
             let group = reader.get_row_group(group)?;
             let mut table = empty.clone();
             for (&place, column) in places.iter().zip(&mut table.columns) {
-                let ColumnReader::DoubleColumnReader(mut input) = group.get_column_reader(place)? else {
+                let Read::Number(values) = values(&*group, place)? else {
                     return Err(wrong(&format!("column {} does not hold numbers", column.name)));
                 };
-                let (values, levels) = parquet_input::column(&mut input, group.metadata().num_rows(), true)?;
-                column.values = parquet_input::numbers(values, &levels);
+                column.values = values;
             }
             refused = take(table).err();
             if refused.is_some() {
@@ -85,7 +76,8 @@ fn columns(file: &FileMetaData) -> Table {
         .and_then(|entry| serde_json::from_str::<serde_json::Value>(entry.value.as_deref()?).ok());
     let mut table = Table::default();
     for field in file.schema_descr().columns() {
-        let meaning = meanings.as_ref().and_then(|all| all.get(field.name())?.as_str()).unwrap_or("");
+        let meaning =
+            meanings.as_ref().and_then(|all| all.get(field.name())?.as_str()).unwrap_or("").to_owned();
         table.push(field.name(), meaning, Vec::new());
     }
     table

@@ -2,13 +2,14 @@
 
 use super::Axis;
 use crate::plan::{
-    Control, LONGEST, Named, check, check_no_noise, check_stability, check_steps, control, sha256_hex,
+    Control, LONGEST, Named, Plan, Question, check, check_no_noise, check_stability, check_steps, control,
     stepper,
 };
 use crate::random::Random;
 use crate::{Error, Perturbation, Study, Ties};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, ModelName, parameters};
+use motiform_store::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change (tests/all/scan/bits.rs notices), so that no
@@ -21,16 +22,8 @@ const MOST: (usize, u64) = (100_000_000, 100_000);
 /// Maximum number of cells and rows of a part: a kill loses little, and memory is bounded. About 256 parts if there are fewer cells.
 const PART: (usize, usize, usize) = (160, 4096, 256);
 
-/// The computation and its name.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ScanPlan {
-    /// Short name of the study.
-    pub name: String,
-    /// Title of the figures.
-    pub title: String,
-    /// The computation; the hash covers this.
-    pub computation: ScanComputation,
-}
+/// The plan of a scan.
+pub type ScanPlan = Plan<ScanComputation>;
 
 /// Everything that the rows depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -65,6 +58,37 @@ pub struct ScanComputation {
     pub escape_norm: f64,
     /// Maximum model time of one evaluation; 0 is the evaluation's default.
     pub budget: f64,
+}
+
+impl Question for ScanComputation {
+    type Figure = ();
+    const KIND: Kind = Kind::Scan;
+    /// Readers of folders of Parquet files (pandas, pyarrow, polars) skip names that begin with `_`: they open the folder as one table.
+    const MANIFEST: &'static str = "_manifest.json";
+    const KEY: &'static str = "plan";
+
+    fn format(&self) -> u32 {
+        self.format
+    }
+
+    fn model(&self) -> &ModelName {
+        &self.model
+    }
+
+    fn title(&self, _: &str) -> String {
+        crate::titles::of_motions(self.model.as_str())
+    }
+
+    fn stated(&self) -> Vec<(&'static str, String)> {
+        vec![("axes", self.axes_in_words())]
+    }
+}
+
+impl ScanComputation {
+    /// The axes as they are typed: `[kappa2=0.1:1:64] x [kappa3=0:1:32]`.
+    pub(crate) fn axes_in_words(&self) -> String {
+        self.axes.iter().map(|axis| format!("[{axis}]")).collect::<Vec<_>>().join(" x ")
+    }
 }
 
 impl ScanPlan {
@@ -108,7 +132,7 @@ impl ScanPlan {
             budget: scan.budget,
         };
         let title = crate::titles::of_scan(study, info);
-        let plan = Self { name: study.name.clone(), title, computation };
+        let plan = Self::of(&study.name, &title, computation);
         plan.check_cells()?;
         Ok(plan)
     }
@@ -138,12 +162,6 @@ impl ScanPlan {
             self.start(cell, 0, model.as_ref())?;
         }
         Ok(())
-    }
-
-    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
-    #[must_use]
-    pub fn hash(&self) -> String {
-        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
     }
 
     /// Number of cells.
@@ -204,14 +222,6 @@ impl ScanPlan {
         let mut values: Vec<f64> = specs.iter().map(value).collect();
         self.computation.ties.apply(specs, &mut values);
         Ok(values)
-    }
-
-    /// The registry entry of its model.
-    ///
-    /// # Errors
-    /// An unknown model (for example in a plan written by a newer version).
-    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(self.computation.model.info()?)
     }
 
     /// Its stepper.

@@ -6,22 +6,13 @@ use crate::gather::{Gather, Key};
 use crate::header::{Header, needed};
 use crate::input::{integer, io};
 use crate::{Error, Options, Place, Result};
-use motiform_store::table::parquet_input::{column, numbers, read as read_file, wrong};
-use parquet::column::reader::ColumnReader;
-use parquet::data_type::ByteArray;
+use motiform_store::table::parquet_input::{Read, read as read_file, values, wrong};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader};
 use std::path::Path;
 
 /// What is read: the parquet library calls others a disabled feature.
 const COMPRESSIONS: &str = "a Parquet file with zstd, snappy, gzip or lz4 compression, or none";
-
-/// The values of one column in one row group.
-enum Values {
-    Numbers(Vec<f64>),
-    /// References to the pages: a long text that is repeated takes no memory.
-    Texts(Vec<Option<ByteArray>>),
-}
 
 /// Columns cell, frame, i, x and y as in CSV, of integers, floats or (cell) text; read by row groups.
 pub(super) fn read(path: &Path, options: &Options) -> Result<Found> {
@@ -98,8 +89,9 @@ fn block(
 ) -> std::result::Result<(), Wrong> {
     let alone = stem(place.path());
     let count = |at: usize| match values(group, at)? {
-        Values::Numbers(numbers) => Ok(numbers),
-        Values::Texts(_) => Err(wrong(&format!("column {} is text, not numbers", at + 1))),
+        Read::Number(numbers) => Ok(numbers),
+        Read::Whole(numbers) => Ok(numbers.into_iter().map(|number| number as f64).collect()),
+        Read::Text(_) => Err(wrong(&format!("column {} is text, not numbers", at + 1))),
     };
     let [frames, xs, ys] = [count(frame)?, count(x)?, count(y)?];
     let order = header.i.map(count).transpose()?;
@@ -112,50 +104,18 @@ fn block(
         };
         let frame = whole(frames[k], "frame")?;
         let i = order.as_ref().map(|order| whole(order[k], "i")).transpose()?;
-        let name = cells.as_ref().map_or_else(|| alone.clone(), |cells| cells.name(k));
+        let name = cells.as_ref().map_or_else(|| alone.clone(), |cells| name(cells, k));
         gather.row(Key { cell: &name, frame }, i, [*x, *y], &place)?;
     }
     Ok(())
 }
 
-impl Values {
-    fn name(&self, k: usize) -> String {
-        match self {
-            Self::Numbers(numbers) => numbers[k].to_string(),
-            Self::Texts(texts) => texts[k]
-                .as_ref()
-                .map_or_else(String::new, |text| String::from_utf8_lossy(text.data()).into_owned()),
-        }
+fn name(cells: &Read, row: usize) -> String {
+    match cells {
+        Read::Whole(numbers) => numbers[row].to_string(),
+        Read::Number(numbers) => numbers[row].to_string(),
+        Read::Text(texts) => texts[row]
+            .as_ref()
+            .map_or_else(String::new, |text| String::from_utf8_lossy(text.data()).into_owned()),
     }
-}
-
-fn values(group: &dyn RowGroupReader, at: usize) -> parquet::errors::Result<Values> {
-    let description = group.metadata().column(at).column_descr_ptr();
-    if description.max_rep_level() > 0 || description.max_def_level() > 1 {
-        return Err(wrong(&format!("column {} is nested", description.name())));
-    }
-    let (rows, nulls) = (group.metadata().num_rows(), description.max_def_level() > 0);
-    macro_rules! floats {
-        ($input:expr, $of:expr) => {{
-            let (values, levels) = column(&mut $input, rows, nulls)?;
-            let values: Vec<f64> = values.into_iter().map($of).collect();
-            Values::Numbers(if nulls { numbers(values, &levels) } else { values })
-        }};
-    }
-    Ok(match group.get_column_reader(at)? {
-        ColumnReader::DoubleColumnReader(mut input) => floats!(input, |value| value),
-        ColumnReader::FloatColumnReader(mut input) => floats!(input, f64::from),
-        ColumnReader::Int32ColumnReader(mut input) => floats!(input, f64::from),
-        ColumnReader::Int64ColumnReader(mut input) => floats!(input, |value| value as f64),
-        ColumnReader::ByteArrayColumnReader(mut input) => {
-            let (values, levels) = column(&mut input, rows, nulls)?;
-            let mut texts = values.into_iter();
-            if nulls {
-                Values::Texts(levels.iter().map(|&l| if l == 0 { None } else { texts.next() }).collect())
-            } else {
-                Values::Texts(texts.map(Some).collect())
-            }
-        }
-        _ => return Err(wrong(&format!("column {} has a type that is not read here", description.name()))),
-    })
 }

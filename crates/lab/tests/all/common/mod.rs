@@ -4,7 +4,7 @@
 
 use motiform_lab::simulate::simulate;
 use motiform_models::ModelInfo;
-use motiform_study::{Dataset, Plan, Study, presets};
+use motiform_study::{Dataset, RunPlan, Study, presets};
 
 pub fn tensor() -> &'static ModelInfo {
     ModelInfo::find("tensor").unwrap()
@@ -19,7 +19,7 @@ pub fn preset(name: &str, change: impl FnOnce(&mut Study)) -> Study {
 }
 
 pub fn run(study: &Study) -> Dataset {
-    simulate(&Plan::new(study).unwrap(), &()).unwrap()
+    simulate(&RunPlan::new(study).unwrap(), &()).unwrap()
 }
 
 /// A column of the trajectory.

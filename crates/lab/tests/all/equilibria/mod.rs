@@ -8,7 +8,7 @@ mod other_search;
 mod tensor;
 
 use motiform_lab::equilibria::{Equilibrium, FoundBy, equilibria};
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
 fn study(text: &str) -> Study {
     Study::parse(text, "text", "test").unwrap()
@@ -20,7 +20,7 @@ fn list(study: &Study) -> Vec<Equilibrium> {
 }
 
 fn list_from(study: &Study, starts: usize) -> Vec<Equilibrium> {
-    equilibria(&Plan::new(study).unwrap(), starts, &()).unwrap().unwrap()
+    equilibria(&RunPlan::new(study).unwrap(), starts, &()).unwrap().unwrap()
 }
 
 /// The real and imaginary parts of the amplitudes: the velocity is the conjugate of z1.

@@ -118,7 +118,7 @@ fn one_process_at_a_time_and_one_plan_per_folder() {
             Err(Error::Store(StoreError::NotOurs { .. }))
         ));
     }
-    assert!(matches!(open(&at("mine"), &plan, "1/1", Opening::Resume), Err(Error::NoScan { .. })));
+    assert!(matches!(open(&at("mine"), &plan, "1/1", Opening::Resume), Err(Error::NoResult { .. })));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use motiform_dynamics::Watch;
 use motiform_lab::simulate::simulate;
 use motiform_lab::statistics::{Measurement, simulated, summary, tables};
 use motiform_statistics::{Settings, Track, Tracks, statistics};
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn study(text: &str) -> Study {
@@ -35,7 +35,7 @@ fn bodies_are_single_runs() {
         let bodies = (1..10).map(|seed| {
             let mut study = study(text);
             study.run.seed = seed;
-            let table = simulate(&Plan::new(&study).unwrap(), &()).unwrap().trajectory;
+            let table = simulate(&RunPlan::new(&study).unwrap(), &()).unwrap().trajectory;
             let column = |name: &str| table.get(name).unwrap().to_vec();
             let pair = |a: &str, b: &str| -> Vec<[f64; 2]> {
                 column(a).into_iter().zip(column(b)).map(|(a, b)| [a, b]).collect()

@@ -8,12 +8,12 @@ use motiform_lab::simulate::simulate;
 use motiform_lab::statistics::{open, read, write};
 use motiform_statistics::{Errors, Settings};
 use motiform_store::{Format, Kind, Opening, Staged};
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 use std::path::{Path, PathBuf};
 
 /// Writes a dataset of this study, with other lines in `[run]`.
 fn dataset(folder: &Path, name: &str, text: &str) -> PathBuf {
-    let plan = Plan::new(&Study::parse(text, "text", "test").unwrap()).unwrap();
+    let plan = RunPlan::new(&Study::parse(text, "text", "test").unwrap()).unwrap();
     let staged = Staged::new(&folder.join(name), Kind::Dataset, false).unwrap();
     write_dataset(&simulate(&plan, &()).unwrap(), Format::Parquet, &staged).unwrap();
     staged.commit().unwrap().0

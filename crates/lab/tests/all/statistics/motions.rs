@@ -5,7 +5,7 @@ use motiform_dynamics::Normal;
 use motiform_lab::ensemble::{Member, tracks};
 use motiform_lab::noisy::noisy_tracks;
 use motiform_statistics::{Settings, Statistics, Track, Tracks, statistics};
-use motiform_study::{Plan, Study};
+use motiform_study::{RunPlan, Study};
 
 /// Where the bodies of a motion come from.
 #[derive(Clone, Copy)]
@@ -131,16 +131,16 @@ fn bodies(text: &str, count: usize, first: u64) -> Vec<Track> {
     let mut study = Study::parse(text, "text", "test").expect("a study");
     let plan = |body: u64| {
         study.run.seed = first + body;
-        Plan::new(&study).expect("a plan")
+        RunPlan::new(&study).expect("a plan")
     };
-    let plans: Vec<Plan> = (0..count as u64).map(plan).collect();
+    let plans: Vec<RunPlan> = (0..count as u64).map(plan).collect();
     let c = &plans[0].computation;
     let found = if c.noise.is_some() {
         noisy_tracks(&plans, 1, &())
     } else {
         let rows = (c.t_end / c.dt_out * (1.0 + 1e-12)).floor() as usize;
         let times: Vec<f64> = (0..=rows).map(|k| c.transient + k as f64 * c.dt_out).collect();
-        let member = |plan: &Plan| Member {
+        let member = |plan: &RunPlan| Member {
             parameters: plan.computation.parameters.values(),
             start: plan.computation.initial.values(),
         };

@@ -1,17 +1,15 @@
-//! A plan: a study made explicit. It contains exactly the numbers that a run depends on.
+//! The plan of a run: exactly the numbers that a simulation or an analysis of one body depends on.
 
-use crate::checks::check_start;
-pub use crate::checks::{check, check_closed, check_figure, check_no_noise, check_stability, check_steps};
-pub use crate::control::{Control, NoiseSettings};
+use super::{Control, Named, NoiseSettings, Plan, Question};
+use crate::checks::{check, check_figure, check_stability, check_start, check_steps};
 use crate::error::nearest_of;
-pub use crate::named::Named;
 use crate::random::Random;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Noise, Semilinear};
-use motiform_models::{ModelInfo, ModelName};
-pub use motiform_store::sha256_hex;
+use motiform_models::ModelName;
+use motiform_store::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan; part of the hash.
@@ -28,19 +26,6 @@ pub const LONGEST: f64 = 1e9;
 
 /// Default step of steppers without step control: that of the paper.
 pub const DEFAULT_STEP: f64 = 1e-3;
-
-/// The computation, its name and how it is drawn.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Plan {
-    /// Short name of the study.
-    pub name: String,
-    /// Title of the figures as typed, or nothing: see [`Plan::title`].
-    pub title: String,
-    /// The computation; the hash covers this.
-    pub computation: Computation,
-    /// How it is drawn.
-    pub figure: FigureSettings,
-}
 
 /// Everything that the numbers depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -76,8 +61,29 @@ pub struct Computation {
     pub noise: Option<NoiseSettings>,
 }
 
-impl Plan {
-    /// Rejects a trajectory that is too long to be held in memory; [`Plan::new`] takes those that are written as they are computed.
+/// The plan of a run.
+pub type RunPlan = Plan<Computation>;
+
+impl Question for Computation {
+    type Figure = FigureSettings;
+    const KIND: Kind = Kind::Dataset;
+    const KEY: &'static str = "plan";
+
+    fn format(&self) -> u32 {
+        self.format
+    }
+
+    fn model(&self) -> &ModelName {
+        &self.model
+    }
+
+    fn title(&self, name: &str) -> String {
+        crate::titles::of_run(self, name, None)
+    }
+}
+
+impl RunPlan {
+    /// Rejects a trajectory that is too long to be held in memory; [`RunPlan::new`] takes those that are written as they are computed.
     ///
     /// # Errors
     /// [`Error::Setting`].
@@ -146,20 +152,6 @@ impl Plan {
         };
         let (name, title) = (study.name.clone(), study.title.clone());
         Ok(Self { name, title, computation, figure: study.figure.clone() })
-    }
-
-    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
-    #[must_use]
-    pub fn hash(&self) -> String {
-        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
-    }
-
-    /// The registry entry of its model.
-    ///
-    /// # Errors
-    /// An unknown model (for example in a plan written by a newer version).
-    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(self.computation.model.info()?)
     }
 
     /// The body that it describes: its model at its parameters.

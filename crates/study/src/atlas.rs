@@ -1,17 +1,18 @@
 //! The plan of an atlas: exactly the numbers that its cells and lines depend on.
 
+use crate::branches::{Along, BRANCH_FORMAT, BranchComputation, BranchSettings};
+use crate::curves::{CURVE_FORMAT, CurveComputation, CurveKind};
+use crate::plan::{Computation, Named, Plan, Question, check, stepper};
+use crate::scan::{Axis, ScanComputation};
+use crate::{BranchPlan, CurvePlan, Error, ScanPlan, Stride, Study};
 use motiform_analysis::Regime;
 use motiform_dynamics::steppers::Method;
-use motiform_models::ModelInfo;
-use motiform_study::branches::{Along, BRANCH_FORMAT, BranchComputation, BranchSettings};
-use motiform_study::curves::{CURVE_FORMAT, CurveComputation, CurveKind};
-use motiform_study::plan::{Computation, Named, check, sha256_hex};
-use motiform_study::scan::{Axis, ScanComputation};
-use motiform_study::{BranchPlan, CurvePlan, Error, ScanPlan, Stride, Study};
+use motiform_models::ModelName;
+use motiform_store::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan; part of the hash.
-pub(crate) const ATLAS_FORMAT: u32 = 2;
+pub const ATLAS_FORMAT: u32 = 2;
 
 /// Steps of the flow along orbits that a line may take, a few seconds of them. The lines of the plane of the paper's Fig. 4 take up to half of it; curves on which orbits come
 /// close to a connection, with periods ten times those at their start, take any number.
@@ -62,16 +63,8 @@ impl Default for AtlasSettings {
     }
 }
 
-/// What will be computed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AtlasPlan {
-    /// Short name of the study.
-    pub name: String,
-    /// Title of the figures.
-    pub title: String,
-    /// What is computed: the hash covers this.
-    pub computation: AtlasComputation,
-}
+/// The plan of an atlas.
+pub type AtlasPlan = Plan<AtlasComputation>;
 
 /// Everything that the numbers depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -92,6 +85,28 @@ pub struct AtlasComputation {
     pub start: Computation,
 }
 
+impl Question for AtlasComputation {
+    type Figure = ();
+    const KIND: Kind = Kind::Atlas;
+    const KEY: &'static str = "atlas";
+
+    fn format(&self) -> u32 {
+        self.format
+    }
+
+    fn model(&self) -> &ModelName {
+        &self.scan.model
+    }
+
+    fn title(&self, name: &str) -> String {
+        self.scan.title(name)
+    }
+
+    fn stated(&self) -> Vec<(&'static str, String)> {
+        vec![("scan.axes", self.scan.axes_in_words())]
+    }
+}
+
 impl AtlasPlan {
     /// Makes a study explicit whose scan has two axes, and checks every number. Without axes the plane is that of the study's display.
     ///
@@ -99,7 +114,7 @@ impl AtlasPlan {
     /// [`Error`] naming the key, the value and the remedy.
     pub fn new(study: &Study, settings: &AtlasSettings) -> Result<Self, Error> {
         let mut study = study.clone();
-        let method = motiform_study::plan::stepper(&study.run.stepper)?;
+        let method = stepper(&study.run.stepper)?;
         let stiff = matches!(method, Method::Exponential(_));
         let axes =
             if study.scan.axes.is_empty() { study.display.plane.clone() } else { study.scan.axes.clone() };
@@ -122,7 +137,7 @@ impl AtlasPlan {
                 BranchSettings { branches: settings.branches, stride, ..BranchSettings::over(along(axis)) };
             start = Some(BranchPlan::new(&study, &settings)?.computation.start);
         }
-        let ScanPlan { name, title, computation: scan } = ScanPlan::new(&study)?;
+        let ScanPlan { name, title, computation: scan, .. } = ScanPlan::new(&study)?;
         let Some(start) = start else { return Err(Error::NoAxis { free: String::new() }) };
         let computation = AtlasComputation {
             format: ATLAS_FORMAT,
@@ -133,31 +148,13 @@ impl AtlasPlan {
             stride,
             start,
         };
-        Ok(Self { name, title, computation })
-    }
-
-    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
-    #[must_use]
-    pub fn hash(&self) -> String {
-        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
-    }
-
-    /// The registry entry of its model.
-    ///
-    /// # Errors
-    /// An unknown model.
-    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
-        Ok(self.computation.scan.model.info()?)
+        Ok(Self::of(&name, &title, computation))
     }
 
     /// The scan of its finest grid: a cell of the atlas has the rows of this scan.
     #[must_use]
     pub fn scan(&self) -> ScanPlan {
-        ScanPlan {
-            name: self.name.clone(),
-            title: self.title.clone(),
-            computation: self.computation.scan.clone(),
-        }
+        ScanPlan::of(&self.name, &self.title, self.computation.scan.clone())
     }
 
     /// The plane, across and upwards.
@@ -170,11 +167,7 @@ impl AtlasPlan {
     ///
     /// # Errors
     /// Parameters that the model refuses.
-    pub(crate) fn start(
-        &self,
-        scan: &ScanPlan,
-        (cell, sample): (usize, usize),
-    ) -> Result<Computation, Error> {
+    pub fn start(&self, scan: &ScanPlan, (cell, sample): (usize, usize)) -> Result<Computation, Error> {
         let model = scan.model_of(cell)?;
         let mut state = vec![0.0; model.coordinates().len()];
         model.decode(&scan.start(cell, sample, model.as_ref())?, &mut state);
@@ -216,7 +209,7 @@ impl AtlasPlan {
             plane: self.plane(),
             branches,
         };
-        Ok(CurvePlan { name: self.name.clone(), title: String::new(), computation })
+        Ok(CurvePlan::of(&self.name, "", computation))
     }
 }
 

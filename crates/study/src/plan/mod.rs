@@ -1,0 +1,117 @@
+//! Plans: questions made explicit. A plan contains exactly the numbers that its result depends on, in one form for every kind of
+//! result: a name, a title, and the computation that its hash covers.
+
+mod difference;
+mod provenance;
+mod run;
+
+pub use crate::checks::{check, check_closed, check_figure, check_no_noise, check_stability, check_steps};
+pub use crate::control::{Control, NoiseSettings};
+pub use crate::named::Named;
+pub use motiform_store::sha256_hex;
+pub use provenance::{Provenance, pretty};
+pub use run::{
+    Computation, DEFAULT_STEP, LONGEST, MOST_IN_MEMORY, MOST_ROWS, PLAN_FORMAT, RunPlan, control, stepper,
+};
+
+use crate::Error;
+use motiform_models::{ModelInfo, ModelName};
+use motiform_store::Kind;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::fmt::Debug;
+
+/// A question about a body whose answer is a set of numbers: everything that the numbers depend on.
+pub trait Question: Clone + PartialEq + Debug + Serialize + DeserializeOwned {
+    /// Settings of the figures that a plan carries; `()` where there are none.
+    type Figure: Clone + PartialEq + Debug + Default + Serialize + DeserializeOwned;
+    /// The kind of result that answers it.
+    const KIND: Kind;
+    /// File of the manifest in the result's folder.
+    const MANIFEST: &'static str = "manifest.json";
+    /// Key of the plan in that manifest.
+    const KEY: &'static str;
+
+    /// Version of the meaning of its numbers.
+    fn format(&self) -> u32;
+
+    /// The model of the body.
+    fn model(&self) -> &ModelName;
+
+    /// Title of the figures where none was typed. Markup: italic letters between `*`.
+    fn title(&self, name: &str) -> String;
+
+    /// Parts that a difference between two plans states in words of their own: key of the serialized form, and text.
+    fn stated(&self) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
+}
+
+/// What will be computed, its name and its title.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub struct Plan<C: Question = Computation> {
+    /// Short name of the study.
+    pub name: String,
+    /// Title of the figures as typed, or nothing: see [`Plan::title`].
+    pub title: String,
+    /// The computation; the hash covers this.
+    pub computation: C,
+    /// Settings of the figures.
+    #[serde(default, skip_serializing_if = "is_nothing")]
+    pub figure: C::Figure,
+}
+
+/// Returns `true` for values without content, such as `()`.
+const fn is_nothing<T>(_: &T) -> bool {
+    size_of::<T>() == 0
+}
+
+impl<C: Question> Plan<C> {
+    /// A plan without settings of figures.
+    #[must_use]
+    pub fn of(name: &str, title: &str, computation: C) -> Self {
+        Self { name: name.to_owned(), title: title.to_owned(), computation, figure: C::Figure::default() }
+    }
+
+    /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
+    }
+
+    /// The registry entry of its model.
+    ///
+    /// # Errors
+    /// An unknown model (for example in a plan written by a newer version).
+    pub fn info(&self) -> Result<&'static ModelInfo, Error> {
+        Ok(self.computation.model().info()?)
+    }
+
+    /// Title of its figures: as typed, otherwise that of its question.
+    #[must_use]
+    pub fn title(&self) -> String {
+        if self.title.is_empty() { self.computation.title(&self.name) } else { self.title.clone() }
+    }
+
+    /// Folder of the result where none is given: `MODEL-NAME-KIND`, without the name where it is that of the model; of a run, without
+    /// the kind.
+    #[must_use]
+    pub fn default_folder(&self) -> String {
+        let model = self.computation.model().as_str();
+        let mut folder = model.to_owned();
+        for part in [self.name.as_str(), C::KIND.name()] {
+            if part != model && part != Kind::Dataset.name() {
+                folder = format!("{folder}-{part}");
+            }
+        }
+        folder
+    }
+
+    /// Differences between the computation of this plan, which a folder holds, and that of a requested one: each key with both values.
+    /// Empty where they are the same.
+    #[must_use]
+    pub fn differences(&self, requested: &Self) -> String {
+        difference::between(&self.computation, &requested.computation)
+    }
+}

@@ -1,0 +1,128 @@
+//! Provenance of a result: the version, the plan, and its hash, in the manifest of the result's folder.
+
+use super::{Plan, Question};
+use crate::{Error, input};
+use motiform_store::{Folder, Opening, VERSION, mend};
+use serde::ser::{SerializeMap, Serializer};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// The manifest of a result that grows in its folder. It contains no host, user, time of day, threads or shards.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(bound = "")]
+pub struct Provenance<C: Question> {
+    /// Version of motiform that started it.
+    pub motiform: String,
+    /// SHA-256 of the plan's computation.
+    pub plan_hash: String,
+    /// `true` for a finished result; absent where the inventory alone states it.
+    pub complete: Option<bool>,
+    /// The plan, under the key of its question.
+    #[serde(alias = "branches", alias = "curves", alias = "atlas")]
+    pub plan: Plan<C>,
+}
+
+impl<C: Question> Serialize for Provenance<C> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("motiform", &self.motiform)?;
+        map.serialize_entry("plan_hash", &self.plan_hash)?;
+        if let Some(complete) = self.complete {
+            map.serialize_entry("complete", &complete)?;
+        }
+        map.serialize_entry(C::KEY, &self.plan)?;
+        map.end()
+    }
+}
+
+impl<C: Question> Provenance<C> {
+    /// That of a plan computed by this version.
+    #[must_use]
+    pub fn new(plan: &Plan<C>, complete: Option<bool>) -> Self {
+        Self { motiform: VERSION.to_owned(), plan_hash: plan.hash(), complete, plan: plan.clone() }
+    }
+
+    /// Reads the manifest of a folder.
+    ///
+    /// # Errors
+    /// [`Error::NoResult`] where it is missing, damaged, or its plan was changed.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        mend(folder)?;
+        let path = folder.join(C::MANIFEST);
+        let none = |reason: String| Error::NoResult {
+            path: folder.to_owned(),
+            kind: C::KIND,
+            reason: format!("{}: {reason}", C::MANIFEST),
+        };
+        let text = input::manifest(&path).map_err(|error| none(error.to_string()))?;
+        let read: Self = serde_json::from_str(&text).map_err(|error| none(error.to_string()))?;
+        match read.plan.hash() == read.plan_hash {
+            true => Ok(read),
+            false => Err(none("it was changed: its plan does not give its hash".to_owned())),
+        }
+    }
+
+    /// The bytes of the manifest; `target` is the folder that errors name.
+    ///
+    /// # Errors
+    /// [`Error::Store`].
+    pub fn encode(&self, target: &Path) -> Result<Vec<u8>, Error> {
+        pretty(self, target)
+    }
+
+    /// Provenance as metadata of a table.
+    ///
+    /// # Errors
+    /// [`Error::Store`].
+    pub fn metadata(&self, target: &Path) -> Result<Vec<(&'static str, String)>, Error> {
+        let text = serde_json::to_string(self).map_err(|error| Error::write_failed(target, error))?;
+        Ok(vec![("motiform", text)])
+    }
+}
+
+impl<C: Question> Plan<C> {
+    /// Refuses the folder of another plan, before anything is written in it.
+    ///
+    /// # Errors
+    /// [`Error::OtherPlan`] with the differences; [`Error::NoResult`].
+    pub fn check_folder(&self, path: &Path) -> Result<Provenance<C>, Error> {
+        let there = Provenance::<C>::read(path)?;
+        if there.plan_hash == self.hash() {
+            return Ok(there);
+        }
+        Err(Error::OtherPlan {
+            path: path.to_owned(),
+            kind: C::KIND,
+            differences: there.plan.differences(self),
+        })
+    }
+
+    /// Opens the folder of this plan's result: a new one, which has its manifest from the beginning, or an earlier one of the same plan,
+    /// to go on with. Returns `true` beside an earlier one.
+    ///
+    /// # Errors
+    /// Those of [`Plan::check_folder`]; [`Error::Store`] where it exists, is not ours, is used by others or cannot be written.
+    pub fn open(
+        &self,
+        path: &Path,
+        opening: Opening,
+        complete: Option<bool>,
+    ) -> Result<(Folder, bool), Error> {
+        if opening == Opening::Resume && path.exists() {
+            self.check_folder(path)?;
+            return Ok((Folder::resume(path, C::KIND)?, true));
+        }
+        let manifest = Provenance::new(self, complete).encode(path)?;
+        Ok((Folder::open(path, C::KIND, opening, &[(C::MANIFEST, &manifest)])?, false))
+    }
+}
+
+/// A value as JSON for people to read, with a line end; `target` is what errors name.
+///
+/// # Errors
+/// [`Error::Store`].
+pub fn pretty(value: &impl Serialize, target: &Path) -> Result<Vec<u8>, Error> {
+    let mut json = serde_json::to_vec_pretty(value).map_err(|error| Error::write_failed(target, error))?;
+    json.push(b'\n');
+    Ok(json)
+}
