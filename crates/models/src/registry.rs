@@ -24,8 +24,8 @@ pub struct ModelInfo {
     pub stepper: &'static str,
     /// The relative tolerance to use by default.
     pub rtol: f64,
-    /// Ratio of relative to absolute tolerance, if only the former is given: the inverse of the size below which an entry of the state counts
-    /// as small.
+    /// Ratio of relative to absolute tolerance, if only the former is given: the inverse of the size below
+    /// which an entry of the state counts as small.
     pub tolerance_ratio: f64,
     /// Some tens of its slowest ordinary time scale (model time): the length of the first look at a motion.
     pub look: f64,
@@ -42,7 +42,7 @@ pub struct ModelInfo {
     pub(crate) inner: Source,
 }
 
-/// Where a model's names and its construction come from.
+/// The origin of a model's names and of its construction.
 #[derive(Debug)]
 pub(crate) enum Source {
     /// From code.
