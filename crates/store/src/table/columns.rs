@@ -31,7 +31,7 @@ impl Column {
         Self { name: name.to_owned(), meaning, values }
     }
 
-    /// What it contains, with its unit.
+    /// Its content, with the unit.
     #[must_use]
     pub fn meaning(&self) -> &'static str {
         self.meaning
