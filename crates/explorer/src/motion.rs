@@ -47,7 +47,7 @@ pub(crate) struct Naming {
     heard: Arc<Heard>,
 }
 
-/// What is known, and the page that is told.
+/// The results known so far, and the page that receives them.
 struct Heard {
     known: Mutex<Known>,
     answers: Answers,
@@ -109,7 +109,7 @@ impl Heard {
     }
 }
 
-/// What is found of a motion, in this order.
+/// The results about a motion, in this order.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum Found {
     /// It is being classified.
