@@ -39,7 +39,8 @@ impl RelativeEquilibrium {
         silent
     }
 
-    /// Whether another shape is an equilibrium too, with the same linearisation of the unknowns outside of `mode`.
+    /// Returns `true` if another shape is an equilibrium too, with the same linearisation of the unknowns
+    /// outside of `mode`.
     fn acts_alike<B: Equivariant + ?Sized>(
         &self,
         body: &B,
