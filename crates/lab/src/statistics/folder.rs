@@ -12,14 +12,14 @@ use std::path::Path;
 /// The file of the summary.
 const FILE: &str = "statistics.json";
 
-/// What the plan of bodies is compared by.
+/// The file with the plan of bodies, by which a folder is compared.
 const PLAN: &str = "plan.json";
 
 /// Opens a folder of the statistics of so many bodies of a plan (`None`: of datasets), to write it or to go on with it.
 ///
 /// # Errors
-/// [`Error::OtherBranches`] where it holds those of another plan; [`Error::Store`] where it exists, is not ours, is used by others or cannot be
-/// written.
+/// [`Error::OtherBranches`] where it holds those of another plan; [`Error::Store`] where it exists, is not
+/// ours, is used by others or cannot be written.
 pub fn open(
     path: &Path,
     opening: Opening,
