@@ -114,8 +114,8 @@ fn ends(context: &Context<'_>, found: &Branches) -> Claim {
         "The zigzag is not born from straight motion: its branch ends where its period becomes infinite, on a homoclinic orbit.",
         format!(
             "the branch of the zigzag ends at *κ*_2 = {end:.6} on an orbit that leaves the unstable \
-            straight motion and returns to it, once \
-             to the left and once to the right; the branch of straight motion has {hopf} Hopf points between 0.3 and 1.6"
+            straight motion and returns to it, once to the left and once to the right; the branch of \
+            straight motion has {hopf} Hopf points between 0.3 and 1.6"
         ),
         &format!(
             "{HOW}. The end is one where the time grows as the logarithm of the distance, at the rate of the saddle"

@@ -119,8 +119,7 @@ impl Curves {
             "Over the plane of Fig. 4 straight motion turns into circular motion continuously, along one curve.",
             format!(
                 "continuous at {continuous} of {} places along it, from (κ_2, κ_3) = {} to {}; straight \
-                motion is found in {} of {beyond} cells beyond the curve, and \
-                 in {} of those before it",
+                motion is found in {} of {beyond} cells beyond the curve, and in {} of those before it",
                 asked.len(),
                 words(line.first()),
                 words(line.last()),
@@ -128,8 +127,8 @@ impl Curves {
                 elsewhere.len()
             ),
             "the pitchfork of straight motion at κ_3 = 0.6 is continued through the plane; what begins is \
-            found by switching branches, and is \
-             stable; cells from random starts, at least 98 % of those beyond",
+            found by switching branches, and is stable; cells from random starts, at least 98 % of those \
+            beyond",
             asked.len() >= PLACES
                 && continuous == asked.len()
                 && elsewhere.is_empty()
@@ -180,8 +179,9 @@ impl Curves {
             "The zigzag of Fig. 4(a) is stable below one arch over the plane, on which left and right legs become unequal.",
             format!(
                 "the curve joins both ends of the stable range at κ_3 = 0.1; its top is at (κ_2, κ_3) = {}; \
-                zigzags in {} of {count} cells below it, and in {} of {} others, which belong to \
-                 other branches. Below it they are not alone: rotating zigzags, chaos and blow-up are met there as well",
+                zigzags in {} of {count} cells below it, and in {} of {} others, which belong to other \
+                branches. Below it they are not alone: rotating zigzags, chaos and blow-up are met there as \
+                well",
                 words(Some(&top)),
                 inside.len(),
                 outside.len(),

@@ -211,10 +211,9 @@ impl Continued {
             "The lines of Fig. 1, continued numerically from special points of branches, are those of the formulas.",
             format!("largest distances: {}", words.collect::<Vec<_>>().join("; ")),
             "one circle at rest on each side of *κ*_2 = 0 is followed, and what begins on its branch, and \
-            so on; each special point found is \
-             continued through the plane, without any formula; distance along *γ* (circle to ellipse: along \
-             *κ*_2) below 10^{-8}. The edge of \
-             the rectangular motion is no bifurcation of one motion and is not continued",
+            so on; each special point found is continued through the plane, without any formula; distance \
+            along *γ* (circle to ellipse: along *κ*_2) below 10^{-8}. The edge of the rectangular motion is \
+            no bifurcation of one motion and is not continued",
             self.0.len() == 6 && self.0.iter().all(|track| track.points.len() > 10 && track.off() < CLOSE),
         )
     }
@@ -245,9 +244,9 @@ impl Continued {
                 expected[0],
                 expected[1]
             ),
-            "what begins is followed by switching branches at places along each line, and is stable as the motion before it was; a Hopf \
-             bifurcation at every point by the sign of its first Lyapunov coefficient; one Bautin point, \
-             where the formula has it to 10^{-6}",
+            "what begins is followed by switching branches at places along each line, and is stable as the \
+            motion before it was; a Hopf bifurcation at every point by the sign of its first Lyapunov \
+            coefficient; one Bautin point, where the formula has it to 10^{-6}",
             others.len() == 5 && others.iter().all(all) && turns.len() == 1 && turns.iter().all(near),
         )
     }

@@ -81,9 +81,9 @@ impl SteadyTurns {
             (Regime::QuasiPeriodic, "to the same side")
         };
         let why = format!(
-            "turns by {:.3} degrees {sense}, {TURNS} times in a row, after rests near motionless shapes that are saddles; lambda_+ = {:.4} \
-             and lambda_- = {:.4} have a positive sum, so the rests stay bounded; round-off decides how \
-             long they are ({:.1} to {:.1} from turn to turn)",
+            "turns by {:.3} degrees {sense}, {TURNS} times in a row, after rests near motionless shapes \
+            that are saddles; lambda_+ = {:.4} and lambda_- = {:.4} have a positive sum, so the rests stay \
+            bounded; round-off decides how long they are ({:.1} to {:.1} from turn to turn)",
             self.angle.to_degrees(),
             self.rates.0,
             self.rates.1,

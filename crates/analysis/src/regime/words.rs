@@ -200,8 +200,8 @@ pub(super) fn not_stable(orbit: &PeriodicOrbit) -> String {
     } else {
         format!(
             "the orbit stays on a periodic orbit that is neutral in a direction beside those of its \
-            symmetry (largest multiplier {growth:.6} +- \
-             {error:.0e}): the equations have more symmetry than stated, or the orbit bifurcates"
+            symmetry (largest multiplier {growth:.6} +- {error:.0e}): the equations have more symmetry than \
+            stated, or the orbit bifurcates"
         )
     }
 }

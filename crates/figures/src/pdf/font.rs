@@ -61,8 +61,8 @@ impl Used {
             .collect();
         let glyphs = file.object(&format!(
             "<< /Type /Font /Subtype /CIDFontType2 /BaseFont /{name} /CIDSystemInfo << /Registry (Adobe) \
-            /Ordering (Identity) /Supplement 0 >> \
-             /FontDescriptor {descriptor} 0 R /CIDToGIDMap /Identity /DW 600 /W [{widths}] >>"
+            /Ordering (Identity) /Supplement 0 >> /FontDescriptor {descriptor} 0 R /CIDToGIDMap /Identity \
+            /DW 600 /W [{widths}] >>"
         ));
         let meanings = file.stream("", self.meanings().as_bytes());
         file.object(&format!(

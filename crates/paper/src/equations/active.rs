@@ -199,8 +199,7 @@ fn unbounded(free: &[Ran], bounded: &[Ran]) -> Claim {
             bounded.len()
         ),
         "random small starts with *g*_4 = 1, *g*_5 = 0; without the quartic potential at least one run \
-        leaves every bound, with it none, and \
-         the potential stays below 100",
+        leaves every bound, with it none, and the potential stays below 100",
         escaped > 0
             && bounded.iter().all(|ran| ran.outcome.is_complete() && ran.top < 100.0 && ran.top > 1e-6),
     )
@@ -216,8 +215,7 @@ fn simple(bounded: &[Ran], active: &[Ran]) -> Claim {
         "Therefore this nonlinearity does not cause any asymptotic complex dynamics such as domain oscillation.",
         format!(
             "with *g*_4 = 1 and the quartic potential the potential falls all the time and the shape comes \
-            to rest: largest rate of change of \
-             a mode at the end {}; with *g*_5 = -1 instead {}",
+            to rest: largest rate of change of a mode at the end {}; with *g*_5 = -1 instead {}",
             words(bounded),
             words(active)
         ),

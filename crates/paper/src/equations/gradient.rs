@@ -33,8 +33,7 @@ fn variational(turning: &[f64; 5]) -> Claim {
         "The nonlinear term with the coefficient *g*_4 can be written in a variational form *δ*∫ d*s* (∂_s*φ*)^3/*δφ*.",
         format!(
             "the derivative of the term is symmetric to {:.0e} (the linear terms to {:.0e}), and the \
-            variation of the integral is {ratio:.9} \
-             times the term",
+            variation of the integral is {ratio:.9} times the term",
             turning[3],
             turning[..3].iter().copied().fold(0.0, f64::max)
         ),

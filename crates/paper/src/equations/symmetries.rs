@@ -82,10 +82,8 @@ fn general(context: &Context<'_>) -> Claim {
         how,
         &format!(
             "all terms of the paper are among them, but the symmetries also allow {}, of the same order as \
-            the term with *g*_5. Alone it is \
-             not variational either (the check of the last term, below, gives {:.2}). The paper leaves it \
-             out without a word: its equation is \
-             one of a family",
+            the term with *g*_5. Alone it is not variational either (the check of the last term, below, \
+            gives {:.2}). The paper leaves it out without a word: its equation is one of a family",
             words(&others),
             Term::Bilinear(1, 4).turning()
         ),

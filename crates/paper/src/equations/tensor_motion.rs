@@ -181,8 +181,7 @@ fn saturation(context: &Context<'_>) -> Result<Claim, Error> {
             "with *b*_3 = 9 and 0.25 and the ellipse in other units the speeds over 300 time units are the same to {worst:.0e}"
         ),
         "*S* → *S*/*c* with *a*_1 → *c a*_1, *b*_1 → *b*_1/*c*, *b*_3 → *c*^2*b*_3 for *c* = 3 and 0.5, \
-        from the same body; below 10^{-8} of the \
-         largest speed",
+        from the same body; below 10^{-8} of the largest speed",
         one.len() > 100 && worst < 1e-8,
     ))
 }

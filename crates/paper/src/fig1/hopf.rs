@@ -147,8 +147,7 @@ impl Bistable {
     fn words(&self) -> String {
         format!(
             "at *κ*_2 = {}, {BEFORE} before the line, {} from near the straight motion and {} from near the \
-            ellipse at rest; {FAR} beyond it \
-             {} from near the straight motion",
+            ellipse at rest; {FAR} beyond it {} from near the straight motion",
             self.kappa2, self.straight, self.ellipse, self.beyond
         )
     }

@@ -51,10 +51,9 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
         off[1]
     );
     let how = "the same initial state, named by the classifier where Euler's scheme with steps 10^{-3} and \
-        10^{-4} takes it, and where dop853 \
-               with relative tolerance 10^{-10} does: the same motion, one that the formulas give; speeds \
-               within 1 % but for the rectangular \
-               motion, whose rests depend on round-off (quick: the smaller step at steady motions only)";
+        10^{-4} takes it, and where dop853 with relative tolerance 10^{-10} does: the same motion, one that \
+        the formulas give; speeds within 1 % but for the rectangular motion, whose rests depend on \
+        round-off (quick: the smaller step at steady motions only)";
     let says = "The simple Euler scheme has been employed with the time increment Δ*t* = 10^{-3}. We have checked the numerical \
                 accuracy by using Δ*t* = 10^{-4}.";
     Ok(claim(&[88, 89], says, finds, how, agree == all && off.iter().all(|&off| off < 0.01)))

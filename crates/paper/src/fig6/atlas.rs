@@ -167,5 +167,5 @@ impl Atlas {
 }
 
 const HOW: &str = "the circle is followed from *L* = 6 by pseudo-arclength, through folds and whether or \
-    not it is stable; special points are \
-solved for, and every steady motion that begins there is followed too";
+    not it is stable; special points are solved for, and every steady motion that begins there is followed \
+    too";

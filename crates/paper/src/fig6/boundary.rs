@@ -110,8 +110,7 @@ pub(super) fn claims(tracks: &[Track]) -> [Claim; 4] {
             "By optimizing the logarithmic likelihood, we determine *ε*(*s*) to enclose the domain boundary.",
             format!(
                 "the violation goes from {bare:.2} to {closed:.0e} at most, with an *ε* of eight modes and \
-                a smooth prior (width *n*^{{-4}}); the \
-                 estimate failed in none of the runs"
+                a smooth prior (width *n*^{{-4}}); the estimate failed in none of the runs"
             ),
             "the same times; below 10^{-10} with the most likely error function; a failure would end the run",
             closed < 1e-10 && closed < 1e-6 * bare && complete,

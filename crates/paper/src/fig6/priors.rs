@@ -112,10 +112,9 @@ impl Priors {
             row
         };
         Table {
-            caption: "Mean speed and turns of the same shapes with other priors of the error function (width *n*^{-*p*} of its mode *n*; \
-                      *p* = 4 is used everywhere else). Not closed: shapes for which no most likely error \
-                      function was found; turns are given \
-                      where all were closed."
+            caption: "Mean speed and turns of the same shapes with other priors of the error function \
+                (width *n*^{-*p*} of its mode *n*; *p* = 4 is used everywhere else). Not closed: shapes for \
+                which no most likely error function was found; turns are given where all were closed."
                 .to_owned(),
             head,
             rows: self.priors.iter().zip(&self.found).map(row).collect(),
@@ -171,10 +170,9 @@ impl Priors {
                 ratios.join(", ")
             ),
             "the same recorded shapes, closed with each prior; changes of the heading from the top speed of \
-            a leg to that of the next one, kinds within 8 degrees \
-             taken together; within 6 degrees of those with *n*^{-4}, which are those that the classifier \
-             finds for (c) and (d), and 90 at *L* = 13.4; the \
-             speeds within a factor of 1.25.",
+            a leg to that of the next one, kinds within 8 degrees taken together; within 6 degrees of those \
+            with *n*^{-4}, which are those that the classifier finds for (c) and (d), and 90 at *L* = 13.4; \
+            the speeds within a factor of 1.25.",
             self.turning.len() >= 3
                 && apart < SAME
                 && named

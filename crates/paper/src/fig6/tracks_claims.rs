@@ -103,13 +103,12 @@ fn reversing(c: &Track) -> Claim {
         "Fig. 6(c), *L* = 29.2: the orderly turns have almost 180° ± 45°; thus this is a kind of zigzag.",
         format!("{}; two consecutive turns together: {} degrees", listed(c), nets.join(", ")),
         "Change of heading at top speed from leg to leg (the body stops in between). 180° ± 45° of one turn \
-        would be 135 degrees to either side; \
-         found must be turns of 180 and of 45 degrees, each within 6 degrees, as read off a figure, and 135 \
-         for two together, within twice that",
+        would be 135 degrees to either side; found must be turns of 180 and of 45 degrees, each within 6 \
+        degrees, as read off a figure, and 135 for two together, within twice that",
         &format!(
             "it is a zigzag, but no single turn is 180° ± 45°: turns of {back:.0}° alternate with turns of \
-            {aside:.0}° to the left or to the right. \
-             If the sentence means the sum of two consecutive turns, it holds: {back:.0}° ± {aside:.0}°"
+            {aside:.0}° to the left or to the right. If the sentence means the sum of two consecutive \
+            turns, it holds: {back:.0}° ± {aside:.0}°"
         ),
         c.verdict.regime == Regime::Zigzag
             && turns_are(c, &[45.0, 180.0])

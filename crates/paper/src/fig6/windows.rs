@@ -92,7 +92,8 @@ fn straight(context: &Context<'_>, edges: &Edges, onsets: &Onsets, lengths: &Len
         "Edge: the leading eigenvalue of the straight shape, followed in length, changes sign. Runs from random starts between.",
         &format!(
             "at *L* = 12.0 the leading eigenvalue of the straight motion is still {:.3} (stable); computed \
-            with twice as many modes the edge moves by less than {:.0e}. The paper's limit is that of its scan.",
+            with twice as many modes the edge moves by less than {:.0e}. The paper's limit is that of its \
+            scan.",
             edges.straight_growth,
             same.max(1e-5)
         ),
