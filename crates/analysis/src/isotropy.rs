@@ -6,7 +6,7 @@ use motiform_dynamics::Equivariant;
 
 /// The rotations and mirrors of the plane that leave a shape unchanged: its isotropy subgroup.
 ///
-/// What a shape has of it, its whole orbit has: the flow commutes with the symmetry.
+/// The symmetry of a shape is that of its whole orbit: the flow commutes with the symmetry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Isotropy {
     /// Order of the rotations that leave the shape unchanged: 1 for none. A circle counts as 1, see `circle`.

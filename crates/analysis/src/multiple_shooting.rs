@@ -245,7 +245,7 @@ impl Part {
         norm(&self.tangents) < limits.growth && (limits.least == 0.0 || self.least(dim) > limits.least)
     }
 
-    /// By how much the direction that shrinks most has shrunk, up to a factor of order 1: the least entry on the diagonal of R.
+    /// The factor by which the direction that shrinks most has shrunk, up to a factor of order 1: the least entry on the diagonal of R.
     fn least(&self, dim: usize) -> f64 {
         let (_, r) = DMatrix::from_column_slice(dim, dim, &self.tangents).qr().unpack();
         r.diagonal().iter().fold(f64::INFINITY, |least, x| least.min(x.abs()))

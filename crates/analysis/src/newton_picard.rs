@@ -42,7 +42,7 @@ pub(crate) struct Image {
 }
 
 impl Image {
-    /// By how much the longest direction has grown.
+    /// The growth of the longest direction.
     pub(crate) fn amplification(&self) -> f64 {
         self.directions.iter().map(|direction| norm(direction)).fold(0.0, f64::max)
     }

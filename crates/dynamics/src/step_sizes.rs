@@ -134,7 +134,7 @@ impl StepTables {
         good
     }
 
-    /// By how much `k` changes after a step of size `2^(k/4)`: without a power and a logarithm at every step.
+    /// The change of `k` after a step of size `2^(k/4)`: without a power and a logarithm at every step.
     fn change(&self, error: f64) -> i32 {
         self.errors.iter().take_while(|most| error <= **most).fold(MOST_SMALLER, |k, _| k + 1)
     }

@@ -46,7 +46,7 @@ impl Room {
         self.corner
     }
 
-    /// From where on the names inside a sheet count, so that no two panels share one.
+    /// The number from which the names inside a sheet count, so that no two panels share one.
     pub(crate) const fn ids(self) -> u32 {
         1000 * self.panel as u32
     }

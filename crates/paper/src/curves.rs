@@ -65,7 +65,7 @@ impl Curves {
     /// The curve of every special point of the branches, and that of straight motion at a faster triangle; each once.
     ///
     /// # Errors
-    /// What the continuation refuses; [`Error::Interrupted`].
+    /// A refusal of the continuation; [`Error::Interrupted`].
     pub(crate) fn follow(context: &Context<'_>, found: &Branches) -> Result<Self, Error> {
         let plane = Plane::new(&at(context, 0.9, SLOW)?, ["kappa2", "kappa3"])?;
         let over = Settings::over(KAPPA2.0, KAPPA2.1);

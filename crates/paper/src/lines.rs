@@ -53,7 +53,7 @@ impl Continued {
     /// From a circle at rest, right and left of kappa2 = 0, everything is reached by following branches and switching between them.
     ///
     /// # Errors
-    /// What the continuation refuses; [`Error::Interrupted`].
+    /// A refusal of the continuation; [`Error::Interrupted`].
     pub(crate) fn follow(context: &Context<'_>) -> Result<Self, Error> {
         let mut found = context.kept.once("lines of Fig. 1", || Self::followed(context))?;
         // A fault makes the points other ones along gamma.

@@ -75,7 +75,7 @@ pub enum Error {
     Limit {
         /// The place.
         place: Place,
-        /// Of what there are too many.
+        /// The items that are too many.
         what: &'static str,
         /// The limit.
         limit: u64,

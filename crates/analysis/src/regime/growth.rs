@@ -55,7 +55,7 @@ pub(super) fn in_motion(run: &Lyapunov, slow: f64, fastest: f64) -> Result<Lyapu
     Ok(run)
 }
 
-/// By how much (natural logarithm) the first tangent vector was shorter at one time than at an earlier one, at most.
+/// The largest fall of the first tangent vector from one time to a later one (natural logarithm of its length).
 fn deepest_fall(run: &Lyapunov) -> f64 {
     let Some(last) = run.history.last() else { return 0.0 };
     let spans = durations(&run.history, last.0 - run.time);

@@ -33,7 +33,7 @@ const CHANGE: f64 = 1e-3;
 /// Change that counts as none: the last of an exponential approach.
 const NONE: f64 = 1e-5;
 
-/// By how much the size of a curve of returns changed in a run, against itself.
+/// The relative change of the size of a curve of returns in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Change {
     /// The trend, and its 99 % error.

@@ -36,7 +36,7 @@ pub struct Repeating {
 /// tolerance are those of `settings`; its looks and budgets do not matter.
 ///
 /// # Errors
-/// What the numerics refuse.
+/// Input that the numerics refuse.
 pub fn repeating<B: Equivariant + ?Sized>(
     body: &B,
     orbit: &PeriodicOrbit,

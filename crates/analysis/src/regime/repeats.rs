@@ -13,7 +13,7 @@ const CANCELLED: u32 = 3;
 pub(super) struct Repeats {
     /// Turns between rests in the last look that were all the same.
     turns: Option<SteadyTurns>,
-    /// In how many looks in a row they were the same.
+    /// Number of looks in a row in which they were the same.
     steady: u32,
     /// Runs in a row without an exponent of the motion.
     cancelled: u32,

@@ -41,7 +41,7 @@ impl Verdict {
     /// there, or none. Chaos and tori are run on there for a while.
     ///
     /// # Errors
-    /// What the numerics refuse.
+    /// Input that the numerics refuse.
     pub fn resolved_by<B: Equivariant + ?Sized>(
         mut self,
         finer: &B,

@@ -24,7 +24,7 @@ use motiform_dynamics::{Equivariant, Outcome, Watch};
 /// An equilibrium is sought during a look where the reduced shape changes slower than this, against its fastest.
 const SETTLED: f64 = 1e-3;
 
-/// The decision on one motion, under way. It asks for observations and is told them: who makes them, one orbit or a lane of
+/// The decision on one motion, under way. It asks for observations and receives them: their source, one orbit or a lane of
 /// many, makes no difference to it.
 #[derive(Debug)]
 pub(super) struct Search {

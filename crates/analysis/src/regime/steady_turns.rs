@@ -7,7 +7,7 @@ use crate::equilibrium::RelativeEquilibrium;
 use crate::symmetry::{align, reduced_speed};
 use motiform_dynamics::{Equivariant, VectorField};
 
-/// So many turns in a row: by chance, all have one sense with a probability of 2^-12.
+/// Number of turns in a row: by chance, all have one sense with a probability of 2^-12.
 const TURNS: usize = 12;
 
 /// Turns that differ by less (rad) are the same.
@@ -19,7 +19,7 @@ const CLOSE: f64 = 0.005;
 /// The last turns of a look: their angle, sense and times.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SteadyTurns {
-    /// By how much the body turned each time (rad, above 0).
+    /// Angle of each turn of the body (rad, above 0).
     angle: f64,
     /// `true` if it turned to the left and to the right by turns.
     alternates: bool,

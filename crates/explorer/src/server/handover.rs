@@ -45,7 +45,7 @@ impl Handover {
 
 impl Drop for Handover {
     fn drop(&mut self) {
-        // Who removed it before has done no harm.
+        // A file that was removed before does no harm.
         let _ = std::fs::remove_file(&self.path);
     }
 }

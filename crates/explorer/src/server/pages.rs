@@ -56,7 +56,7 @@ impl Pages {
     /// A place for a page.
     ///
     /// # Errors
-    /// Why there is none.
+    /// The reason why there is none.
     pub(crate) fn enter(&self, stream: &Arc<TcpStream>) -> Result<Place<'_>, End> {
         let mut inner = self.lock();
         if let Some(end) = inner.dismissed {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// A statement and what became of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Claim {
-    /// Whose statement it is.
+    /// The author of the statement.
     pub source: Source,
     /// The statement of the paper, or of our check.
     pub says: String,
@@ -17,7 +17,7 @@ pub struct Claim {
     pub verdict: Verdict,
 }
 
-/// Whose statement a claim is.
+/// The author of a claim.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Source {
     /// The paper's, in the sentences of these numbers (see [`super::Sentence`]).

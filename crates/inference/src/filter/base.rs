@@ -166,7 +166,7 @@ impl<const SHAPE: usize, const STATE: usize> Law<'_, SHAPE, STATE> {
         rate
     }
 
-    /// In how many parts a step must be made: a power of two, so that the fastest rate is resolved. Where it
+    /// The number of parts in which a step must be made: a power of two, so that the fastest rate is resolved. Where it
     /// is not, the covariance is no longer positive definite, and the likelihood has maxima that are errors
     /// of the integration. `values` becomes the field at `state`.
     #[inline(always)]
@@ -221,7 +221,7 @@ impl<const STATE: usize> State<STATE> {
         sum
     }
 
-    /// In how many times as many parts steps after the first frame must be made, so that errors of its large
+    /// The factor on the number of parts in which steps after the first frame must be made, so that errors of its large
     /// variances stay below the small ones: the square root of the ratio of variances over [`CONDITION`], as
     /// a power of two. Otherwise the covariance may lose its positive definiteness there, and the search for
     /// the maximum ends between points where the filter breaks down.

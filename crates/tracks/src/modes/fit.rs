@@ -30,7 +30,7 @@ pub struct RadiusFit {
     /// Correlation of the residuals of neighbouring vertices: about -p/n for independent noise. Well above 0,
     /// the outline has finer features than the modes, and the covariance is too small.
     pub neighbours: f64,
-    /// By how much correlated residuals multiply the variances: `1 + 2 sum_k rho_k` over the lags k up to the
+    /// The factor by which correlated residuals multiply the variances: `1 + 2 sum_k rho_k` over the lags k up to the
     /// first rho_k <= 0; 1 for independent noise. Not contained in the covariance: multiply it where
     /// `neighbours` is well above 0.
     pub inflation: f64,
