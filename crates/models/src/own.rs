@@ -19,7 +19,8 @@ pub struct About {
     pub equations: &'static str,
     /// The origin of the equations (a publication).
     pub source: &'static str,
-    /// Some tens of its slowest ordinary time scale (model time): the length of the first stretch over which a motion is judged.
+    /// The length of a look, the unit in which times of observation are given ([`ModelInfo::look`]): some tens of the
+    /// model's slowest ordinary time scale (model time).
     pub look: f64,
     /// Typical size of its shapes: the norm of their coordinates, to one digit.
     pub size: f64,

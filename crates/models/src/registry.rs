@@ -27,7 +27,8 @@ pub struct ModelInfo {
     /// Ratio of relative to absolute tolerance, if only the former is given: the inverse of the size below
     /// which an entry of the state counts as small.
     pub tolerance_ratio: f64,
-    /// Some tens of its slowest ordinary time scale (model time): the length of the first look at a motion.
+    /// The length of a look, the unit in which times of observation are given: some tens of the model's slowest
+    /// ordinary time scale (model time). The first look at a motion is as long as this.
     pub look: f64,
     /// Default maximum model time for classifying a motion.
     pub budget: f64,

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
 
-/// The longest time of an orbit if the plan has no budget, in looks of the model.
+/// The longest time of an orbit if the plan has no budget, in looks of the model ([`motiform_models::ModelInfo::look`]).
 const LOOKS: f64 = 100.0;
 
 /// The time between savings: a killed run loses at most this, beside the orbits under way.
@@ -127,7 +127,7 @@ pub fn follow_lives_kept(
     Ok(Lives { plan_hash: plan.hash(), orbits })
 }
 
-/// The longest time of an orbit, in whole looks of the model.
+/// The longest time of an orbit, in whole looks of the model ([`motiform_models::ModelInfo::look`]).
 fn looks(plan: &ScanPlan) -> Result<f64, Error> {
     let (look, budget) = (plan.info()?.look, plan.computation.budget);
     Ok((if budget > 0.0 { budget / look } else { LOOKS }).ceil())
