@@ -5,7 +5,7 @@ use crate::{cargo_command, step};
 use anyhow::Result;
 use std::process::Command;
 
-/// Where the book is built.
+/// The folder in which the book is built.
 const BOOK: &str = "target/book";
 
 /// Runs every command of the documents, also the slow ones, and compares the pictures.

@@ -10,15 +10,15 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Which browser, and where it is.
+/// The variables that name the browser and its path.
 pub(crate) type Environment = [(&'static str, PathBuf); 2];
 
-/// How the tests are started.
+/// The command that starts the tests in a browser.
 pub(crate) struct Browser<'a> {
     node: &'a Path,
     environment: Environment,
     program: PathBuf,
-    /// Where the list of results is written.
+    /// The path of the list of results.
     results: PathBuf,
 }
 

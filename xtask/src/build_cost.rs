@@ -1,4 +1,5 @@
-//! What a newcomer waits for: a build from an empty cargo folder to the first picture, beside that of a public crate on the same machine.
+//! The wait of a newcomer: a build from an empty cargo folder to the first picture, beside that of a public
+//! crate on the same machine.
 
 mod measure;
 mod table;
@@ -42,7 +43,8 @@ pub(crate) struct Pair {
     reference: Cost,
 }
 
-/// Measures as often as `--runs N` says (once by default), fails where a budget is exceeded, and writes the table of the last run with `--write`.
+/// Measures as often as `--runs N` says (once by default), fails where a budget is exceeded, and writes the
+/// table of the last run with `--write`.
 pub(crate) fn run(arguments: &[String]) -> Result<()> {
     let root = root()?.canonicalize()?;
     let (budget, runs) = (Budget::read(&root)?, runs(arguments)?);
@@ -63,7 +65,8 @@ pub(crate) fn run(arguments: &[String]) -> Result<()> {
         let [seconds, cpu_seconds] = pair.ratios();
         if seconds > elapsed || cpu_seconds > cpu {
             bail!(
-                "the build costs {seconds:.1} times that of ripgrep, {cpu_seconds:.1} times in CPU seconds; {BUDGETS} allows {elapsed} and {cpu}"
+                "the build costs {seconds:.1} times that of ripgrep, {cpu_seconds:.1} times in CPU seconds; \
+                {BUDGETS} allows {elapsed} and {cpu}"
             );
         }
     }
@@ -79,7 +82,8 @@ impl Pair {
     fn sentence(&self, version: &str) -> String {
         let [seconds, cpu_seconds] = self.ratios();
         format!(
-            "{:.0} s and {:.0} CPU s to the first picture; `cargo install ripgrep@{version}`: {:.0} s and {:.0} CPU s; ratios {seconds:.2} and {cpu_seconds:.2}",
+            "{:.0} s and {:.0} CPU s to the first picture; `cargo install ripgrep@{version}`: {:.0} s and \
+            {:.0} CPU s; ratios {seconds:.2} and {cpu_seconds:.2}",
             self.ours.seconds, self.ours.cpu_seconds, self.reference.seconds, self.reference.cpu_seconds
         )
     }

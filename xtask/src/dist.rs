@@ -8,8 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Builds all of it into `target/dist`, and installs the wheel into an environment without cargo on its path, where the README's Python block
-/// must run.
+/// Builds all of it into `target/dist`, and installs the wheel into an environment without cargo on its path,
+/// where the README's Python block must run.
 pub(crate) fn run() -> Result<()> {
     let root = root()?.canonicalize()?;
     let folder = root.join("target/dist");
@@ -54,7 +54,7 @@ fn page(root: &Path, folder: &Path) -> Result<()> {
     step("site", &mut pack)
 }
 
-/// Where cargo builds.
+/// The folder in which cargo builds.
 fn target(root: &Path) -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from)
 }

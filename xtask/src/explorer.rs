@@ -16,7 +16,8 @@ const FIREFOX: [&str; 2] = ["firefox-esr", "firefox"];
 /// The tests of the page without a server, and of its module.
 const OF_MODULE: [&str; 2] = ["alone.test.mjs", "module.test.mjs"];
 
-/// What is tested in Firefox, too: the page without a server, and swarms. `cargo xtask firefox` runs all files there.
+/// The tests that run in Firefox, too: the page without a server, and swarms. `cargo xtask firefox` runs all
+/// files there.
 const IN_FIREFOX: [&str; 2] = ["alone.test.mjs", "swarm.test.mjs"];
 
 /// Builds the program, and tests its page.
@@ -25,7 +26,8 @@ pub(crate) fn test() -> Result<()> {
     test_built()
 }
 
-/// Builds the page, compares it with the committed one, and tests that of the program that was built last, in Chromium, and in part in Firefox.
+/// Builds the page, compares it with the committed one, and tests that of the program that was built last, in
+/// Chromium, and in part in Firefox.
 pub(crate) fn test_built() -> Result<()> {
     let root = root()?.canonicalize()?;
     let folder = root.join("crates/explorer/web");
@@ -163,7 +165,7 @@ fn on_path(name: &str) -> Option<PathBuf> {
     std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
 }
 
-/// Whether a program can be started at all.
+/// Returns `true` if a program can be started at all.
 fn works(name: &str) -> bool {
     let mut command = Command::new(name);
     command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());

@@ -40,7 +40,7 @@ fn is_sample(text: &str) -> bool {
     text.split_once('/').and_then(parse).is_some_and(|(k, n)| k < n)
 }
 
-/// Whether cargo-mutants is installed; otherwise reports how to install it.
+/// Returns `true` if cargo-mutants is installed; otherwise reports how to install it.
 fn installed() -> Result<()> {
     let found = Command::new("cargo").args(["mutants", "--version"]).output().context("cargo")?;
     if !found.status.success() {

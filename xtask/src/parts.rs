@@ -1,4 +1,4 @@
-//! How long each part of a task takes, for the closing lines of its log.
+//! The elapsed time of each part of a task, for the closing lines of its log.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -46,7 +46,7 @@ fn add(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     one.zip(other).map(|(one, other)| one + other)
 }
 
-/// What finished processes that this one started have used of processors, as Linux tells it.
+/// The processor time of finished child processes, as Linux tells it.
 fn processors() -> Option<Duration> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
     // The name of the program, in brackets, may contain spaces; cutime and cstime are the 14th and 15th words after it, in hundredths.

@@ -1,5 +1,5 @@
-//! The page without a server: the WebAssembly module, the folder `docs/site` for any static host, and the page as one file. All of it is built,
-//! for a release and for the tests, and nothing of it is committed.
+//! The page without a server: the WebAssembly module, the folder `docs/site` for any static host, and the
+//! page as one file. All of it is built, for a release and for the tests, and nothing of it is committed.
 
 use crate::explorer::{node, npm};
 use crate::{cargo_command, root, step};
@@ -11,10 +11,10 @@ use std::process::Command;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// What to do where the module cannot be built.
+/// The remedy where the module cannot be built.
 const REMEDY: &str = "the module needs Rust's standard library for WebAssembly: run `rustup target add wasm32-unknown-unknown`";
 
-/// Where the page as one file is written, in the checkout.
+/// The path of the page as one file, in the checkout.
 pub(crate) const ONE_FILE: &str = "target/motiform.html";
 
 /// The folder for a static host, in the checkout.
@@ -57,7 +57,7 @@ fn site(node: &Path, root: &Path, web: &Path) -> Result<PathBuf> {
     Ok(module)
 }
 
-/// Whether the standard library for WebAssembly is there.
+/// Returns `true` if the standard library for WebAssembly is installed.
 fn is_installed() -> Result<bool> {
     let output = Command::new("rustc").args(["--print", "sysroot"]).output();
     let sysroot = String::from_utf8(output.context("rustc could not be started")?.stdout)?;

@@ -1,4 +1,4 @@
-//! What every analysis asks of its samples.
+//! The requirements that every analysis makes of its samples.
 
 use crate::{Error, Result};
 

@@ -1,6 +1,6 @@
-//! What can be wrong with the samples of an analysis.
+//! The faults of the samples of an analysis.
 
-/// Why samples cannot be analysed. Every message names the input and the remedy.
+/// The reasons why samples cannot be analysed. Every message names the input and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -47,7 +47,7 @@ pub enum Error {
     /// Fewer samples than the method can do with.
     #[error("{what} needs at least {least}, there are {got}; sample a longer run")]
     TooFew {
-        /// What is asked for, and what it counts.
+        /// The quantity that is asked for, and the samples that it counts.
         what: &'static str,
         /// The least number.
         least: usize,
@@ -134,11 +134,11 @@ pub enum Error {
         "there is no {what} near the start at the parameter {parameter}: {why}; give a motion of this kind, closer to it"
     )]
     NotOnABranch {
-        /// What was expected.
+        /// The expected motion or point.
         what: &'static str,
         /// Parameter of the start.
         parameter: f64,
-        /// What went wrong.
+        /// The reason.
         why: String,
     },
     /// The numerics refused an input.
@@ -147,7 +147,7 @@ pub enum Error {
     /// The Fourier transform refused its buffers.
     #[error("the Fourier transform failed: {source}; report this as a bug of motiform")]
     Transform {
-        /// What the transform said.
+        /// The error of the transform.
         #[from]
         source: realfft::FftError,
     },

@@ -13,7 +13,7 @@ const LEAST_ESCAPES: usize = 10;
 pub struct Stay {
     /// Time of the escape, or of the end of the run.
     pub time: f64,
-    /// Whether the run escaped; if not, its stay is longer than `time` (it is censored).
+    /// `true` if the run escaped; if not, its stay is longer than `time` (it is censored).
     pub escaped: bool,
 }
 
@@ -144,7 +144,7 @@ fn at_most(n: usize, mean: f64) -> f64 {
     (0..=n).map(|k| libm::exp(k as f64 * log - mean - libm::lgamma(k as f64 + 1.0))).sum()
 }
 
-/// Where `beyond` changes from false to true between 0 and `end`, to a part in 2^60.
+/// The place where `beyond` changes from false to true between 0 and `end`, to a part in 2^60.
 fn crossing(end: f64, beyond: impl Fn(f64) -> bool) -> f64 {
     let (mut below, mut above) = (0.0, end);
     for _ in 0..60 {

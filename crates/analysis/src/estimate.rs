@@ -14,13 +14,13 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Whether `x` lies in the interval.
+    /// Returns `true` if `x` lies in the interval.
     #[must_use]
     pub fn covers(&self, x: f64) -> bool {
         (self.value - x).abs() <= self.error
     }
 
-    /// Whether there is an error.
+    /// Returns `true` if there is an error.
     #[must_use]
     pub fn has_error(&self) -> bool {
         self.error.is_finite()

@@ -12,7 +12,7 @@ pub(crate) const EPS: f64 = f64::EPSILON;
 /// A decomposition of a square matrix whose rows were scaled to a largest entry of about 1.
 pub(crate) struct Graded {
     qr: ColPivQR<f64, Dyn, Dyn>,
-    /// What each row was multiplied by: powers of two, which round nothing.
+    /// The factors that the rows were multiplied by: powers of two, which round nothing.
     scales: Vec<f64>,
 }
 
@@ -35,8 +35,9 @@ impl Graded {
     }
 }
 
-/// `|A^-1| bounds`: how far the solution of `A x = b` may be away where equation i is wrong by up to `bounds[i]`. Where A is singular to the
-/// last digit, the solutions are a family, and the distance is that to the nearest one of them. `None` where an entry is not finite.
+/// `|A^-1| bounds`: how far the solution of `A x = b` may be away where equation i is wrong by up to
+/// `bounds[i]`. Where A is singular to the last digit, the solutions are a family, and the distance is that
+/// to the nearest one of them. `None` where an entry is not finite.
 pub(crate) fn spread(mut matrix: DMatrix<f64>, bounds: &[f64]) -> Option<Vec<f64>> {
     let scales: Vec<f64> = matrix.row_iter().map(|row| scale(row.iter())).collect();
     if !matrix.iter().chain(&scales).all(|x| x.is_finite()) {

@@ -6,20 +6,21 @@ use motiform_dynamics::Equivariant;
 
 /// The rotations and mirrors of the plane that leave a shape unchanged: its isotropy subgroup.
 ///
-/// What a shape has of it, its whole orbit has: the flow commutes with the symmetry.
+/// The symmetry of a shape is that of its whole orbit: the flow commutes with the symmetry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Isotropy {
     /// Order of the rotations that leave the shape unchanged: 1 for none. A circle counts as 1, see `circle`.
     pub folds: usize,
-    /// Whether every rotation leaves it unchanged.
+    /// `true` if every rotation leaves it unchanged.
     pub circle: bool,
-    /// Whether it has a mirror axis: then `R(angle) M u = u` for this angle (rad).
+    /// The angle (rad) of its mirror axis, if it has one: `R(angle) M u = u`.
     pub mirror: Option<f64>,
 }
 
 impl Isotropy {
-    /// The part of its size up to which a shape that Newton's method found, or one of an orbit that it found, counts as equal to its image. Where the
-    /// error of the shape is known, that error decides instead ([`SteadyMotion`](crate::SteadyMotion)).
+    /// The part of its size up to which a shape that Newton's method found, or one of an orbit that it found,
+    /// counts as equal to its image. Where the error of the shape is known, that error decides instead
+    /// ([`SteadyMotion`](crate::SteadyMotion)).
     pub const SAME: f64 = 1e-6;
 
     /// The isotropy of `shape`, where an image counts as equal up to `tolerance` of the shape's size.
@@ -37,7 +38,7 @@ impl Isotropy {
         Self { folds: if circle { 1 } else { folds(body, shape, tolerance) }, circle, mirror }
     }
 
-    /// Whether nothing but the identity leaves the shape unchanged.
+    /// Returns `true` if nothing but the identity leaves the shape unchanged.
     #[must_use]
     pub fn is_trivial(&self) -> bool {
         !self.circle && self.folds == 1 && self.mirror.is_none()

@@ -1,8 +1,9 @@
 //! The leading Floquet exponents of an orbit in a large system.
 //!
-//! A shape at a distance from the periodic orbit within its tolerance is not close enough: in directions that shrink by orders of magnitude, that
-//! distance changes the map of a period by more than what is left of them. So Newton's method goes on until the orbit closes to far below the
-//! tolerance. Then two periods of the flow bring a dozen directions across the flow and the group to the leading ones.
+//! A shape at a distance from the periodic orbit within its tolerance is not close enough: in directions that
+//! shrink by orders of magnitude, that distance changes the map of a period by more than what is left of
+//! them. So Newton's method goes on until the orbit closes to far below the tolerance. Then two periods of
+//! the flow bring a dozen directions across the flow and the group to the leading ones.
 
 use crate::Estimate;
 use crate::linear::norm;
@@ -18,7 +19,7 @@ const FOLLOWED: usize = 5;
 /// and those whose multipliers are computed in the end.
 const DIRECTIONS: usize = 12;
 
-/// What is left of a closed orbit, against the accuracy of the flow.
+/// The largest residual of a closed orbit, against the accuracy of the flow.
 const CLOSED: f64 = 1e-5;
 
 /// Most steps of Newton's method until then.

@@ -85,8 +85,8 @@ pub fn solve(columns: &[Vec<f64>], rhs: &[f64], least: f64) -> Option<Vec<f64>> 
     Some(x.iter().copied().collect())
 }
 
-/// An orthonormal basis of the `count` directions that `sum_j columns_j x_j` is smallest in: the right singular vectors of the smallest singular
-/// values. `None` where a number is not finite.
+/// An orthonormal basis of the `count` directions that `sum_j columns_j x_j` is smallest in: the right
+/// singular vectors of the smallest singular values. `None` where a number is not finite.
 pub fn null_space(columns: &[Vec<f64>], count: usize) -> Option<Vec<Vec<f64>>> {
     let matrix = finite(columns, &vec![0.0; columns.len()])?;
     let svd = matrix.try_svd(false, true, f64::EPSILON, 1000)?;

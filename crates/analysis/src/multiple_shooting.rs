@@ -18,7 +18,7 @@ use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField, Watch};
 use nalgebra::DMatrix;
 
-/// How long the parts of a period may be.
+/// The limits on the parts of a period.
 struct Limits {
     /// Deviations grow by less than this over one of them,
     growth: f64,
@@ -45,7 +45,7 @@ const STEPS: usize = 12;
 /// The period may move by this part on the way.
 const NEAR: f64 = 0.2;
 
-/// What the flow over one part of the period gives.
+/// The result of the flow over one part of the period.
 struct Part {
     end: Vec<f64>,
     /// `f` at the end.
@@ -239,13 +239,13 @@ impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
 }
 
 impl Part {
-    /// Whether it is short enough.
+    /// Returns `true` if it is short enough.
     fn keeps(&self, limits: &Limits) -> bool {
         let dim = self.end.len();
         norm(&self.tangents) < limits.growth && (limits.least == 0.0 || self.least(dim) > limits.least)
     }
 
-    /// By how much the direction that shrinks most has shrunk, up to a factor of order 1: the least entry on the diagonal of R.
+    /// The factor by which the direction that shrinks most has shrunk, up to a factor of order 1: the least entry on the diagonal of R.
     fn least(&self, dim: usize) -> f64 {
         let (_, r) = DMatrix::from_column_slice(dim, dim, &self.tangents).qr().unpack();
         r.diagonal().iter().fold(f64::INFINITY, |least, x| least.min(x.abs()))

@@ -13,7 +13,7 @@ pub(crate) fn multipliers(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
     Some(values)
 }
 
-/// How far the eigenvalues `values` of a map may be away where the map is wrong by `accuracy` of itself.
+/// Bounds on the errors of the eigenvalues `values` of a map that is wrong by `accuracy` of itself.
 ///
 /// To first order `accuracy sum_i |y_i x_i| / |y . x|` with left and right eigenvectors; the root of it where they are orthogonal, as for a
 /// multiple eigenvalue without a basis.
@@ -30,8 +30,9 @@ pub(crate) fn errors(map: &DMatrix<f64>, values: &[ComplexPair], accuracy: f64) 
 /// Changes of the factors that are tried.
 const TRIES: u64 = 4;
 
-/// How far the logarithms `values` of the moduli of a product's eigenvalues may be away where every column of each factor is wrong by
-/// `accuracy` of its length: twice what some random changes of that size make of them. Infinite where one of the changes leaves no eigenvalues.
+/// Bounds on the errors of the logarithms `values` of the moduli of a product's eigenvalues, if every column
+/// of each factor is wrong by `accuracy` of its length: twice the changes under some random errors of that
+/// size. Infinite where one of the changes leaves no eigenvalues.
 pub(crate) fn errors_of_product(maps: &[DMatrix<f64>], values: &[ComplexPair], accuracy: f64) -> Vec<f64> {
     let mut errors = vec![accuracy; values.len()];
     for seed in 0..TRIES {

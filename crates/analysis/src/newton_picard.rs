@@ -14,8 +14,8 @@ use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField, Watc
 /// Directions that are followed exactly by Newton's method in a large system; the others contract within a period and are iterated.
 const DIRECTIONS: usize = 5;
 
-/// Where tangent vectors of a large system grow beyond this, the try is given up: they agree to half of their digits, and span no
-/// space that Newton's method could solve in.
+/// The growth of tangent vectors of a large system beyond which the try is given up: they agree to half of
+/// their digits, and span no space that Newton's method could solve in.
 const PARALLEL: f64 = 1e8;
 
 /// The state of Newton's method.
@@ -29,7 +29,7 @@ pub(crate) struct Newton<'b, B: ?Sized> {
     directions: Vec<Vec<f64>>,
 }
 
-/// What the flow over T gives, brought back by the inverse of the symmetry.
+/// The result of the flow over T, brought back by the inverse of the symmetry.
 pub(crate) struct Image {
     /// `P(u) - u`.
     pub(crate) rest: Vec<f64>,
@@ -42,7 +42,7 @@ pub(crate) struct Image {
 }
 
 impl Image {
-    /// By how much the longest direction has grown.
+    /// The growth of the longest direction.
     pub(crate) fn amplification(&self) -> f64 {
         self.directions.iter().map(|direction| norm(direction)).fold(0.0, f64::max)
     }
@@ -86,7 +86,7 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
         back(self.body, self.angle, self.mirrored, x);
     }
 
-    /// Whether it is followed in all directions.
+    /// Returns `true` if it is followed in all directions.
     pub(crate) fn is_whole(&self) -> bool {
         self.directions.len() == self.shape.len()
     }

@@ -18,20 +18,22 @@ pub struct PeriodicOrbit {
     pub time: f64,
     /// The rotation (rad, in -pi..pi), after the mirror.
     pub angle: f64,
-    /// Whether the image is a mirror image. Twice the time then brings the body back without any net rotation.
+    /// `true` if the image is a mirror image. Twice the time then brings the body back without any net
+    /// rotation.
     pub mirrored: bool,
     /// `|Phi_T(u) - R [M] u|`, what Newton's method left.
     pub residual: f64,
-    /// Floquet multipliers over T, largest modulus first, the neutral ones (time, rotations) removed; the leading ones in systems of more than
-    /// 16 unknowns.
+    /// Floquet multipliers over T, largest modulus first, the neutral ones (time, rotations) removed; the
+    /// leading ones in systems of more than 16 unknowns.
     pub multipliers: Vec<(f64, f64)>,
-    /// How far the modulus of each multiplier may be away, as far as the accuracy of the flow says; in a large
-    /// system also how far the directions that were followed are from its space. Empty where each multiplier has the accuracy of the shape, on a branch.
+    /// Bounds on the errors of the moduli of the multipliers, from the accuracy of the flow; in a large
+    /// system also from the distance of the directions that were followed from its space. Empty where each
+    /// multiplier has the accuracy of the shape, on a branch.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errors: Vec<f64>,
 }
 
-/// Where Newton's method starts.
+/// The start of Newton's method.
 #[derive(Clone, Copy, Debug)]
 pub struct PeriodicGuess<'s> {
     /// A shape near the orbit.
@@ -40,7 +42,7 @@ pub struct PeriodicGuess<'s> {
     pub time: f64,
     /// The rotation between the two.
     pub angle: f64,
-    /// Whether it returns mirrored.
+    /// `true` if it returns mirrored.
     pub mirrored: bool,
 }
 
@@ -53,12 +55,12 @@ const SMALL: usize = 8;
 /// Systems up to this size are solved in all directions by Newton's method.
 const WHOLE: usize = 16;
 
-/// Whether a system of this dimension is small.
+/// Returns `true` if a system of this dimension is small.
 pub(crate) const fn is_small(dim: usize) -> bool {
     dim <= SMALL
 }
 
-/// Whether Newton's method follows a system of this dimension in all directions.
+/// Returns `true` if Newton's method follows a system of this dimension in all directions.
 pub(crate) const fn is_whole(dim: usize) -> bool {
     dim <= WHOLE
 }
@@ -66,10 +68,10 @@ pub(crate) const fn is_whole(dim: usize) -> bool {
 /// A shape whose image is farther from it than this part of its size does not return.
 const NO_RETURN: f64 = 0.6;
 
-/// Where deviations grow by more than this on the way, round-off alone is far above every tolerance at the end.
+/// The growth of deviations on the way beyond which round-off alone is far above every tolerance at the end.
 const HOPELESS: f64 = 1e12;
 
-/// Where a small deviation grows by more than this on the way, several short shots are asked ([`refine`]).
+/// The growth of a small deviation on the way beyond which several short shots are used ([`refine`]).
 const SENSITIVE: f64 = 1e4;
 
 /// Steps of a tighter relative tolerance are round-off.
@@ -126,8 +128,8 @@ impl PeriodicOrbit {
         Self::find_within(body, guess, flow, &mut effort, watch)
     }
 
-    /// The orbit near `shape` that comes back, mirrored or not, after nearly `time`: Newton's method with the rotation that brings the shape after
-    /// that time closest to itself.
+    /// The orbit near `shape` that comes back, mirrored or not, after nearly `time`: Newton's method with the
+    /// rotation that brings the shape after that time closest to itself.
     #[must_use]
     pub fn near<B: Equivariant + ?Sized>(
         body: &B,
@@ -200,8 +202,8 @@ impl PeriodicOrbit {
         None
     }
 
-    /// The time after which the shape is back without a mirror, turned by [`PeriodicOrbit::net_rotation`]. (The period of a motion also depends on its form:
-    /// see [`crate::regime`].)
+    /// The time after which the shape is back without a mirror, turned by [`PeriodicOrbit::net_rotation`].
+    /// (The period of a motion also depends on its form: see [`crate::regime`].)
     #[must_use]
     pub fn period(&self) -> f64 {
         if self.mirrored { 2.0 * self.time } else { self.time }
@@ -219,19 +221,19 @@ impl PeriodicOrbit {
         self.multipliers.first().map_or(0.0, |m| libm::hypot(m.0, m.1))
     }
 
-    /// Whether every deviation decays, beyond the errors of the multipliers.
+    /// Returns `true` if every deviation decays, beyond the errors of the multipliers.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.growth() < 1.0 - self.growth_error()
     }
 
-    /// Whether some deviation grows, beyond the errors of the multipliers.
+    /// Returns `true` if some deviation grows, beyond the errors of the multipliers.
     #[must_use]
     pub fn is_unstable(&self) -> bool {
         self.growth() > 1.0 + self.growth_error()
     }
 
-    /// How far [`PeriodicOrbit::growth`] may be away.
+    /// Bound on the error of [`PeriodicOrbit::growth`].
     #[must_use]
     pub fn growth_error(&self) -> f64 {
         let moduli = self.multipliers.iter().map(|m| libm::hypot(m.0, m.1));
@@ -239,7 +241,8 @@ impl PeriodicOrbit {
         moduli.zip(&self.errors).map(|(size, error)| size + error).fold(0.0, f64::max) - self.growth()
     }
 
-    /// Floquet exponents `ln |multiplier| / T`, largest first: round-off where a multiplier is below the accuracy of the matrix of a period.
+    /// Floquet exponents `ln |multiplier| / T`, largest first: round-off where a multiplier is below the
+    /// accuracy of the matrix of a period.
     #[must_use]
     pub fn exponents(&self) -> Vec<f64> {
         self.multipliers.iter().map(|m| libm::log(libm::hypot(m.0, m.1)) / self.time).collect()

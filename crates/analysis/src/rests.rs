@@ -5,16 +5,16 @@ use crate::{Error, Result, checks};
 /// A stretch of time in which the size stays below its threshold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rest {
-    /// When the size fell below.
+    /// The time when the size fell below.
     pub start: f64,
-    /// How long it stayed there.
+    /// The duration of the stay there.
     pub duration: f64,
 }
 
 /// The complete rests of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rests {
-    /// What the size was compared with.
+    /// The value that the size was compared with.
     pub threshold: f64,
     /// In the order of time.
     pub rests: Vec<Rest>,

@@ -1,4 +1,4 @@
-//! Whether two sets of points fill the same set.
+//! The test that two sets of points fill the same set.
 
 use crate::{Error, Result, checks};
 
@@ -11,13 +11,16 @@ const NEIGHBOURS: usize = 8;
 /// The cross-correlation must reach this part of the mean of the two auto-correlations.
 const SHARE: f64 = 0.7;
 
-/// Whether two sets of points fill the same set with the same density, at the smallest scale that they resolve.
+/// Returns `true` if two sets of points fill the same set with the same density, at the smallest scale that
+/// they resolve.
 ///
 /// C_ab(r) = share of the pairs (one point of each set) closer than r;  same if C_12 >= 0.7 (C_11 + C_22) / 2
 ///
-/// r is the distance below which a point of one set has 8 others of that set, on average over both sets. For the early and the late returns of an
-/// orbit that stays on its attractor the three sums agree; for returns that drift or approach a smaller set the late ones lie elsewhere or closer together, and the
-/// cross-correlation falls short of the others (inequality of arithmetic means: it never exceeds them by much).
+/// r is the distance below which a point of one set has 8 others of that set, on average over both sets. For
+/// the early and the late returns of an orbit that stays on its attractor the three sums agree; for returns
+/// that drift or approach a smaller set the late ones lie elsewhere or closer together, and the
+/// cross-correlation falls short of the others (inequality of arithmetic means: it never exceeds them by
+/// much).
 ///
 /// Source: Kantz (1994), Phys. Rev. E 49, 5091 (cross-correlation sum).
 ///

@@ -43,8 +43,9 @@ const QUANTILES: [f64; 13] = [
 /// series does not show how much its mean would change if it went on.
 ///
 /// Where the sum of the samples is the difference of two ends, as the growth along a neutral direction is, the mean is off by
-/// `(b_n - b_0) / n`; the cosines show the ends, `c_j = -b_0 + (-1)^j b_n` and slow parts of `b` of order `j sqrt(tau_b / n)`, and the error is
-/// some three times the usual difference: a bound, which shrinks like 1/n.
+/// `(b_n - b_0) / n`; the cosines show the ends, `c_j = -b_0 + (-1)^j b_n` and slow parts of `b` of order
+/// `j sqrt(tau_b / n)`, and the error is some three times the usual difference: a bound, which shrinks like
+/// 1/n.
 ///
 /// Measured coverage (1000 series of 2000 samples, AR(1), tests/all/series_mean.rs): 93 to 96 % for correlation times of up to 1/50
 /// of the series, half widths 1.05 to 1.2 times those of the known spectrum. One series in 30 of correlation time 1/50 has no error; a
@@ -88,7 +89,8 @@ pub(crate) fn mean_over(samples: &[f64], durations: &[f64]) -> Result<Estimate> 
     Ok(Estimate { value, error })
 }
 
-/// How many independent samples a mean over these durations is worth: n over the integrated correlation time.
+/// Number of independent samples that determine a mean as well as the samples of these durations: n over the
+/// integrated correlation time.
 pub(crate) fn independent_samples(samples: &[f64], durations: &[f64]) -> f64 {
     let value = mean(samples, durations, samples[0]);
     let off: Vec<f64> = samples.iter().zip(durations).map(|(x, d)| (x - value) * d).collect();
@@ -107,8 +109,9 @@ fn cosines(independent: f64) -> Option<usize> {
 
 /// `n / tau` for fluctuations around a mean; tau is at least 1, and 1 for none at all.
 ///
-/// tau = -1 + 2 sum over m of (rho_2m + rho_2m+1), as long as the pairs are positive, none larger than the one before. The sum only grows: where
-/// fewer than `least` are left it ends, and the number is a bound. (A transient would otherwise take all its n^2 / 2 products.)
+/// tau = -1 + 2 sum over m of (rho_2m + rho_2m+1), as long as the pairs are positive, none larger than the
+/// one before. The sum only grows: where fewer than `least` are left it ends, and the number is a bound. (A
+/// transient would otherwise take all its n^2 / 2 products.)
 fn independent(off: &[f64], least: f64) -> f64 {
     let n = off.len();
     let lagged = |lag: usize| -> f64 { off.iter().zip(&off[lag..]).map(|(a, b)| a * b).sum() };

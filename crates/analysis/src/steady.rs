@@ -1,4 +1,4 @@
-//! What a body does at a relative equilibrium: does it move, does it turn?
+//! The motion of a body at a relative equilibrium: translation and rotation.
 
 use crate::equilibrium::RelativeEquilibrium;
 use crate::isotropy::Isotropy;
@@ -27,7 +27,7 @@ pub struct SteadyMotion {
     pub turning_rate: Estimate,
     /// The rotations and mirrors that leave the shape as it is, within its error; all rotations where nothing of it is above its error.
     pub symmetry: Isotropy,
-    /// Whether the shape has no mirror axis although the equations have the mirror, beyond its error.
+    /// `true` if the shape has no mirror axis although the equations have the mirror, beyond its error.
     asymmetric: bool,
     /// The leading growth rate: what an unseen turning rate is small against.
     growth: f64,
@@ -62,19 +62,19 @@ impl SteadyMotion {
         }
     }
 
-    /// Whether the shape has a mirror axis, within its error.
+    /// Returns `true` if the shape has a mirror axis, within its error.
     #[must_use]
     pub fn has_axis(&self) -> bool {
         self.symmetry.circle || self.symmetry.mirror.is_some()
     }
 
-    /// Whether the centre of mass moves.
+    /// Returns `true` if the centre of mass moves.
     #[must_use]
     pub fn moves(&self) -> bool {
         self.speed.value > CLEAR * self.speed.error
     }
 
-    /// Whether the shape turns.
+    /// Returns `true` if the shape turns.
     #[must_use]
     pub fn turns(&self) -> bool {
         self.turning_rate.value.abs() > CLEAR * self.turning_rate.error
@@ -91,8 +91,8 @@ impl SteadyMotion {
         }
     }
 
-    /// How far the speed and the turning rate are from where the name would change, in units of what decides: below 1 the name is not
-    /// decided.
+    /// The distance of the speed and the turning rate from the values at which the name would change, in
+    /// units of what decides: below 1 the name is not decided.
     #[must_use]
     pub fn margin(&self) -> f64 {
         let resolved = SEEN * self.growth.abs() / (CLEAR * self.turning_rate.error);
@@ -124,7 +124,7 @@ impl SteadyMotion {
     }
 }
 
-/// How many times above or below its threshold a rate is.
+/// The ratio of a rate to its threshold, or the inverse where it is below.
 fn sure(rate: Estimate) -> f64 {
     let (value, least) = (rate.value.abs(), CLEAR * rate.error);
     match value > least {
@@ -134,8 +134,8 @@ fn sure(rate: Estimate) -> f64 {
     }
 }
 
-/// The speed, and how far it may be away for a shape that is wrong by this much: by the change of the velocity over the error, and by its own
-/// rounding.
+/// The speed, and how far it may be away for a shape that is wrong by this much: by the change of the
+/// velocity over the error, and by its own rounding.
 fn speed<B: Equivariant + ?Sized>(
     body: &B,
     found: &RelativeEquilibrium,

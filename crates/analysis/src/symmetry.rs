@@ -15,12 +15,12 @@ use crate::linear::{add, dot, norm};
 use motiform_dynamics::{Bundle, Equivariant, System, VectorField};
 use std::f64::consts::TAU;
 
-/// How one shape is best turned (and mirrored) onto another.
+/// The rotation (after a mirror) that maps one shape closest to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alignment {
     /// The rotation (rad, in -pi..pi), applied after the mirror.
     pub angle: f64,
-    /// What remains: `min_angle |reference - R(angle) [M] shape|`.
+    /// The remaining distance: `min_angle |reference - R(angle) [M] shape|`.
     pub distance: f64,
 }
 
@@ -74,8 +74,9 @@ impl Copies {
         &self.shape
     }
 
-    /// The nearest of the copies of the shape at all angles, where one is nearer than half of the shape's size; farther away, the nearest of those
-    /// at equal angles (eight to a wave of the highest mode), which takes no sine.
+    /// The nearest of the copies of the shape at all angles, where one is nearer than half of the shape's
+    /// size; farther away, the nearest of those at equal angles (eight to a wave of the highest mode), which
+    /// takes no sine.
     pub(crate) fn nearest<B: Equivariant + ?Sized>(&self, body: &B, reference: &[f64]) -> Vec<f64> {
         let mut overlaps = vec![0.0; self.count];
         for (&x, column) in reference.iter().zip(self.turned.chunks_exact(self.count)) {
@@ -157,7 +158,7 @@ pub fn wrap(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }
 
-/// How fast the shape turns: `omega = Gu . f / |Gu|^2` makes `|f - omega Gu|` least; 0 for a circle.
+/// The turning rate of the shape: `omega = Gu . f / |Gu|^2` makes `|f - omega Gu|` least; 0 for a circle.
 #[must_use]
 pub fn turning_of_shape<B: Equivariant + ?Sized>(body: &B, shape: &[f64], rate: &[f64]) -> f64 {
     let mut spin = vec![0.0; shape.len()];

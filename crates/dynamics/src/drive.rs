@@ -23,8 +23,8 @@ pub struct Request<'g> {
     pub watched: usize,
     /// Sections to locate.
     pub sections: &'g [Section<'g>],
-    /// How many pieces of a step are looked at for crossings, at least 1. ([`PIECES`] by default; fewer are enough where steps are far
-    /// shorter than the time between crossings.)
+    /// Number of pieces of a step that are searched for crossings, at least 1 ([`PIECES`] by default; fewer
+    /// are enough where steps are far shorter than the time between crossings).
     pub pieces: usize,
     /// Receives the progress of the run and may stop it; called after every 64th step.
     pub watch: &'g dyn Watch,

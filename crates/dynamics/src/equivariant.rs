@@ -44,13 +44,14 @@ impl Symmetry {
 pub trait Equivariant:
     Semilinear<f64> + Semilinear<Dual<f64, 1>> + Differentiable + Shape<f64> + Shape<Dual<f64, 1>> + Send + Sync
 {
-    /// The motions of the plane that act. Without rotations, [`Equivariant::rotate`] and [`Equivariant::spin`] do nothing; without the mirror,
-    /// [`Equivariant::mirror`] does nothing.
+    /// The motions of the plane that act. Without rotations, [`Equivariant::rotate`] and
+    /// [`Equivariant::spin`] do nothing; without the mirror, [`Equivariant::mirror`] does nothing.
     fn symmetry(&self) -> Symmetry {
         Symmetry::default()
     }
 
-    /// Whether a turn by half a circle maps solutions to solutions. Where it does, a field that breaks rotations has an axis but no sense.
+    /// Returns `true` if a turn by half a circle maps solutions to solutions. A field that has this symmetry
+    /// and breaks rotations has an axis, but no sense along it.
     fn half_turn(&self) -> bool {
         self.symmetry().rotations
     }

@@ -7,7 +7,7 @@ pub enum Error {
     /// An array has the wrong length.
     #[error("{what} has {got} entries, expected {expected}")]
     Shape {
-        /// What was passed.
+        /// The name of the array that was passed.
         what: &'static str,
         /// The required length.
         expected: usize,

@@ -11,8 +11,9 @@ const POINTS: usize = 4;
 /// A state is recorded when its ratio is below this multiple of the last recorded one.
 const SPACING: f64 = 0.8;
 
-/// Exponents from one recorded state to the next that differ by more than this part of the largest one follow no law. In a stiff approach the slope of a fast
-/// variable has a large error, and the ratio is that of this error.
+/// Exponents from one recorded state to the next that differ by more than this part of the largest one follow
+/// no law. In a stiff approach the slope of a fast variable has a large error, and the ratio is that of this
+/// error.
 const APART: f64 = 0.3;
 
 /// Follows `r = N / N'` along a run, with `N` the Euclidean norm.
@@ -53,8 +54,8 @@ impl GrowthLaw {
 
     /// The singularity implied by the recorded states, if their growth is faster than exponential.
     ///
-    /// `None` for fewer than two of them, where their exponents differ, and for exponents outside 0.05..20 (slower growth shows as a ratio that
-    /// hardly shrinks).
+    /// `None` for fewer than two of them, where their exponents differ, and for exponents outside 0.05..20
+    /// (slower growth shows as a ratio that hardly shrinks).
     #[must_use]
     pub fn singularity(&self) -> Option<Singularity> {
         let points = &self.points[..self.count];

@@ -14,8 +14,9 @@ mod problem;
 
 use problem::{DriftOf, End, Problem, Start};
 
-/// Below this an entry of a shape is 0. What decays for long, as the modes that a symmetric motion does not have, would come to the numbers below 2e-308,
-/// stay there by rounding, and make each operation take a hundred times as long.
+/// Below this an entry of a shape is 0. What decays for long, as the modes that a symmetric motion does not
+/// have, would come to the numbers below 2e-308, stay there by rounding, and make each operation take a
+/// hundred times as long.
 const VANISHED: f64 = 1e-290;
 
 /// An initial-value problem `u' = Lambda u + N(t, u)` in progress, by an exponential method.
@@ -70,10 +71,11 @@ pub struct ExponentialOrbit<'f, F: ?Sized> {
     errors: Vec<f64>,
     interpolant: Interpolant,
     origin: (f64, u64),
-    /// Whether `N` at the current state is the end stage of the step just accepted.
+    /// `true` if `N` at the current state is the end stage of the step just accepted.
     accepted: bool,
     prepared: bool,
-    /// Whether states are kicked ([`crate::Integration::roughen`]): the position then is the trapezoidal rule.
+    /// `true` if states are kicked ([`crate::Integration::roughen`]): the position then is the trapezoidal
+    /// rule.
     rough: bool,
     counters: Counters,
 }
@@ -244,7 +246,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         problem.step(self.tableau, self.tables.selected(), &at, &mut self.restep, &mut self.trial);
     }
 
-    /// Whether the trial step led to a state from which the orbit can continue.
+    /// Checks that the trial step led to a state from which the orbit can continue.
     fn check(&self) -> Result<(), StepFailure> {
         let ends = [&self.new, &self.trial];
         // Every number is looked at, also after one that is not finite: that is one comparison of vectors.

@@ -58,7 +58,7 @@ pub trait Diffusion: Send + Sync {
     /// Moves `u` along `du/dw = g_p(u)` by `w`, to an error of order `w^5` or less.
     fn kick(&self, process: usize, w: f64, u: &mut [f64]);
 
-    /// How fast it changes states of size 1 (inverse model time), for the step of the noise.
+    /// The rate (inverse model time) at which it changes states of size 1; it limits the step of the noise.
     fn rate(&self) -> f64;
 }
 
@@ -72,7 +72,7 @@ pub struct ModelNoise {
 }
 
 impl ModelNoise {
-    /// Whether there is no noise.
+    /// Returns `true` if there is no noise.
     #[must_use]
     pub fn is_none(&self) -> bool {
         self.diffusion.is_none() && self.amplitudes.iter().all(|amplitude| *amplitude == 0.0)
@@ -97,8 +97,8 @@ pub struct Noise {
 
 impl Noise {
     /// The noise that gives every coordinate of `model` ([`Model::coordinates`]) the same strength: `velocity` to those that are the
-    /// velocity itself ([`Model::velocities`]), `shape` to all others; and the additive noise of the model itself. The plane's rotations turn pairs of coordinates, so its law
-    /// does not change with them.
+    /// velocity itself ([`Model::velocities`]), `shape` to all others; and the additive noise of the model
+    /// itself. The plane's rotations turn pairs of coordinates, so its law does not change with them.
     ///
     /// # Checked by  models/tests/all/noise.rs: rotation invariance, for both models
     #[must_use]

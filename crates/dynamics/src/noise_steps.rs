@@ -53,8 +53,8 @@ impl Kick {
     }
 }
 
-/// The noise of one orbit, as [`crate::NoisyOrbit`] describes it: the steps of the noise, and the present one's kicks. It knows no integration, so
-/// orbits alone and in lanes have the same bits.
+/// The noise of one orbit, as [`crate::NoisyOrbit`] describes it: the steps of the noise, and the present
+/// one's kicks. It knows no integration, so orbits alone and in lanes have the same bits.
 pub struct NoiseSteps {
     step: f64,
     kicks: Vec<Kick>,

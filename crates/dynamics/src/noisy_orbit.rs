@@ -23,14 +23,16 @@ use crate::{Error, Integration};
 ///
 /// Noise whose strength depends on the state ([`NoisyOrbit::with`]) is treated alike: a step of length h is
 /// `e^{K_1 g_1} .. e^{K_m g_m}`, the flow, `e^{K'_m g_m} .. e^{K'_1 g_1}`, where `e^{w g}` moves a state along `g` by w and all K have the
-/// variance h/2. As `E e^{K g} = e^{(h/4) g^2}`, this is the symmetric product of the parts of the generator: weak order 2, also for processes that do not
-/// commute. The strong order is 1 if they commute, otherwise 1/2. Inside a step the last part is done with the rest of the bridge.
+/// variance h/2. As `E e^{K g} = e^{(h/4) g^2}`, this is the symmetric product of the parts of the generator:
+/// weak order 2, also for processes that do not commute. The strong order is 1 if they commute, otherwise
+/// 1/2. Inside a step the last part is done with the rest of the bridge.
 ///
 /// It is an [`Integration`] again, so sections, escape bounds and samples work as for any orbit. A kick through a section is a
 /// crossing at the time of the kick.
 ///
-/// Source: Strang (1968), SIAM J. Numer. Anal. 5, 506; for noise along fields Ninomiya and Victoir (2008), Appl. Math. Finance 15, 107; for the exact linear part Lord and Rougemont (2004), IMA J. Numer.
-/// Anal. 24, 587; for the bridge of an Ornstein-Uhlenbeck process Gillespie (1996), Phys. Rev. E 54, 2084.
+/// Source: Strang (1968), SIAM J. Numer. Anal. 5, 506; for noise along fields Ninomiya and Victoir (2008),
+/// Appl. Math. Finance 15, 107; for the exact linear part Lord and Rougemont (2004), IMA J. Numer. Anal. 24,
+/// 587; for the bridge of an Ornstein-Uhlenbeck process Gillespie (1996), Phys. Rev. E 54, 2084.
 ///
 /// # Errors    [`Error::OutOfRange`] and [`Error::Shape`] from [`NoisyOrbit::new`]
 /// # Not       for stiff entries whose square matters: the effect of an entry with `|lambda| h` far above 1 on the others within a step is

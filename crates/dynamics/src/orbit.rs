@@ -47,13 +47,14 @@ pub struct Orbit<'f, F: ?Sized> {
     h: f64,
     /// Fixed steps count from here, so that times have no accumulated rounding error.
     origin: (f64, u64),
-    /// Whether the current state's slope is the end slope of the step just accepted.
+    /// `true` if the current state's slope is the end slope of the step just accepted.
     accepted: bool,
-    /// Whether the field corrected the end of the last step: `landed` is that end, `corrected` the slope after it.
+    /// `true` if the field corrected the end of the last step: `landed` is that end, `corrected` the slope
+    /// after it.
     jumped: bool,
     landed: Vec<f64>,
     corrected: Vec<f64>,
-    /// Whether the interpolant is that of the last step.
+    /// `true` if the interpolant is that of the last step.
     prepared: bool,
     counters: Counters,
 }
@@ -125,7 +126,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         Ok(orbit)
     }
 
-    /// What an orbit or a lane that continues from here needs beside time and state.
+    /// The data that an orbit or a lane needs, beside time and state, to continue from here.
     #[must_use]
     pub fn pace(&self) -> Pace {
         Pace { h: self.h, previous: self.controller.previous() }

@@ -1,8 +1,8 @@
-//! How a run ended: part of every result.
+//! The end of a run, as part of every result.
 
 use serde::{Deserialize, Serialize};
 
-/// Why a state has no rates (see [`crate::System::obstacle`]).
+/// The reason why a state has no rates (see [`crate::System::obstacle`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Obstacle {
@@ -29,7 +29,7 @@ pub enum Outcome {
         t: f64,
         /// Norm of the last finite state.
         norm: f64,
-        /// Whether the growth was that of a finite-time singularity (see [`crate::escape`]).
+        /// `true` if the growth was that of a finite-time singularity (see [`crate::escape`]).
         singular: bool,
         /// Time of the last finite state; `t - t_last` is the extrapolated part.
         t_last: f64,
@@ -68,7 +68,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Whether the run reached its requested end.
+    /// Returns `true` if the run reached its requested end.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         matches!(self, Self::Completed { .. } | Self::Stopped { .. })

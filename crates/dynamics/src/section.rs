@@ -24,7 +24,7 @@ pub struct Section<'g> {
     pub g: &'g (dyn Fn(f64, &[f64]) -> f64 + Sync),
     /// The direction in which they count.
     pub direction: Direction,
-    /// Whether the run ends at the first crossing.
+    /// `true` if the run ends at the first crossing.
     pub terminal: bool,
 }
 
@@ -37,11 +37,12 @@ pub struct Crossing<'u> {
     pub t: f64,
     /// State there.
     pub state: &'u [f64],
-    /// Whether `g` was growing.
+    /// `true` if `g` was growing.
     pub rising: bool,
 }
 
-/// How many pieces of a step are looked at for sign changes, unless a request says otherwise. Two crossings within one piece are missed.
+/// Number of pieces of a step that are searched for sign changes, unless a request says otherwise. Two
+/// crossings within one piece are missed.
 pub const PIECES: usize = 8;
 
 /// Follows the signs of one section along an orbit.

@@ -7,7 +7,7 @@ use crate::steppers::exponential::StepTable;
 /// rates of deviations within 2 % or 1e-4 at .15, wrong by 5 to 30 % at .3, decay instead of growth at .6.
 const LONGEST: f64 = 0.15;
 
-/// What round-off may take from a number of quarters of a doubling.
+/// Bound on the round-off error of a size in quarters of a doubling.
 const ROUNDING: f64 = 1e-9;
 
 /// Step sizes per doubling.
@@ -117,7 +117,8 @@ impl StepTables {
         self.selected = Some(index);
     }
 
-    /// Whether a step of size `h` with this error norm is good, and the size of the next one to try.
+    /// Returns `true` if a step of size `h` with this error norm is accepted, and sets the size of the next
+    /// one to try.
     ///
     /// `h_new = 0.9 h err^(-1/order)`, within factors 0.2 and 4, rounded down; a step truncated by a limit (`last`)
     /// gives little information about the next one. Source: Hairer, Norsett, Wanner, I, II.4.
@@ -133,7 +134,7 @@ impl StepTables {
         good
     }
 
-    /// By how much `k` changes after a step of size `2^(k/4)`: without a power and a logarithm at every step.
+    /// The change of `k` after a step of size `2^(k/4)`: without a power and a logarithm at every step.
     fn change(&self, error: f64) -> i32 {
         self.errors.iter().take_while(|most| error <= **most).fold(MOST_SMALLER, |k, _| k + 1)
     }

@@ -1,4 +1,4 @@
-//! What all orbits share: counts of steps, reasons for failed ones, the grid of fixed steps.
+//! The parts that all orbits share: counts of steps, reasons for failed ones, the grid of fixed steps.
 
 use crate::{Error, Obstacle};
 
@@ -11,7 +11,7 @@ pub struct Counters {
     pub rejected: u64,
 }
 
-/// Why a step could not be taken. The orbit stays at the last accepted state.
+/// The reason why a step could not be taken. The orbit stays at the last accepted state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepFailure {
     /// The step required by error control is below the resolution of time.

@@ -19,7 +19,8 @@ type Number = Dual<f64, 1>;
 /// Several directions at once: one evaluation of the field for up to six of them.
 type Wide = Dual<f64, 6>;
 
-/// A field that tangent vectors can be followed in, one at a time and six at once. Every field that is written once over all scalars is one.
+/// A field that tangent vectors can be followed in, one at a time and six at once. Every field that is
+/// written once over all scalars is one.
 pub trait Differentiable: VectorField<Dual<f64, 1>> + VectorField<Dual<f64, 6>> {}
 
 impl<F: VectorField<Dual<f64, 1>> + VectorField<Dual<f64, 6>> + ?Sized> Differentiable for F {}
@@ -70,8 +71,8 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
         }
     }
 
-    /// `K` vectors of `N` numbers, both known to the compiler: copies without loops. (Loops over them took twice the time of the field of six
-    /// numbers.)
+    /// `K` vectors of `N` numbers, both known to the compiler: copies without loops. (Loops over them took
+    /// twice the time of the field of six numbers.)
     #[inline(never)]
     fn lift_exactly<const N: usize, const K: usize>(
         u: &[f64],

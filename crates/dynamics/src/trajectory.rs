@@ -19,7 +19,7 @@ pub struct CrossingPoint {
     pub section: usize,
     /// Time.
     pub t: f64,
-    /// Whether `g` was growing.
+    /// `true` if `g` was growing.
     pub rising: bool,
     /// State.
     pub state: Vec<f64>,
@@ -38,7 +38,7 @@ impl Trajectory {
         self.times.len()
     }
 
-    /// Whether there is no sample.
+    /// Returns `true` if there is no sample.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.times.is_empty()

@@ -1,4 +1,4 @@
-//! What moves: `u' = f(t, u)`.
+//! Vector fields: `u' = f(t, u)`.
 
 use crate::{Obstacle, Scalar};
 
@@ -13,7 +13,8 @@ pub trait System {
         None
     }
 
-    /// How many leading entries of the state control the steps of exponential methods: all of them, unless the others only follow.
+    /// Number of leading entries of the state that control the steps of exponential methods: all of them,
+    /// unless the others are slaved to them.
     fn controlling(&self) -> usize {
         self.dim()
     }
@@ -71,8 +72,8 @@ pub trait VectorField<T: Scalar>: System {
 
 /// A field split as `u' = Lambda u + N(t, u)` with a diagonal, real `Lambda`: what exponential steppers need.
 ///
-/// `eval` must equal `Lambda u + N(t, u)`; [`crate::conformance::semilinear_defect`] checks it. By default `Lambda` is 0, and the whole field is
-/// `N`.
+/// `eval` must equal `Lambda u + N(t, u)`; [`crate::conformance::semilinear_defect`] checks it. By default
+/// `Lambda` is 0, and the whole field is `N`.
 pub trait Semilinear<T: Scalar>: VectorField<T> {
     /// Writes the diagonal of `Lambda` (inverse model time).
     fn linear(&self, lambda: &mut [T::Real]) {

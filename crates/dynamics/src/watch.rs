@@ -10,7 +10,7 @@ pub trait Watch: Sync {
     /// Called when a part of the work is finished; the text states which part, and its result.
     fn note(&self, _text: &str) {}
 
-    /// Whether to stop now and keep the results so far; called often.
+    /// Returns `true` if the work is to stop now and keep its results so far; called often.
     fn stopped(&self) -> bool {
         false
     }

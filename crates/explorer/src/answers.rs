@@ -13,7 +13,7 @@ pub enum Answer {
     Binary(Vec<u8>),
 }
 
-/// Where a session puts its answers.
+/// The receiver of a session's answers.
 #[derive(Clone)]
 pub struct Answers(Arc<dyn Fn(Answer) -> Result<(), Gone> + Send + Sync>);
 

@@ -1,4 +1,5 @@
-//! What a body can begin with: models, presets, extensions from the literature, a study file, and equations from the page.
+//! The subjects that a body can begin with: models, presets, extensions from the literature, a study file,
+//! and equations from the page.
 
 use crate::TrackedCell;
 use crate::protocol::{self, Registry, SectionKind};
@@ -17,7 +18,7 @@ use std::sync::Mutex;
 /// Name under which the page's own equations are kept.
 pub(crate) const EDITED: &str = "edited";
 
-/// Where a study comes from: how commands name it.
+/// The origin of a study, by which commands name it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Source {
     /// A model of the registry.
@@ -232,7 +233,7 @@ fn described(name: &str, subject: &Subject) -> Result<Value, Error> {
     Ok(model)
 }
 
-/// Whether the equations can be changed as text.
+/// Returns `true` if the equations can be changed as text.
 fn editable(info: &ModelInfo) -> bool {
     let defaults: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
     amplitudes::of_model(info, &defaults).is_some()

@@ -26,7 +26,7 @@ pub(crate) struct Order {
     pub(crate) make: Maker,
 }
 
-/// Who makes files: a thread, while the body moves on, or this session itself.
+/// The maker of files: a thread, while the body moves on, or this session itself.
 pub(crate) struct Exports {
     answers: Answers,
     #[cfg(feature = "threads")]

@@ -2,11 +2,13 @@
 //!
 //! A session has a body, which moves when the page requests a picture (`body`), and background computations (`task`): the
 //! classification of the motion and its exponents (`motion`), the map (`map`), branches of motions (`branches`), returns computed in
-//! advance, and the motions of a swarm. Of each kind only the latest request is computed. `PROTOCOL.md` describes the messages (`protocol`, `frames`).
+//! advance, and the motions of a swarm. Of each kind only the latest request is computed. `PROTOCOL.md`
+//! describes the messages (`protocol`, `frames`).
 //!
-//! The same session runs in two ways. [`Session`] (feature `threads`) has threads of its own, behind the [`server`] (feature `server`). [`Local`] has none: it does a
-//! bounded piece of work for each message, and leaves the computations beside the body to other instances of this program ([`assist`]),
-//! as in the workers of a browser.
+//! The same session runs in two ways. [`Session`] (feature `threads`) has threads of its own, behind the
+//! [`server`] (feature `server`). [`Local`] has none: it does a bounded piece of work for each message, and
+//! leaves the computations beside the body to other instances of this program ([`assist`]), as in the workers
+//! of a browser.
 
 mod answers;
 mod body;

@@ -16,7 +16,8 @@ use std::sync::{Arc, Mutex};
 /// Exponents that are followed.
 const COUNT: usize = 3;
 
-/// They are averaged over this many looks of the model after some initial ones, and reported at this many times.
+/// They are averaged over this many looks of the model ([`motiform_models::ModelInfo::look`]) after some
+/// initial ones, and reported at this many times.
 const LOOKS: (f64, f64) = (2.0, 40.0);
 const POINTS: f64 = 200.0;
 
@@ -47,7 +48,7 @@ pub(crate) struct Naming {
     heard: Arc<Heard>,
 }
 
-/// What is known, and the page that is told.
+/// The results known so far, and the page that receives them.
 struct Heard {
     known: Mutex<Known>,
     answers: Answers,
@@ -109,7 +110,7 @@ impl Heard {
     }
 }
 
-/// What is found of a motion, in this order.
+/// The results about a motion, in this order.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum Found {
     /// It is being classified.

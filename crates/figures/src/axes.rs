@@ -50,7 +50,7 @@ impl Scale {
     }
 }
 
-/// How an axis is divided.
+/// The division of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisKind {
     /// Equal differences are equally far apart.

@@ -13,7 +13,7 @@ use super::svg::Svg;
 /// A point of a curve, with the ends of its band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BandPoint {
-    /// Where.
+    /// The abscissa.
     pub x: f64,
     /// The value.
     pub y: f64,
@@ -23,7 +23,8 @@ pub struct BandPoint {
     pub high: f64,
 }
 
-/// A curve with its band, such as an autocorrelation with its errors. The axes show all of its values; a band that reaches beyond is cut off.
+/// A curve with its band, such as an autocorrelation with its errors. The axes show all of its values; a band
+/// that reaches beyond is cut off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BandCurve {
     /// Markup for the legend; a curve without a label has no entry.

@@ -13,7 +13,7 @@ use super::palette::{Colour, GREY, INK};
 use super::plane::Plane;
 use super::svg::Svg;
 
-/// How far unstable motions widen the axis, in ranges of what is seen.
+/// The reach of the axis towards unstable motions, in ranges of what is seen.
 const BEYOND: f64 = 2.0;
 
 /// A part of a branch over which neither motion nor stability changes.
@@ -21,16 +21,16 @@ const BEYOND: f64 = 2.0;
 pub struct BranchPart {
     /// The regime, for its colour.
     pub regime: String,
-    /// Whether it is stable.
+    /// `true` if it is stable.
     pub stable: bool,
     /// Points in data units.
     pub points: Vec<Point>,
 }
 
-/// What was sampled while the parameter was swept in one direction.
+/// The samples of a sweep of the parameter in one direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BranchDots {
-    /// What it is, as the legend says (markup).
+    /// Its label in the legend (markup).
     pub label: String,
     /// Upwards: dots; downwards: circles.
     pub up: bool,
@@ -41,11 +41,11 @@ pub struct BranchDots {
 /// A special point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BranchMark {
-    /// What it is, as the legend says (markup).
+    /// Its label in the legend (markup).
     pub label: String,
     /// Its marker.
     pub glyph: Glyph,
-    /// Where it is, in data units.
+    /// The point, in data units.
     pub at: Point,
 }
 

@@ -13,24 +13,24 @@ const SIZE: f64 = 11.5;
 pub(crate) const POINT: f64 = 6.0;
 /// Distances of a label from its point, in pixels: the words lie at the first ones alone.
 const GAPS: [f64; 5] = [2.0, 5.0, 10.0, 16.0, 24.0];
-/// How many of the distances are near enough for words.
+/// The number of the distances that are near enough for words.
 const NEAR: usize = 2;
 /// From this distance on a line leads from the point to its number, in pixels.
 const LED: f64 = 4.0;
 
-/// What labels must not hide.
+/// The surroundings of labels, which they must not hide.
 #[derive(Debug, Clone)]
 pub(crate) struct Around<'a> {
-    /// Where labels may be.
+    /// The frame in which labels may lie.
     pub(crate) frame: Rect,
-    /// What other labels and points take.
+    /// The rectangles of other labels and of points.
     pub(crate) taken: Vec<Rect>,
     /// Lines, in pixels.
     pub(crate) lines: &'a [Vec<Point>],
 }
 
 impl Around<'_> {
-    /// Whether a place lies in the frame and hides no label and no point.
+    /// Returns `true` if a place lies in the frame and hides no label and no point.
     fn is_free(&self, place: &Rect) -> bool {
         let Rect { x, y, .. } = self.frame;
         let inside = place.x >= x
@@ -40,7 +40,7 @@ impl Around<'_> {
         inside && self.taken.iter().all(|other| apart(place, other))
     }
 
-    /// Whether it hides no line either.
+    /// Returns `true` if it hides no line either.
     pub(crate) fn is_clear(&self, place: &Rect) -> bool {
         let hides = |line: &Vec<Point>| line.windows(2).any(|pair| crosses(place, pair[0], pair[1]));
         self.is_free(place) && !self.lines.iter().any(hides)
@@ -124,7 +124,7 @@ impl Callouts {
     }
 }
 
-/// What a point takes.
+/// The rectangle that a point takes.
 pub(crate) fn taken([x, y]: Point) -> Rect {
     Rect { x: x - POINT, y: y - POINT, w: 2.0 * POINT, h: 2.0 * POINT }
 }
@@ -155,7 +155,7 @@ fn apart(a: &Rect, b: &Rect) -> bool {
     a.right() <= b.x || b.right() <= a.x || a.bottom() <= b.y || b.bottom() <= a.y
 }
 
-/// Whether a segment has a part in a box.
+/// Returns `true` if a segment has a part in a box.
 fn crosses(place: &Rect, from: Point, to: Point) -> bool {
     !super::clip::clip(&[from, to], *place).is_empty()
 }

@@ -19,7 +19,7 @@ use super::svg::Svg;
 const WIDTH: f64 = 600.0;
 const HEIGHT: f64 = 420.0;
 
-/// How a curve is drawn.
+/// The style of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurveStyle {
     /// As a line of theory.
@@ -43,11 +43,11 @@ impl CurveStyle {
 /// A stretch of a curve along which nothing changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapCurve {
-    /// What it is, as the legend says (markup).
+    /// Its label in the legend (markup).
     pub label: String,
     /// Dashes.
     pub style: CurveStyle,
-    /// Whether the motion has no growing direction but the critical one: other curves are pale.
+    /// `true` if the motion has no growing direction but the critical one: other curves are pale.
     pub bounds: bool,
     /// Points in units of the axes; what lies outside the frame is cut off.
     pub points: Vec<Point>,
@@ -58,20 +58,20 @@ pub struct MapCurve {
 pub struct MapMark {
     /// Its label in the figure (markup).
     pub label: String,
-    /// Where it is, in units of the axes.
+    /// The point, in units of the axes.
     pub at: Point,
 }
 
 /// A place where a motion ends in a connection.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapEnd {
-    /// What it is, as the legend says (markup).
+    /// Its label in the legend (markup).
     pub label: String,
-    /// Where it is, in units of the axes.
+    /// The point, in units of the axes.
     pub at: Point,
 }
 
-/// What is written into the frame of a map, with its places.
+/// The words in the frame of a map, with their places.
 struct Words {
     names: Option<Names>,
     callouts: Callouts,
@@ -98,7 +98,7 @@ pub struct CurveMap {
     pub y: [f64; 2],
     /// The regimes beneath; of this diagram only the cells are drawn.
     pub under: Option<PhaseDiagram>,
-    /// Whether wide regions have their names in them.
+    /// `true` if wide regions have their names in them.
     pub named: bool,
     /// Paths below the names of regions that have room for them.
     pub insets: Vec<MapInset>,
@@ -148,7 +148,8 @@ impl CurveMap {
         sheet.svg(|svg, scale| self.draw(svg, scale, room, &words))
     }
 
-    /// What is written into the frame: first the labels of points, then the names of regions, none on another, on a point or, if that can be, on a boundary.
+    /// The words in the frame: first the labels of points, then the names of regions, none on another, on a
+    /// point or, if that can be, on a boundary.
     fn words_in(&self, scale: &Scale) -> Result<Words> {
         let shown = |at: &Point| {
             let ([x, y], frame) = (scale.map(*at), scale.frame);

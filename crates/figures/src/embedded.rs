@@ -9,8 +9,9 @@ pub fn font_rules() -> &'static str {
     fonts::css()
 }
 
-/// The figure as an element of an HTML page: without its fonts ([`font_rules`] has them), with `prefix` before each of its names, so that none clashes
-/// with that of another figure, and with `label`, plain text, for those who cannot see it.
+/// The figure as an element of an HTML page: without its fonts ([`font_rules`] has them), with `prefix`
+/// before each of its names, so that none clashes with that of another figure, and with `label`, plain text,
+/// for those who cannot see it.
 ///
 /// `svg` is a document as the figures of this crate make it.
 #[must_use]

@@ -1,6 +1,6 @@
 //! Errors in the data of a figure.
 
-/// Why a figure cannot be drawn. Every message names the datum and the remedy.
+/// The reasons why a figure cannot be drawn. Every message names the datum and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
@@ -79,7 +79,7 @@ pub enum FigureError {
     /// A width that cannot be read.
     #[error("{text:?} is not a width: write it with a unit (mm, cm, in, px), such as 86mm or 1200px")]
     Width {
-        /// What was given.
+        /// The text that was given.
         text: String,
     },
     /// Times do not increase.
@@ -139,7 +139,7 @@ pub enum FigureError {
     /// The text passed to the rasteriser is not a figure of this crate.
     #[error("cannot read the svg: {why}; give the text that a figure's `svg` returned")]
     Svg {
-        /// What was found.
+        /// The fault.
         why: String,
     },
     /// The program was built without the rasteriser.
@@ -148,7 +148,7 @@ pub enum FigureError {
     /// The PNG encoder failed.
     #[error("cannot encode the png: {source}; try a smaller image")]
     Png {
-        /// What the encoder found.
+        /// The error of the encoder.
         #[from]
         source: png::EncodingError,
     },

@@ -21,7 +21,7 @@ pub(super) const COLUMNS: [&[&str]; 2] = [&["series"], &["error"]];
 /// A measured value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// Where it was measured.
+    /// The abscissa of the measurement.
     pub x: f64,
     /// The value.
     pub y: f64,
@@ -39,7 +39,7 @@ pub struct ErrorBarSeries {
     pub label: String,
     /// The values, in the order in which a line joins them.
     pub points: Vec<Measured>,
-    /// Whether a line joins them.
+    /// `true` if a line joins them.
     pub joined: bool,
 }
 

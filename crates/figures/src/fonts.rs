@@ -53,7 +53,7 @@ pub(crate) fn advance(face: Face, character: char) -> f64 {
     width.unwrap_or(0.6)
 }
 
-/// Whether the fonts can draw a character.
+/// Returns `true` if the fonts can draw a character.
 #[cfg(test)]
 pub(crate) fn has_glyph(character: char) -> bool {
     [Face::Regular, Face::Italic]

@@ -21,13 +21,13 @@ pub(super) struct Framed<'a> {
     pub(super) legend: Vec<Entry>,
     /// The data ranges, and the own size of the frame.
     pub(super) scale: Scale,
-    /// How the axes are divided, across and upwards.
+    /// The divisions of the axes, across and upwards.
     pub(super) kinds: [AxisKind; 2],
     /// Labels of the axes, across and upwards.
     pub(super) labels: [&'a str; 2],
-    /// What the sheet is laid out for.
+    /// The room in which the sheet is laid out.
     pub(super) room: Room,
-    /// Whether grid lines lie behind the data.
+    /// `true` if grid lines lie behind the data.
     pub(super) grid: bool,
     /// Room right above the frame, in pixels.
     pub(super) head: f64,
@@ -117,7 +117,7 @@ impl Framed<'_> {
 /// Room at the right of the frame, for half of a tick label.
 const RIGHT: f64 = 16.0;
 
-/// Where the frame begins: whole pixels, so that edges of cells are sharp.
+/// The left edge of the frame: whole pixels, so that edges of cells are sharp.
 fn left_of(axes: &Axes) -> f64 {
     (MARGIN + axes.left_margin()).ceil()
 }

@@ -16,7 +16,7 @@ const CAP: f64 = 3.6;
 /// An interval without a marker: the error of a value that is not symmetric.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// Where.
+    /// The abscissa.
     pub x: f64,
     /// Lower end.
     pub low: f64,

@@ -66,7 +66,7 @@ impl Entry {
         self.indent() + self.label.width(SIZE)
     }
 
-    /// Where the label begins.
+    /// The indentation of the label.
     fn indent(&self) -> f64 {
         if matches!(self.mark, Mark::Words) { 0.0 } else { MARK + 6.0 }
     }

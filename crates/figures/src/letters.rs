@@ -8,7 +8,7 @@ use super::fonts::{Face, advance};
 /// The outlines of a line of text whose baseline begins at the origin; y points down.
 pub(crate) struct Letters {
     builder: PathBuilder,
-    /// Where the next letter begins, and its baseline, in pixels.
+    /// The start of the next letter, and its baseline, in pixels.
     x: f32,
     y: f64,
     /// Pixels for a unit of the font.

@@ -61,7 +61,7 @@ impl RegimeMark {
         WHITE.mix(self.area, 0.28)
     }
 
-    /// Whether the regime is not known; its areas are hatched.
+    /// Returns `true` if the regime is not known; its areas are hatched.
     #[must_use]
     pub fn is_undetermined(&self) -> bool {
         self.glyph == Glyph::Question

@@ -5,7 +5,7 @@ use std::fmt::{self, Display};
 use super::palette::Colour;
 use super::svg::Num;
 
-/// How a shape is painted.
+/// The paint of a shape: fill and line.
 #[derive(Debug, Clone, Copy)]
 pub struct Paint {
     fill: Option<(Colour, f64)>,

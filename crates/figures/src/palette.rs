@@ -159,11 +159,12 @@ pub(super) mod tests {
         seen(colour, [[1.256, -0.077, -0.179], [-0.078, 0.931, 0.148], [0.005, 0.691, 0.304]])
     }
 
-    /// What becomes of a colour in an eye.
+    /// The perception of a colour by an eye.
     type Sight = fn(Colour) -> [f64; 3];
 
-    /// How far apart two colours are in sRGB for each kind of sight, with the least distance that it needs: normal, deuteranope, protanope,
-    /// and tritanope, one in ten thousand, for whom blue and bluish green of Okabe and Ito are close.
+    /// The distance of two colours in sRGB for each kind of sight, with the least distance that it needs:
+    /// normal, deuteranope, protanope, and tritanope, one in ten thousand, for whom blue and bluish green of
+    /// Okabe and Ito are close.
     pub(crate) fn distances(a: Colour, b: Colour) -> [(f64, f64); 4] {
         let plain = |c: Colour| [c.0, c.1, c.2].map(f64::from);
         let kinds: [(Sight, f64); 4] =

@@ -15,9 +15,9 @@ const MARGIN: f64 = 14.0;
 const LETTER: f64 = 17.0;
 /// Millimetres on paper in a unit of a drawing.
 const MILLIMETRES: f64 = 25.4 / 72.0 / PER_POINT;
-/// What widths of sheets are rounded up by, at most.
+/// The largest rounding of the widths of sheets, upwards.
 const ROUNDED: f64 = 4.0;
-/// How often the panels are laid out until their frames are aligned.
+/// The number of rounds in which the panels are laid out until their frames are aligned.
 const ROUNDS: usize = 3;
 
 /// Figures in rows of equal panels, (a), (b), and so on. Frames in a column begin at the same place; those in a row have the same
@@ -37,7 +37,8 @@ fn letter(number: usize) -> String {
     format!("({last})")
 }
 
-/// What was drawn: of each panel its frame, measured from the corner of its own sheet, and the size of that sheet.
+/// The drawn panels: the frame of each, measured from the corner of its own sheet, and the size of that
+/// sheet.
 struct Drawn {
     panels: Vec<(Rect, [f64; 2])>,
     columns: usize,
@@ -53,7 +54,7 @@ impl Drawn {
         &self.panels[first..self.panels.len().min(first + self.columns)]
     }
 
-    /// How far a sheet is moved so that its frame begins where those of its column and row do.
+    /// The displacement of a sheet by which its frame begins where those of its column and row do.
     fn shift(&self, of: usize) -> Point {
         let frame = self.panels[of].0;
         let left = self.column(of).map(|frame| frame.x).fold(0.0, f64::max);

@@ -29,7 +29,7 @@ const NAMED: usize = 12;
 pub struct MapPlace {
     /// Its name (markup).
     pub name: String,
-    /// Where it is.
+    /// The point.
     pub at: Point,
     /// The boundary of its region of confidence, closed by the drawing; empty for none.
     pub region: Vec<Point>,
@@ -52,9 +52,9 @@ pub struct PlaceMap {
     pub y_label: String,
     /// The diagram beneath, with its lines.
     pub under: PhaseDiagram,
-    /// What the regions are, for the legend (markup).
+    /// The label of the regions in the legend (markup).
     pub region_label: String,
-    /// What the clouds are, for the legend (markup).
+    /// The label of the clouds in the legend (markup).
     pub cloud_label: String,
     /// The places.
     pub places: Vec<MapPlace>,

@@ -9,7 +9,7 @@ use super::geometry::Point;
 pub(super) struct Plane {
     /// Places along the axes to pixels.
     pub(super) scale: Scale,
-    /// How the axes are divided, across and upwards.
+    /// The divisions of the axes, across and upwards.
     pub(super) kinds: [AxisKind; 2],
 }
 

@@ -5,13 +5,16 @@ use super::error::Result;
 /// Scale factor for print and dense screens.
 pub const DEFAULT_SCALE: f64 = 2.0;
 
-/// Whether [`png()`] and [`pdf()`] are built in (feature `raster`).
+/// `true` if [`png()`] and [`pdf()`] are built in (feature `raster`).
 pub const RASTER: bool = cfg!(feature = "raster");
 
-/// Draws an SVG, as the figures of this crate make it, into a PNG; `texts` are (keyword, text) pairs kept in the file, such as a provenance.
+/// Draws an SVG, as the figures of this crate make it, into a PNG; `texts` are (keyword, text) pairs kept in
+/// the file, such as a provenance.
 ///
 /// # Units     `scale`: pixels per SVG unit, 0.1 to 16
-/// # Errors    another SVG, a scale out of range, a keyword that PNG does not allow (1 to 79 Latin-1 letters), or a program without it ([`RASTER`])
+/// # Errors
+/// Another SVG, a scale out of range, a keyword that PNG does not allow (1 to 79 Latin-1 letters), or a program
+/// without it ([`RASTER`]).
 #[cfg(feature = "raster")]
 pub fn png(svg: &str, scale: f64, texts: &[(&str, &str)]) -> Result<Vec<u8>> {
     super::raster::png(svg, scale, texts)

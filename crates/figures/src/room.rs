@@ -15,7 +15,7 @@ pub struct Room {
     width: Option<f64>,
     /// Height of the frame, where a row of panels has one.
     height: Option<f64>,
-    /// Where the sheet lies on a larger one.
+    /// The place of the sheet on a larger one.
     corner: Point,
     /// The number of the panel, from 0.
     panel: usize,
@@ -41,12 +41,12 @@ impl Room {
         self.height
     }
 
-    /// Where the sheet lies on a larger one.
+    /// The place of the sheet on a larger one.
     pub(crate) const fn corner(self) -> Point {
         self.corner
     }
 
-    /// From where on the names inside a sheet count, so that no two panels share one.
+    /// The number from which the names inside a sheet count, so that no two panels share one.
     pub(crate) const fn ids(self) -> u32 {
         1000 * self.panel as u32
     }
@@ -57,15 +57,16 @@ impl Room {
         self.width
     }
 
-    /// Width and height of a frame whose default size is `[w, h]`, where labels and margins take `beside` units of the width. A narrower frame
-    /// keeps the aspect ratio, but its height is at least .62 of its width, or `h` where that is less. A panel has the height of its row.
+    /// Width and height of a frame whose default size is `[w, h]`, where labels and margins take `beside`
+    /// units of the width. A narrower frame keeps the aspect ratio, but its height is at least .62 of its
+    /// width, or `h` where that is less. A panel has the height of its row.
     pub(crate) fn frame(self, [w, h]: [f64; 2], beside: f64) -> [f64; 2] {
         let Some(width) = self.width else { return [w, h] };
         let wide = (width - beside).floor().max(NARROWEST);
         [wide, self.height.unwrap_or_else(|| (h * wide / w).max(h.min(FLATTEST * wide)).round())]
     }
 
-    /// How many of `most` marks have room side by side in a frame whose default width is `w`.
+    /// The number, out of `most`, of marks that have room side by side in a frame whose default width is `w`.
     pub(crate) fn most(self, most: usize, w: f64) -> usize {
         self.width.map_or(most, |width| (most as f64 * ((width - 80.0) / w).clamp(0.1, 1.0)) as usize)
     }

@@ -1,4 +1,4 @@
-//! What axes are drawn on.
+//! The sheet that axes are drawn on.
 
 use super::geometry::{Point, Rect};
 use super::paint::Paint;

@@ -14,7 +14,7 @@ use super::svg::Svg;
 /// The share from a time on, until the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurvivalStep {
-    /// When the share changes.
+    /// The time when the share changes.
     pub t: f64,
     /// The share, from 0 to 1.
     pub share: f64,

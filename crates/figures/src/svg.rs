@@ -46,7 +46,7 @@ pub fn escape(text: &str) -> String {
     out
 }
 
-/// Which point of a label is put at the given place.
+/// The point of a label that is put at the given place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
     /// Its left end.
@@ -62,7 +62,7 @@ pub enum Anchor {
 pub struct Svg {
     width: f64,
     height: f64,
-    /// Where its upper left corner lies on a larger sheet.
+    /// The place of its upper left corner on a larger sheet.
     corner: Point,
     /// The box around the frames of its axes.
     frame: Option<Rect>,

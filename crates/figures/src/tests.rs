@@ -1,4 +1,4 @@
-//! What holds for every figure: same bytes, no NaN, readable files, refusal of bad data.
+//! The properties of every figure: same bytes, no NaN, readable files, refusal of bad data.
 
 use super::palette::BLUE;
 use super::*;

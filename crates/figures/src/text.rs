@@ -5,7 +5,7 @@
 
 use super::fonts::{self, Face};
 
-/// Where a character stands on the line.
+/// The vertical position of a character on the line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Script {
     /// On the line.
@@ -148,7 +148,7 @@ impl Label {
         size * self.0.iter().map(|s| s.width()).sum::<f64>()
     }
 
-    /// Whether there is no character.
+    /// Returns `true` if there is no character.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -188,7 +188,8 @@ impl Label {
     }
 }
 
-/// Whether a hyphen after `before` is a minus sign: in "x = -2" and in any script, but not in "1e-3" or "7-12".
+/// Returns `true` if a hyphen after `before` is a minus sign: in "x = -2" and in any script, but not in
+/// "1e-3" or "7-12".
 fn is_minus(before: &[Set], script: Script, next: Option<&char>) -> bool {
     let free = script != Script::Base || before.last().is_none_or(|s| !s.character.is_alphanumeric());
     free && next.is_some_and(|c| c.is_ascii_digit() || *c == '.')

@@ -1,8 +1,9 @@
 //! Errors of a joint fit from the differences between cells.
 //!
-//! The errors of [`crate::Fit`] assume that all cells follow one law and that frames are independent given the state. Where each cell has its own
-//! law, they are too small. Here whole cells are the units: with the score `s_c` of each cell at the estimate and the covariance `C` of the
-//! estimates, leaving cell c out moves the estimate by `-C s_c` to first order, and
+//! The errors of [`crate::Fit`] assume that all cells follow one law and that frames are independent given
+//! the state. Where each cell has its own law, they are too small. Here whole cells are the units: with the
+//! score `s_c` of each cell at the estimate and the covariance `C` of the estimates, leaving cell c out moves
+//! the estimate by `-C s_c` to first order, and
 //!
 //! ```text
 //! covariance = K/(K - 1) sum_c (C s_c)(C s_c)^T,      K cells
@@ -10,7 +11,8 @@
 //!
 //! is the infinitesimal jackknife: what resampling whole cells gives for many cells, without fitting again.
 //!
-//! Source: Jaeckel (1972), Bell Labs memorandum MM 72-1215-11; Efron (1982), The Jackknife, the Bootstrap and Other Resampling Plans, ch. 6.
+//! Source: Jaeckel (1972), Bell Labs memorandum MM 72-1215-11; Efron (1982), The Jackknife, the Bootstrap and
+//! Other Resampling Plans, ch. 6.
 
 use crate::filter::{Want, evaluate};
 use crate::fit::problem;
@@ -28,7 +30,7 @@ pub struct BetweenCells {
     pub cells: usize,
     /// Standard error of each coefficient, in the order of [`Fit::coefficients`] and the units of the data.
     pub errors: Vec<f64>,
-    /// How far each cell moves each coefficient: estimate with it less that without it, to first order.
+    /// The shift of each coefficient by each cell: estimate with it less that without it, to first order.
     pub shifts: Vec<Vec<f64>>,
 }
 

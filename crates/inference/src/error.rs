@@ -38,14 +38,15 @@ pub enum Error {
         cell: usize,
         /// The frame, from 0.
         frame: usize,
-        /// What it is.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f64,
     },
     /// Modes that a model has and a frame does not.
     #[error(
-        "cell {cell}, frame {frame}: {given} numbers with their covariance are given, and the model is fitted to {numbers}: x, y and the real and imaginary parts of z2, z3, .."
+        "cell {cell}, frame {frame}: {given} numbers with their covariance are given, and the model is \
+        fitted to {numbers}: x, y and the real and imaginary parts of z2, z3, .."
     )]
     Modes {
         /// The cell, from 0.
@@ -101,7 +102,7 @@ pub enum Error {
         key: &'static str,
         /// Its value.
         value: f64,
-        /// What to give.
+        /// The remedy.
         remedy: &'static str,
     },
 }

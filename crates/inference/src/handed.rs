@@ -1,4 +1,4 @@
-//! Whether left and right are different motions: real coefficients against complex ones.
+//! The test that left and right are different motions: real coefficients against complex ones.
 
 use crate::chi_square::chi_square_tail;
 use crate::filter::{NO_CENTRE_NOISE, Theta};
@@ -12,7 +12,8 @@ pub const HANDED_RATE: f64 = 1e-4;
 /// Rate at which the test may be left undecided by chance: from here to [`HANDED_RATE`] neither is said.
 pub const DOUBTED_RATE: f64 = 0.01;
 
-/// Size of an imaginary part, relative to the largest coefficient of its equation (natural units), that the intervals of a mirror-symmetric cell exclude.
+/// Size of an imaginary part, relative to the largest coefficient of its equation (natural units), that the
+/// intervals of a mirror-symmetric cell exclude.
 pub const SEEN: f64 = 0.1;
 
 /// The answer.
@@ -23,13 +24,14 @@ pub enum Symmetry {
     Mirror,
     /// Real coefficients are rejected.
     Handed,
-    /// Real coefficients are enough, but imaginary parts of the size [`SEEN`] are within their intervals: not decidable; or the likelihood ratio is between [`HANDED_RATE`] and
-    /// [`DOUBTED_RATE`].
+    /// Real coefficients are enough, but imaginary parts of the size [`SEEN`] are within their intervals: not
+    /// decidable; or the likelihood ratio is between [`HANDED_RATE`] and [`DOUBTED_RATE`].
     Undecided,
 }
 
 impl Handedness {
-    /// Whether the likelihood ratio speaks against mirror symmetry: exceeded in less than [`DOUBTED_RATE`] of mirror-symmetric cells.
+    /// Returns `true` if the likelihood ratio speaks against mirror symmetry: exceeded in less than
+    /// [`DOUBTED_RATE`] of mirror-symmetric cells.
     #[must_use]
     pub fn is_doubted(&self) -> bool {
         self.p_value < DOUBTED_RATE
@@ -59,10 +61,12 @@ pub struct Handedness {
     pub degrees: usize,
     /// Probability of such a ratio in a mirror-symmetric cell (chi-square).
     pub p_value: f64,
-    /// Imaginary parts above this are excluded: the largest end of a 95 % interval of one, relative to the largest coefficient of its equation, natural units.
+    /// Imaginary parts above this are excluded: the largest end of a 95 % interval of one, relative to the
+    /// largest coefficient of its equation, natural units.
     #[serde(default)]
     pub excluded: f64,
-    /// Difference of Schwarz's criterion, `degrees ln(n N) - ratio` with n = 6 numbers a frame (8 with z4): below 0 it prefers the handed model.
+    /// Difference of Schwarz's criterion, `degrees ln(n N) - ratio` with n = 6 numbers a frame (8 with z4):
+    /// below 0 it prefers the handed model.
     pub bic: f64,
     /// Imaginary parts more than three standard errors from 0, the most certain first.
     pub parts: Vec<Coefficient>,
@@ -72,9 +76,10 @@ pub struct Handedness {
 
 /// Compares a mirror-symmetric fit with the handed model of the same terms, by likelihood ratio.
 ///
-/// Give the fit of selected terms ([`crate::select`]): with fewer imaginary parts the test sees smaller ones. A cell is called handed where the
-/// ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric cells, mirror symmetric where it is exceeded in [`DOUBTED_RATE`] of them and more, and the intervals of all imaginary
-/// parts exclude the size [`SEEN`]: a large p-value alone is no evidence of symmetry.
+/// Give the fit of selected terms ([`crate::select`]): with fewer imaginary parts the test sees smaller ones.
+/// A cell is called handed where the ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric
+/// cells, mirror symmetric where it is exceeded in [`DOUBTED_RATE`] of them and more, and the intervals of
+/// all imaginary parts exclude the size [`SEEN`]: a large p-value alone is no evidence of symmetry.
 ///
 /// # Errors    of the input; [`Error::Setting`] if `fit` is handed itself
 /// # Checked by  `tests/all/handed.rs`: rate of false alarms, a handed cell
@@ -121,7 +126,8 @@ fn compare(fit: &Fit, handed: Fit, degrees: usize) -> Handedness {
     Handedness { symmetry, ratio, degrees, p_value, excluded, bic, parts, fit: handed }
 }
 
-/// The largest end of an interval of an imaginary part, relative to the largest coefficient of its equation, in natural units; infinite where an equation has none.
+/// The largest end of an interval of an imaginary part, relative to the largest coefficient of its equation,
+/// in natural units; infinite where an equation has none.
 fn excluded(handed: &Fit) -> f64 {
     let natural = |c: &Coefficient| handed.scales.coefficient(&c.term).abs();
     let largest = |equation: usize| {

@@ -1,8 +1,9 @@
-//! Which combinations of coefficients the motion fixes.
+//! The combinations of coefficients that the motion fixes.
 //!
-//! The errors of an equation's coefficients have covariance C (of all other coefficients and the noise whatever they are). Its eigenvectors are
-//! combinations with independent errors. In natural units, where speed, modes and rates are about 1, coefficients are of order 1: a combination
-//! is fixed where its standard error is below [`FIXED`], free where it is above [`FREE`].
+//! The errors of an equation's coefficients have covariance C (of all other coefficients and the noise
+//! whatever they are). Its eigenvectors are combinations with independent errors. In natural units, where
+//! speed, modes and rates are about 1, coefficients are of order 1: a combination is fixed where its standard
+//! error is below [`FIXED`], free where it is above [`FREE`].
 
 use crate::Fit;
 use crate::filter::NOISES;
@@ -21,7 +22,7 @@ const LEAST_NUMBERS: usize = 20;
 /// Largest coefficient in natural units: a larger one is not bounded by the data.
 pub(crate) const BOUNDED: f64 = 10.0;
 
-/// How well a combination is known.
+/// The accuracy with which a combination is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Knowledge {
@@ -42,13 +43,14 @@ pub struct Combination {
     pub value: f64,
     /// Its standard error, natural units.
     pub error: f64,
-    /// How well it is known.
+    /// The accuracy with which it is known.
     pub knowledge: Knowledge,
-    /// In the units of the data and with the paper's names: `kappa2 - 0.3 b1 = 0.52 ± 0.01`; of a free one `kappa2 + 3 b1 (standard error 2.1)`.
+    /// In the units of the data and with the paper's names: `kappa2 - 0.3 b1 = 0.52 ± 0.01`; of a free one
+    /// `kappa2 + 3 b1 (standard error 2.1)`.
     pub text: String,
 }
 
-/// What is known of one equation.
+/// The combinations of one equation, with the accuracy of each.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EquationKnowledge {
     /// The equation, from 0.
@@ -77,18 +79,18 @@ impl EquationKnowledge {
     }
 }
 
-/// What a fit fixes.
+/// The identifiability of a fit: the combinations of coefficients that it fixes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Identifiability {
     /// Each equation that has terms.
     pub equations: Vec<EquationKnowledge>,
-    /// Whether no combination is free and the search converged.
+    /// `true` if no combination is free and the search converged.
     pub identifiable: bool,
-    /// Why not, if not.
+    /// The reasons why not, if not.
     pub reasons: Vec<String>,
 }
 
-/// Which combinations of coefficients a fit fixes.
+/// The combinations of coefficients that a fit fixes.
 ///
 /// # Checked by  `tests/all/identifiability.rs`: circular, straight and motionless cells
 #[must_use]

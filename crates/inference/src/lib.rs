@@ -1,9 +1,11 @@
 //! From observed tracks of shape modes to amplitude equations.
 //!
 //! [`fit()`] finds the coefficients of all rotation-covariant terms and the noise by maximum likelihood through an extended Kalman filter;
-//! [`stage_velocities`] whether the stage drifts beside it; [`select`] the terms that the data ask for; [`identifiability()`] what the motion fixes; [`handedness`] whether left and right differ;
-//! [`warnings()`] and [`drift()`] what makes the fit doubtful; [`weak()`] is a cheap witness; [`place()`] and [`place_among`] say where the model lies
-//! on the paper's planes; [`Fit::definition`] makes it a model. Knows no file. Method and measurements: docs/inference.md.
+//! [`stage_velocities`] whether the stage drifts beside it; [`select`] the terms that the data ask for;
+//! [`identifiability()`] what the motion fixes; [`handedness`] whether left and right differ; [`warnings()`]
+//! and [`drift()`] what makes the fit doubtful; [`weak()`] is a cheap witness; [`place()`] and
+//! [`place_among`] say where the model lies on the paper's planes; [`Fit::definition`] makes it a model.
+//! Knows no file. Method and measurements: docs/inference.md.
 
 mod between;
 mod chi_square;

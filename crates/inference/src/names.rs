@@ -2,8 +2,9 @@
 
 use crate::Term;
 
-/// A term of (Z1), (Z2), (Z3) in the notation of study files, the parameter of (V), (S), (U) in its coefficient, and the coefficient of that
-/// parameter. Source: paper, the table of coefficients after (Z3); `models/src/tensor/fourier.rs`.
+/// A term of (Z1), (Z2), (Z3) in the notation of study files, the parameter of (V), (S), (U) in its
+/// coefficient, and the coefficient of that parameter. Source: paper, the table of coefficients after (Z3);
+/// `models/src/tensor/fourier.rs`.
 const PAPER: [(&str, &str, f64); 21] = [
     ("z1: z1", "gamma", 1.0),
     ("z1: |z2|^2*z1", "a4", -8.0),

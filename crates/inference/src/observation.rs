@@ -5,7 +5,8 @@ use motiform_dynamics::order::ascending;
 use nalgebra::{Cholesky, DMatrix};
 use serde::{Deserialize, Serialize};
 
-/// What is observed of a frame, in the order of [`Observation::y`]: for a model of n amplitudes the first 2n.
+/// The names of the observed numbers of a frame, in the order of [`Observation::y`]: for a model of n
+/// amplitudes the first 2n.
 pub(crate) const NAMES: [&str; 2 * MOST_MODES] =
     ["x", "y", "Re z2", "Im z2", "Re z3", "Im z3", "Re z4", "Im z4"];
 
@@ -19,8 +20,8 @@ pub const LEAST_FRAMES: usize = 8;
 pub struct Observation {
     /// Time; a missing frame is one whose time does not occur.
     pub t: f64,
-    /// `(x, y, Re z2, Im z2, Re z3, Im z3)` and more modes, if they are known. A model of three amplitudes is fitted to these six, one of four to
-    /// eight; the others are not looked at.
+    /// `(x, y, Re z2, Im z2, Re z3, Im z3)` and more modes, if they are known. A model of three amplitudes is
+    /// fitted to these six, one of four to eight; the others are not looked at.
     pub y: Vec<f64>,
     /// Covariance of the errors of `y`. The fit multiplies it by one factor `s^2` for all frames.
     pub covariance: Vec<Vec<f64>>,

@@ -95,7 +95,8 @@ impl Scales {
         Self { time, amplitudes, signal: of().map(Squares::signal).collect(), centre }
     }
 
-    /// What a coefficient in natural units is multiplied by to be one in the units of the data: `A_n / (T prod A_m^degree)`.
+    /// The factor from a coefficient in natural units to one in the units of the data:
+    /// `A_n / (T prod A_m^degree)`.
     #[must_use]
     pub fn coefficient(&self, term: &Term) -> f64 {
         let product = |(m, a): (usize, &f64)| libm::pow(*a, f64::from(term.degree(m)));
@@ -103,7 +104,8 @@ impl Scales {
         self.amplitudes[term.equation] / (self.time * product)
     }
 
-    /// What process noise of the velocity and of the shape is multiplied by.
+    /// The factors from process noise of the velocity and of the shape in natural units to the units of the
+    /// data.
     #[must_use]
     pub fn noise(&self) -> [f64; 2] {
         let [l2, l3] = self.reference();
@@ -115,7 +117,8 @@ impl Scales {
         [self.amplitudes[1], self.amplitudes[2.min(self.amplitudes.len() - 1)]]
     }
 
-    /// Variances of the process noise of each mode in natural units, for amplitudes 1: in the units of the data all modes of the shape have the same noise.
+    /// Variances of the process noise of each mode in natural units, for amplitudes 1: in the units of the
+    /// data all modes of the shape have the same noise.
     #[must_use]
     pub fn noise_of_modes(&self) -> Vec<f64> {
         let [l2, l3] = self.reference();

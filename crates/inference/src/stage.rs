@@ -1,7 +1,8 @@
 //! A velocity of the stage as a nuisance parameter of a fit.
 //!
-//! Laws that keep their form under rotations have no velocity that does not turn with the cell: what is seen of one is the stage, or a flow. In the equations it is
-//! `x' = Re z1 + u_x, y' = -Im z1 + u_y`, which is the same as the law for `(x, y) - u t`.
+//! Laws that keep their form under rotations have no velocity that does not turn with the cell: what is seen
+//! of one is the stage, or a flow. In the equations it is `x' = Re z1 + u_x, y' = -Im z1 + u_y`, which is the
+//! same as the law for `(x, y) - u t`.
 
 use crate::chi_square::chi_square_tail;
 use crate::filter::{Evaluation, Frame, NOISES, Problem, Want, evaluate};
@@ -16,7 +17,7 @@ const STEP: f64 = 1e-3;
 /// Most steps to the velocity of highest likelihood, and the gain of log-likelihood below which they end.
 const MOST_STEPS: usize = 8;
 const ENOUGH: f64 = 1e-2;
-/// What a step is multiplied by that went too far.
+/// The factor by which a step that went too far is shortened.
 const SHORTER: f64 = 0.4;
 /// Relative addition to the products of scores, where these do not determine a regression.
 const RIDGE: f64 = 1e-9;
@@ -36,11 +37,14 @@ pub struct StageVelocity {
 
 /// The velocity of the stage of each track, by the score test: no fit is made.
 ///
-/// With the scores `s_k = dl_k/du` of the frames at `u = 0`, and the rest `r_k` that their regression on the scores of coefficients and noise leaves, `V = sum r_k r_k^T`: the sum `S` of `s_k` gives
-/// `S^T V^-1 S`, chi-square with two degrees of freedom, and `u = V^-1 S`. Derivatives by `u` are differences of likelihoods and of squares of innovations. `None` where the motion of the cell takes
-/// any velocity up, or the filter diverges.
+/// With the scores `s_k = dl_k/du` of the frames at `u = 0`, and the rest `r_k` that their regression on the
+/// scores of coefficients and noise leaves, `V = sum r_k r_k^T`: the sum `S` of `s_k` gives `S^T V^-1 S`,
+/// chi-square with two degrees of freedom, and `u = V^-1 S`. Derivatives by `u` are differences of
+/// likelihoods and of squares of innovations. `None` where the motion of the cell takes any velocity up, or
+/// the filter diverges.
 ///
-/// Source: Berndt, Hall, Hall and Hausman (1974), Ann. Econ. Soc. Meas. 3, 653 (information from products of scores); Godfrey (1988), Misspecification Tests in Econometrics, ch. 1.
+/// Source: Berndt, Hall, Hall and Hausman (1974), Ann. Econ. Soc. Meas. 3, 653 (information from products of
+/// scores); Godfrey (1988), Misspecification Tests in Econometrics, ch. 1.
 ///
 /// # Units   length/time of the tracks
 /// # Errors    of the input, as [`crate::fit()`]
@@ -161,8 +165,8 @@ impl Score {
     }
 }
 
-/// The derivative of each frame's log-likelihood by a velocity, from evaluations on both sides: that of the squares of its standardised innovations. The determinant of their covariance hardly
-/// changes.
+/// The derivative of each frame's log-likelihood by a velocity, from evaluations on both sides: that of the
+/// squares of its standardised innovations. The determinant of their covariance hardly changes.
 fn frames([up, down]: &[Evaluation; 2]) -> Vec<f64> {
     let square = |e: &Vec<f64>| e.iter().map(|x| x * x).sum::<f64>();
     let of = |found: &Evaluation| found.innovations.iter().flatten().map(square).collect::<Vec<f64>>();

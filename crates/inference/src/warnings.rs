@@ -1,4 +1,4 @@
-//! What makes a fit doubtful.
+//! The warnings about a fit.
 
 mod drift;
 mod stretch;
@@ -26,7 +26,8 @@ const WHITE: f64 = 1e-3;
 const ERRORS_DIFFER: f64 = 1.5;
 /// Significance of a velocity that does not turn with the cell.
 const CARRIED: f64 = 1e-3;
-/// Its least size, as a part of the root mean square of the speed: a record without noise shows the errors of the filter (zigzag of Fig. 5(a): 3e-4).
+/// Its least size, as a part of the root mean square of the speed: a record without noise shows the errors of
+/// the filter (zigzag of Fig. 5(a): 3e-4).
 const LEAST_CARRIED: f64 = 0.005;
 /// Frames whose rates are computed.
 const RATES: usize = 60;
@@ -47,7 +48,7 @@ pub enum Warning {
     },
     /// Process or measurement noise at a bound of the search.
     NoiseAtBound {
-        /// Which.
+        /// The names of the noises.
         names: Vec<String>,
     },
     /// Innovations are not white: noise with memory, or missing terms.
@@ -60,7 +61,8 @@ pub enum Warning {
         /// Their names.
         names: Vec<String>,
     },
-    /// Outlines are elongated along one direction whatever the heading, as [`Stretch`] says of one cell: no equations that keep their form under rotations do this.
+    /// Outlines are elongated along one direction whatever the heading, as [`Stretch`] says of one cell: no
+    /// equations that keep their form under rotations do this.
     Stretched {
         /// Mean elongation that does not turn with the cell, over the root mean square of `|z2|`.
         share: f64,
@@ -85,7 +87,7 @@ pub enum Warning {
     },
     /// The search did not converge.
     NotConverged {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
@@ -114,13 +116,16 @@ impl std::fmt::Display for Warning {
             }
             Self::Stretched { share, degrees, p_value } => write!(
                 f,
-                "outlines are elongated at {:.0} degrees from the x axis whatever the heading, by {:.0} % of their root mean square elongation (p = {p_value:.1e}): pixels are not square, or a direction of the surroundings acts on the shape",
+                "outlines are elongated at {:.0} degrees from the x axis whatever the heading, by {:.0} % \
+                of their root mean square elongation (p = {p_value:.1e}): pixels are not square, or a \
+                direction of the surroundings acts on the shape",
                 degrees.round() + 0.0, // no minus before 0
                 100.0 * share
             ),
             Self::Carried { velocity: [x, y], errors: [dx, dy], p_value } => write!(
                 f,
-                "a velocity of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) does not turn with the cell (p = {p_value:.1e}): the stage drifts, or a flow carries it; `--correct drift` subtracts it"
+                "a velocity of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) does not turn with the cell (p = \
+                {p_value:.1e}): the stage drifts, or a flow carries it; `--correct drift` subtracts it"
             ),
             Self::ErrorsDiffer { ratio } => {
                 write!(

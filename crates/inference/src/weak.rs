@@ -8,7 +8,8 @@
 //! ```
 //!
 //! Least squares over windows; the velocity inside of `M_k` comes from a parabola through five frames. Under process noise this
-//! estimate has a bias of 10 to 40 % that more frames do not remove: it is a check of order of magnitude and sign, not an estimate to quote.
+//! estimate has a bias of 10 to 40 % that more frames do not remove: it is a check of order of magnitude and
+//! sign, not an estimate to quote.
 //!
 //! Source: Messenger and Bortz (2021), Multiscale Model. Simul. 19, 1474.
 

@@ -29,7 +29,8 @@ fn kernel(body: &(dyn Model + 'static), settings: &LyapunovSettings) -> Option<K
     (compiled && settings.count == body.dim() && runs_in_lanes(settings)).then_some(kernel)
 }
 
-/// Whether [`exponents_of_body`] is applicable: all exponents, of a model within a kernel's terms, by a method that has lanes.
+/// Returns `true` if [`exponents_of_body`] is applicable: all exponents, of a model within a kernel's terms,
+/// by a method that has lanes.
 #[must_use]
 pub fn has_exponents(body: &(dyn Model + 'static), settings: &LyapunovSettings) -> bool {
     kernel(body, settings).is_some()

@@ -15,7 +15,8 @@ pub enum Kernel {
     Amplitudes(usize),
 }
 
-/// Whether amplitude equations have kernels. In the module of a page, whose registers hold two lanes, they would gain little and make half a megabyte of it.
+/// `true` if amplitude equations have kernels. In the module of a page, whose registers hold two lanes, they
+/// would gain little and make half a megabyte of it.
 const TEXT: bool = !cfg!(target_family = "wasm");
 
 /// The largest number of modes for which there is a kernel: each number is compiled separately.
@@ -34,7 +35,7 @@ impl Kernel {
         Some(Self::Amplitudes(modes)).filter(|kernel| modes <= MOST_MODES && kernel.is_there())
     }
 
-    /// Whether it is part of this program.
+    /// Returns `true` if it is part of this program.
     #[inline(always)]
     pub(crate) fn is_there(self) -> bool {
         TEXT || self == Self::Tensor
@@ -59,7 +60,7 @@ impl Kernel {
         counts.into_iter().max_by_key(|&(_, count)| count).map(|(kernel, _)| kernel)
     }
 
-    /// Whether it computes this model.
+    /// Returns `true` if it computes this model.
     #[must_use]
     pub fn computes(self, model: &dyn Model) -> bool {
         Self::of(model) == Some(self)

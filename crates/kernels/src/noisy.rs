@@ -18,7 +18,7 @@ pub struct NoisyStart<'m> {
     pub noise: NoiseSteps,
 }
 
-/// What is integrated.
+/// The part of the state that is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stretch {
     /// The shape alone.

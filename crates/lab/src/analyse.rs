@@ -139,7 +139,7 @@ pub fn lyapunov_followed(
     Ok(motiform_analysis::lyapunov_followed(model.as_ref(), &shape, &settings, watch, follow)?)
 }
 
-/// What [`lyapunov`] computes for a plan.
+/// The settings of [`lyapunov`] for a plan.
 pub(crate) fn lyapunov_settings(
     plan: &Plan,
     count: usize,

@@ -41,15 +41,16 @@ pub fn random_members(plan: &Plan, count: usize, random: Random) -> Result<Vec<M
 pub struct Track {
     /// The model's coordinates, then x and y, for each time that it reached.
     pub states: Vec<Vec<f64>>,
-    /// How it ended: [`Outcome::Completed`] if it reached all times.
+    /// Its outcome: [`Outcome::Completed`] if it reached all times.
     pub outcome: Outcome,
 }
 
 /// The tracks of `members`, in their order, at `times` (increasing, the first one at least 0), with the method and the tolerances of
 /// `plan`; `None` if the watch stopped it. The plan's own parameters, start, transient and time span are not used.
 ///
-/// Tensor models and amplitude equations of at most four modes run in the lanes of vector registers if the method is dop853 with a tolerance. A track does
-/// not depend on the other members, on `threads`, or on the machine.
+/// Tensor models and amplitude equations of at most four modes run in the lanes of vector registers if the
+/// method is dop853 with a tolerance. A track does not depend on the other members, on `threads`, or on the
+/// machine.
 ///
 /// # Errors
 /// Parameters or a start that the model rejects, times that are not increasing, a plan with noise.

@@ -21,8 +21,8 @@ pub fn write_dataset(dataset: &Dataset, format: Format, staged: &Staged) -> Resu
     crate::dataset::write_dataset(dataset, fields(dataset)?.as_ref(), format, staged)
 }
 
-/// Writes what belongs to a trajectory that is in the staged folder already (and `whole` in memory where it is short): crossings, fields and
-/// manifest.
+/// Writes what belongs to a trajectory that is in the staged folder already (and `whole` in memory where it
+/// is short): crossings, fields and manifest.
 ///
 /// # Errors
 /// Files that cannot be read or written.

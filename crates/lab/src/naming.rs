@@ -7,7 +7,8 @@ use motiform_dynamics::escape::norm;
 use motiform_dynamics::{Model, Outcome, Watch};
 use motiform_study::{Error, Manifest, Plan};
 
-/// Maximum model time, in looks of the model: a motion that has settled is identified within the first.
+/// Maximum model time, in looks of the model ([`motiform_models::ModelInfo::look`]): a motion that has
+/// settled is identified within the first.
 const LOOKS: f64 = 2.0;
 
 /// Classifies the motion at the end of a run within a few looks of the model. `None` if this is inconclusive; for a

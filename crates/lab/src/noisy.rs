@@ -11,8 +11,8 @@ use motiform_kernels::{Kernel, NoisyStart, NoisyStates, Stretch, propagate_noisy
 use motiform_study::plan::NoiseSettings;
 use motiform_study::{Error, Plan};
 
-/// Whether [`noisy_tracks`] computes this plan in lanes: noise on the tensor model or on amplitude equations of at most four modes, with
-/// dop853 and a tolerance, on a machine with vector registers.
+/// Returns `true` if [`noisy_tracks`] computes this plan in lanes: noise on the tensor model or on amplitude
+/// equations of at most four modes, with dop853 and a tolerance, on a machine with vector registers.
 ///
 /// # Errors
 /// An unknown model.
@@ -21,16 +21,16 @@ pub fn has_noisy_lanes(plan: &Plan) -> Result<bool, Error> {
     Ok(plan.computation.noise.is_some() && setting(plan, model.as_ref()).is_some())
 }
 
-/// What the lanes of a plan need.
+/// The kernel and the tolerances with which the lanes compute a plan; `None` if they do not.
 fn setting(plan: &Plan, model: &dyn Model) -> Option<(Kernel, [f64; 2])> {
     let StepControl::Adaptive { rtol, atol } = plan.computation.control.into() else { return None };
     let suited = has_lanes() && plan.computation.stepper == "dop853";
     suited.then_some((Kernel::of(model)?, [rtol, atol]))
 }
 
-/// The rows of the runs of `plans`, which differ in nothing but their seeds and starts: transient and recording, as [`crate::simulate::simulate`] gives
-/// them, to the bit; in lanes if there are any ([`has_noisy_lanes`]). `None` if the watch stopped it. A run that ended during its transient has no
-/// rows.
+/// The rows of the runs of `plans`, which differ in nothing but their seeds and starts: transient and
+/// recording, as [`crate::simulate::simulate`] gives them, to the bit; in lanes if there are any
+/// ([`has_noisy_lanes`]). `None` if the watch stopped it. A run that ended during its transient has no rows.
 ///
 /// # Errors
 /// Input that only the numerics can reject.

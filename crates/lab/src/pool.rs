@@ -15,7 +15,7 @@ pub(crate) struct Jobs<'p, A> {
     /// The answers, their number, and the first error.
     found: Mutex<(Vec<Option<A>>, usize, Option<Error>)>,
     keeping: Keeping<'p, A>,
-    /// When the answers were kept.
+    /// The moment when the answers were last kept.
     kept: Mutex<Moment>,
     watch: &'p dyn Watch,
 }

@@ -1,4 +1,4 @@
-//! What is recorded of a run while it is computed: rows go where they are written, and nothing else is kept of them.
+//! The record of a run while it is computed: rows are written as they come, and nothing else is kept of them.
 
 use crate::readings::{Crossings, Readings};
 use crate::simulate::Simulation;
@@ -10,7 +10,7 @@ use motiform_study::Error;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Where the rows of a trajectory go.
+/// The destination of the rows of a trajectory.
 pub trait Rows {
     /// The table that takes the next row.
     fn table(&mut self) -> &mut Table;
@@ -77,7 +77,7 @@ impl Rows for Unwanted {
     }
 }
 
-/// What a run is recorded by.
+/// The recorder of a run.
 pub(crate) trait Record {
     fn sink(&mut self) -> &mut dyn Sink;
 
@@ -118,7 +118,7 @@ pub(crate) struct Recorder<'r> {
     readings: Readings<'r>,
     rows: &'r mut dyn Rows,
     crossings: Option<Crossings>,
-    /// Where the return map is centred: the others do without its exponentials.
+    /// The centre of the return map; the other quantities do without its exponentials.
     centre: Option<Centre>,
     failed: Option<Error>,
     full: Arc<AtomicBool>,

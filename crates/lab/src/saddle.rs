@@ -19,7 +19,7 @@ pub struct Saddle {
     /// Largest exponent on the saddle (inverse model time), with its 95 % error from the spread over the runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exponent: Option<Estimate>,
-    /// Why there is none.
+    /// The reason why there is none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub missing: String,
     /// Escape rate kappa (inverse model time) of the exponential tail, with its 95 % error.

@@ -82,7 +82,7 @@ struct Stretch {
 }
 
 impl Stretch {
-    /// How it ended, if that was before its end.
+    /// The ending, if it came before the end of the stretch.
     fn early(&self) -> Option<Ending> {
         (!self.ending.is_complete()).then_some(self.ending)
     }

@@ -1,13 +1,15 @@
-//! Whether what was measured along a motion varies.
+//! The test that a quantity measured along a motion varies.
 
 /// A quantity that varies by less than this part of its size is steady, ...
 const STEADY: f64 = 1e-7;
 
-/// ... and one that varies by less than this part of the scale that it is measured against: what is left is round-off, or the rest of a decay.
+/// ... and one that varies by less than this part of the scale that it is measured against: what is left is
+/// round-off, or the rest of a decay.
 const SMALL: f64 = 1e-12;
 
-/// Whether the values vary beyond round-off, `max - min > max(1e-7 max |x|, 1e-12 scale)`, where `scale` is the size of what they are a part
-/// of (0 if there is none). Values that are not a number are left out; no values do not vary.
+/// Returns `true` if the values vary beyond round-off, `max - min > max(1e-7 max |x|, 1e-12 scale)`, where
+/// `scale` is the size of what they are a part of (0 if there is none). Values that are not a number are left
+/// out; no values do not vary.
 #[must_use]
 pub(crate) fn varies(values: impl IntoIterator<Item = f64>, scale: f64) -> bool {
     let range = |(low, high): (f64, f64), x: f64| (low.min(x), high.max(x));

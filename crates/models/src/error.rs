@@ -94,12 +94,13 @@ pub enum Error {
     /// Equations given as text that are no model.
     #[error("the amplitude equations are not valid: {problem}")]
     Equations {
-        /// What is wrong, and the remedy.
+        /// The fault, and the remedy.
         problem: String,
     },
     /// A coefficient of amplitude equations has no value.
     #[error(
-        "the coefficient of the term {term} has no finite value at these parameters: change a parameter that it divides by, or takes a root of"
+        "the coefficient of the term {term} has no finite value at these parameters: change a parameter \
+        that it divides by, or takes a root of"
     )]
     Coefficient {
         /// The equation and its term.
@@ -107,7 +108,8 @@ pub enum Error {
     },
 }
 
-/// Where the parameters are: those of equations given as text are few, and no command knows the model by name.
+/// A sentence that leads to the parameters: those of equations given as text are few, and no command knows
+/// the model by name.
 fn known_parameters(model: &str, known: &[&str]) -> String {
     if model == crate::amplitudes::NAME {
         return format!("the parameters are {}", known.join(", "));

@@ -1,4 +1,4 @@
-//! Which model a study or a plan is about.
+//! The model that a study or a plan is about.
 
 use crate::amplitudes::{self, Definition};
 use crate::{Error, ModelInfo};
@@ -39,7 +39,9 @@ impl ModelName {
                 info if info.field() == Some(field) => Ok(info),
                 _ => Err(Error::OwnModel {
                     name: own.clone(),
-                    problem: "this result was computed with other equations of the same name: register those, or compute it again".to_owned(),
+                    problem: "this result was computed with other equations of the same name: register \
+                        those, or compute it again"
+                        .to_owned(),
                 }),
             },
         }

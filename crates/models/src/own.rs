@@ -1,5 +1,5 @@
-//! Models of one's own: an implementation of [`Model`] in Rust, made known by name, so that studies, scans, branches and figures take it as they take those
-//! that are built in.
+//! Models of one's own: an implementation of [`Model`] in Rust, made known by name, so that studies, scans,
+//! branches and figures take it as they take those that are built in.
 
 use crate::registry::{Display, Source};
 use crate::{Error, MODELS, ModelInfo, ParameterSpec, Parameters, amplitudes};
@@ -8,7 +8,7 @@ use motiform_dynamics::{Model, Shape, VectorField};
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
-/// What the library is told of a model of one's own.
+/// The description of a model of one's own, as it is registered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct About {
     /// Its name, for study files, folders and titles: letters, digits and `-`.
@@ -17,9 +17,10 @@ pub struct About {
     pub title: &'static str,
     /// Its equations, as text.
     pub equations: &'static str,
-    /// Where they come from.
+    /// The origin of the equations (a publication).
     pub source: &'static str,
-    /// Some tens of its slowest ordinary time scale (model time): the length of the first look at a motion.
+    /// The length of a look, the unit in which times of observation are given ([`ModelInfo::look`]): some tens of the
+    /// model's slowest ordinary time scale (model time).
     pub look: f64,
     /// Typical size of its shapes: the norm of their coordinates, to one digit.
     pub size: f64,
@@ -74,7 +75,8 @@ static ALL: Mutex<Vec<&'static ModelInfo>> = Mutex::new(Vec::new());
 /// The same name with the same equations, parameters and description gives the same entry again.
 ///
 /// # Errors
-/// [`Error::OwnModel`]: a name that is not usable or taken, a time or size that is not above 0, or a model that `build` refuses at its default parameters.
+/// [`Error::OwnModel`]: a name that is not usable or taken, a time or size that is not above 0, or a model
+/// that `build` refuses at its default parameters.
 pub fn register<P, M>(
     about: &About,
     build: impl Fn(&P) -> Result<M, Error> + Send + Sync + 'static,
@@ -126,7 +128,7 @@ pub(crate) fn find(name: &str) -> Option<&'static ModelInfo> {
     all.iter().copied().find(|info| info.name == name)
 }
 
-/// What was registered.
+/// All models that were registered.
 pub(crate) fn all() -> Vec<&'static ModelInfo> {
     ALL.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
@@ -153,8 +155,9 @@ fn info(own: Own) -> ModelInfo {
     }
 }
 
-/// Digits that change with the equations: a hash of the bits of the field and the velocity at a few states, for the default parameters and for others. A result
-/// states them, so that it is not continued with other equations of the same name.
+/// Digits that change with the equations: a hash of the bits of the field and the velocity at a few states,
+/// for the default parameters and for others. A result states them, so that it is not continued with other
+/// equations of the same name.
 fn fingerprint(
     specs: &[ParameterSpec],
     defaults: &[f64],

@@ -14,11 +14,11 @@ pub struct ParameterSpec {
     pub default: f64,
     /// The range of interest (axes and sliders).
     pub range: (f64, f64),
-    /// Whether that range was chosen, not guessed from the default value.
+    /// `true` if that range was chosen, not guessed from the default value.
     pub ranged: bool,
     /// The allowed values.
     pub allowed: (f64, f64),
-    /// Whether only whole numbers are allowed.
+    /// `true` if only whole numbers are allowed.
     pub whole: bool,
     /// The equation in which it occurs.
     pub equation: &'static str,
@@ -81,7 +81,7 @@ pub const fn allowed(within: &[(f64, f64)]) -> (f64, f64) {
     }
 }
 
-/// Whether a parameter was declared as a whole number.
+/// Returns `true` if a parameter was declared as a whole number.
 #[doc(hidden)]
 #[must_use]
 pub const fn is_whole(kind: &[&str]) -> bool {

@@ -24,10 +24,11 @@ pub struct ModelInfo {
     pub stepper: &'static str,
     /// The relative tolerance to use by default.
     pub rtol: f64,
-    /// Ratio of relative to absolute tolerance, if only the former is given: the inverse of the size below which an entry of the state counts
-    /// as small.
+    /// Ratio of relative to absolute tolerance, if only the former is given: the inverse of the size below
+    /// which an entry of the state counts as small.
     pub tolerance_ratio: f64,
-    /// Some tens of its slowest ordinary time scale (model time): the length of the first look at a motion.
+    /// The length of a look, the unit in which times of observation are given: some tens of the model's slowest
+    /// ordinary time scale (model time). The first look at a motion is as long as this.
     pub look: f64,
     /// Default maximum model time for classifying a motion.
     pub budget: f64,
@@ -42,7 +43,7 @@ pub struct ModelInfo {
     pub(crate) inner: Source,
 }
 
-/// Where a model's names and its construction come from.
+/// The origin of a model's names and of its construction.
 #[derive(Debug)]
 pub(crate) enum Source {
     /// From code.

@@ -21,7 +21,7 @@ const KNOWN: [(&str, f64, f64); 5] = [
     ("homoclinic", 1.344_179, 1e-6),
 ];
 
-/// How far a motion is disturbed, relative to its state.
+/// The disturbance of a motion, relative to its state.
 const DISTURBED: f64 = 1e-2;
 
 /// The preset of the figure at a place of the plane.
@@ -113,8 +113,9 @@ fn ends(context: &Context<'_>, found: &Branches) -> Claim {
     check(
         "The zigzag is not born from straight motion: its branch ends where its period becomes infinite, on a homoclinic orbit.",
         format!(
-            "the branch of the zigzag ends at *κ*_2 = {end:.6} on an orbit that leaves the unstable straight motion and returns to it, once \
-             to the left and once to the right; the branch of straight motion has {hopf} Hopf points between 0.3 and 1.6"
+            "the branch of the zigzag ends at *κ*_2 = {end:.6} on an orbit that leaves the unstable \
+            straight motion and returns to it, once to the left and once to the right; the branch of \
+            straight motion has {hopf} Hopf points between 0.3 and 1.6"
         ),
         &format!(
             "{HOW}. The end is one where the time grows as the logarithm of the distance, at the rate of the saddle"
@@ -123,7 +124,7 @@ fn ends(context: &Context<'_>, found: &Branches) -> Claim {
     )
 }
 
-/// Which transitions are continuous.
+/// The claim on the transitions that are continuous.
 fn kinds(context: &Context<'_>, found: &Branches) -> Claim {
     let words = |kind: &str| {
         let one = |entry: SpecialEntry| {
@@ -137,7 +138,8 @@ fn kinds(context: &Context<'_>, found: &Branches) -> Claim {
     let mut begins = breaks.iter().chain(&doubles);
     let mut hopf = special(found, "hopf");
     check(
-        "The zigzag turns into chaos step by step: left and right legs become unequal, then periods double. Circular motion ends in a jump.",
+        "The zigzag turns into chaos step by step: left and right legs become unequal, then periods double. \
+        Circular motion ends in a jump.",
         format!(
             "symmetry breakings of the zigzag at *κ*_2 = {}; period doublings of the rotating zigzags that begin there at {}; Hopf \
              bifurcation of circular motion at {}",

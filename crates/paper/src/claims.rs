@@ -2,7 +2,7 @@
 
 use motiform_figures::report::{Claim, Source, Verdict};
 
-/// What the report is.
+/// The introduction of the report.
 pub(crate) const ABOUT: &str = "Every figure of Hiraiwa, Ohkuma, Ohta, Matsuo, Sano, *Dynamics of a deformable \
 self-propelled domain*, EPL (2010), computed again, and every claim of the paper checked. A motion is never named by eye: \
 rotations are divided out, and the reduced motion is decided by eigenvalues, by Newton's method on a return, by rests near \

@@ -25,9 +25,9 @@ pub(crate) struct Context<'c> {
     pub threads: usize,
     /// Progress, and whether to stop.
     pub watch: &'c dyn Watch,
-    /// What is computed once for all chapters.
+    /// The results that are computed once for all chapters.
     pub kept: &'c Kept,
-    /// What a test of the claims changes; none in a reproduction.
+    /// The change that a test of the claims makes; none in a reproduction.
     pub fault: Option<&'c Fault>,
 }
 

@@ -39,14 +39,14 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// Whether a motion was found there.
+    /// Returns `true` if a motion was found there.
     #[must_use]
     pub(crate) fn has(&self, regime: Regime) -> bool {
         self.regimes.contains(&regime)
     }
 }
 
-/// What a curve is called, and how it is drawn.
+/// The kinds of curves: name, label and style.
 const KINDS: [(&str, &str, LineStyle); 4] = [
     ("pitchfork", "straight | circular", LineStyle::LongDashed),
     ("hopf", "circular motion: Hopf", LineStyle::Dotted),
@@ -65,7 +65,7 @@ impl Curves {
     /// The curve of every special point of the branches, and that of straight motion at a faster triangle; each once.
     ///
     /// # Errors
-    /// What the continuation refuses; [`Error::Interrupted`].
+    /// A refusal of the continuation; [`Error::Interrupted`].
     pub(crate) fn follow(context: &Context<'_>, found: &Branches) -> Result<Self, Error> {
         let plane = Plane::new(&at(context, 0.9, SLOW)?, ["kappa2", "kappa3"])?;
         let over = Settings::over(KAPPA2.0, KAPPA2.1);
@@ -91,7 +91,8 @@ impl Curves {
         self.all.iter().filter_map(line).collect()
     }
 
-    /// What follows from the curves and the motions found on two lattices: over the plane, and about the zigzags.
+    /// The claims that follow from the curves and the motions found on two lattices: over the plane, and
+    /// about the zigzags.
     pub(crate) fn claims(&self, context: &Context<'_>, places: &[Place], arch: &[Place]) -> [Claim; 3] {
         [self.straight(context, places), self.circular(context), self.arch(arch)]
     }
@@ -117,16 +118,17 @@ impl Curves {
         check(
             "Over the plane of Fig. 4 straight motion turns into circular motion continuously, along one curve.",
             format!(
-                "continuous at {continuous} of {} places along it, from (κ_2, κ_3) = {} to {}; straight motion is found in {} of {beyond} cells beyond the curve, and \
-                 in {} of those before it",
+                "continuous at {continuous} of {} places along it, from (κ_2, κ_3) = {} to {}; straight \
+                motion is found in {} of {beyond} cells beyond the curve, and in {} of those before it",
                 asked.len(),
                 words(line.first()),
                 words(line.last()),
                 there.len(),
                 elsewhere.len()
             ),
-            "the pitchfork of straight motion at κ_3 = 0.6 is continued through the plane; what begins is found by switching branches, and is \
-             stable; cells from random starts, at least 98 % of those beyond",
+            "the pitchfork of straight motion at κ_3 = 0.6 is continued through the plane; what begins is \
+            found by switching branches, and is stable; cells from random starts, at least 98 % of those \
+            beyond",
             asked.len() >= PLACES
                 && continuous == asked.len()
                 && elsewhere.is_empty()
@@ -150,7 +152,8 @@ impl Curves {
         check(
             "Circular motion loses its stability to an oscillation by a jump.",
             format!(
-                "the Hopf bifurcation of the stable circular motion is subcritical at {jumps} of {all} points with κ_2 up to 1.6; it changes its kind at {}",
+                "the Hopf bifurcation of the stable circular motion is subcritical at {jumps} of {all} \
+                points with κ_2 up to 1.6; it changes its kind at {}",
                 if bautin.is_empty() { "no point".to_owned() } else { bautin.join("; ") }
             ),
             "first Lyapunov coefficient along the continued curve; Bautin points where it changes its sign",
@@ -175,8 +178,10 @@ impl Curves {
         check(
             "The zigzag of Fig. 4(a) is stable below one arch over the plane, on which left and right legs become unequal.",
             format!(
-                "the curve joins both ends of the stable range at κ_3 = 0.1; its top is at (κ_2, κ_3) = {}; zigzags in {} of {count} cells below it, and in {} of {} others, which belong to \
-                 other branches. Below it they are not alone: rotating zigzags, chaos and blow-up are met there as well",
+                "the curve joins both ends of the stable range at κ_3 = 0.1; its top is at (κ_2, κ_3) = {}; \
+                zigzags in {} of {count} cells below it, and in {} of {} others, which belong to other \
+                branches. Below it they are not alone: rotating zigzags, chaos and blow-up are met there as \
+                well",
                 words(Some(&top)),
                 inside.len(),
                 outside.len(),
@@ -211,7 +216,7 @@ fn all(
     Ok(all)
 }
 
-/// Whether a curve passes a special point of the row.
+/// Returns `true` if a curve passes a special point of the row.
 fn passes(curve: &WholeCurve, point: &Point, row: f64) -> bool {
     let period = |motion: &Motion| motion.orbit().map_or(1.0, PeriodicOrbit::period);
     let near = |pair: &[CurvePoint]| {
@@ -225,7 +230,7 @@ fn passes(curve: &WholeCurve, point: &Point, row: f64) -> bool {
     curve.points.windows(2).any(near)
 }
 
-/// Where a line crosses a height, increasing.
+/// The crossings of a line with a height, increasing.
 fn at_height(line: &[[f64; 2]], height: f64) -> Vec<f64> {
     let crossing = |pair: &[[f64; 2]]| {
         let [[x, y], [u, v]] = [pair[0], pair[1]];

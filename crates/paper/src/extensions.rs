@@ -13,9 +13,10 @@ use motiform_lab::draw::sheet;
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
 use motiform_study::{Error, Study};
 
-const ABOUT: &str = "Not in the paper: models that the literature asks for, each a file of `presets/` with its equations as text. Checked is what \
-can be computed by hand: the onset of circular motion of an elliptic body (Ohta and Ohkuma, 2009), the mirror images of a handed body, the speed of a body under a \
-constant force and in a field that stretches it, and the diffusion of the heading under noise.";
+const ABOUT: &str = "Not in the paper: models that the literature asks for, each a file of `presets/` with \
+    its equations as text. Checked is what can be computed by hand: the onset of circular motion of an \
+    elliptic body (Ohta and Ohkuma, 2009), the mirror images of a handed body, the speed of a body under a \
+    constant force and in a field that stretches it, and the diffusion of the heading under noise.";
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let (onset, figure) = onset(context)?;

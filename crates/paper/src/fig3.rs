@@ -15,11 +15,13 @@ use motiform_study::study::ReturnMapSettings;
 use motiform_study::{Dataset, Error, Study};
 use std::f64::consts::TAU;
 
-const ABOUT: &str = "The shape repeats after a period, turned by an angle that is no rational part of a turn: in the plane the path \
-is a rosette that fills an annulus. With rotations divided out, the motion is a stable periodic orbit, the 'modulated wave'; the \
-second frequency is that of the rotation alone. The return map on a half line from the centre of the path, which is crossed once in every \
-turn, is a closed curve. On the paper's line *y* = 3, with the centre of the path put on the origin, it cannot be one: turns whose crest lies \
-below the line do not cross it. Upward and downward crossings are different sections and are kept apart.";
+const ABOUT: &str = "The shape repeats after a period, turned by an angle that is no rational part of a \
+    turn: in the plane the path is a rosette that fills an annulus. With rotations divided out, the motion \
+    is a stable periodic orbit, the 'modulated wave'; the second frequency is that of the rotation alone. \
+    The return map on a half line from the centre of the path, which is crossed once in every turn, is a \
+    closed curve. On the paper's line *y* = 3, with the centre of the path put on the origin, it cannot be \
+    one: turns whose crest lies below the line do not cross it. Upward and downward crossings are different \
+    sections and are kept apart.";
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let study = context.preset("fig3", |study| {
@@ -107,8 +109,9 @@ fn by_direction(dataset: &Dataset) -> Result<ReportFigure, Error> {
         ..Chart::default()
     }
     .with([("crossed upwards", true), ("crossed downwards", false)].map(series));
-    let words = "The return map of *x* on the paper's line -3 < *x* < 3, *y* = 3, from one crossing to the next one in the same direction. It \
-                 consists of open arcs: an arc ends where the path only touches the line, or where the next turn stays below it.";
+    let words = "The return map of *x* on the paper's line -3 < *x* < 3, *y* = 3, from one crossing to the \
+        next one in the same direction. It consists of open arcs: an arc ends where the path only touches \
+        the line, or where the next turn stays below it.";
     Ok(ReportFigure::new(sheet(&figure)?, words))
 }
 
@@ -167,11 +170,12 @@ fn return_map(dataset: &Dataset) -> Claim {
     };
     let finds: Vec<String> =
         ["crossed upwards", "downwards"].into_iter().zip(both.iter().zip(&found)).map(words).collect();
-    let how = "crossings of -3 < *x* < 3, *y* = 3 from each to the next one in the same direction, at least 50 of each; the shortest tree through \
-               the points (*x*_*n*, *x*_{*n*+1}), cut where neighbours are more than a tenth of the extent apart: at least 90 % of the points lie on \
-               at most four pieces that are rows of points. An area, scattered points and a periodic motion are none. The paper does not say \
-               that the curve is closed, and on this line it is not: turns whose crest lies below it do not cross it. Closedness is judged on \
-               the half line, in the next check";
+    let how = "crossings of -3 < *x* < 3, *y* = 3 from each to the next one in the same direction, at least \
+        50 of each; the shortest tree through the points (*x*_*n*, *x*_{*n*+1}), cut where neighbours are \
+        more than a tenth of the extent apart: at least 90 % of the points lie on at most four pieces that \
+        are rows of points. An area, scattered points and a periodic motion are none. The paper does not \
+        say that the curve is closed, and on this line it is not: turns whose crest lies below it do not \
+        cross it. Closedness is judged on the half line, in the next check";
     let says = "In order to confirm that the motion is quasi-periodic, we have analyzed the return map of the *x*-component every time \
                 that the domain crosses the line -3 < *x* < 3 and *y* = 3.";
     let holds = both.iter().zip(&found).all(|(points, pieces)| {
@@ -200,9 +204,10 @@ fn radial_map(context: &Context<'_>, dataset: &Dataset) -> Claim {
         _ => format!("{} pieces", pieces.len()),
     };
     let finds = format!("{words}; correlation dimension {value:.3} ± {spread:.3}");
-    let how = "crossings of *y* = 0, *x* > 0 from the centre of the path, upwards; the shortest tree through the points (*x*_*n*, *x*_{*n*+1}) is one row \
-               of at least 90 % of them, whose ends are at most 1.5 times as far apart as its furthest neighbours: an open arc fails this; and \
-               Grassberger and Procaccia's dimension is within 0.2 of 1";
+    let how = "crossings of *y* = 0, *x* > 0 from the centre of the path, upwards; the shortest tree \
+        through the points (*x*_*n*, *x*_{*n*+1}) is one row of at least 90 % of them, whose ends are at \
+        most 1.5 times as far apart as its furthest neighbours: an open arc fails this; and Grassberger and \
+        Procaccia's dimension is within 0.2 of 1";
     let says = "On a line that every turn crosses once, the half line from the centre of the path, the return map is a closed curve.";
     let closed = matches!(pieces[..], [piece] if piece.is_closed()) && points.len() >= 200;
     check(says, finds, how, closed && (value - 1.0).abs() < 0.2)

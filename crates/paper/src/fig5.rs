@@ -30,7 +30,7 @@ heading swings to the left and to the right in turn. (b) At κ_2 = 0.5, κ_3 = 0
 a motion is a zigzag is decided by its return: half a period later it must be its own mirror image. Whether it is chaotic is \
 decided by four independent witnesses: the Lyapunov exponent, the parting of neighbours, the 0-1 test and the spectrum.";
 
-/// What both presets set.
+/// The parameters that both presets set.
 fn parameters(context: &Context<'_>) -> Result<Vec<(String, String)>, Error> {
     let (a, b) = (context.preset("fig5a", |_| Ok(()))?, context.preset("fig5b", |_| Ok(()))?);
     let values = a.values()?.into_iter().zip(b.values()?);

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// A result of any type.
 type Anything = Arc<dyn Any + Send + Sync>;
 
-/// Where a result will be; locked while it is computed.
+/// The place of a result; locked while it is computed.
 type Place = Arc<Mutex<Option<Anything>>>;
 
 /// Results by what they are of.

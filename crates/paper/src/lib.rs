@@ -1,7 +1,8 @@
 //! Reproduction of the paper: every figure recomputed, every claim checked, one report.
 //!
-//! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`] with its pictures and its claims. A chapter runs studies
-//! and scans through its `context`, and says what it finds as `claims`. Continued bifurcations belong to two figures: `lines` (Fig. 1), which are known from
+//! One file or folder per figure, one for the equations and one for the discussion; each gives a [`Section`]
+//! with its pictures and its claims. A chapter runs studies and scans through its `context`, and says what it
+//! finds as `claims`. Continued bifurcations belong to two figures: `lines` (Fig. 1), which are known from
 //! formulas, and `branches` and `curves` (Fig. 4).
 
 mod branches;
@@ -37,7 +38,7 @@ pub use sentences::{checked_in, entry_of};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-/// What to rebuild, and how.
+/// The figures to rebuild, and the settings.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The figures, by name (see [`names`]); all of the paper if empty.
@@ -49,7 +50,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// Whether every figure asked for is one of the paper's.
+    /// Checks that every figure asked for is one of the paper's.
     ///
     /// # Errors
     /// [`Error::UnknownFigure`] with all names.
@@ -100,14 +101,14 @@ fn finished(name: &str, section: &Section) -> String {
     format!("{name}: {hold} hold, {differ} differ, {fail} fail, {unjudged} not judged")
 }
 
-/// What becomes of chapters while others are computed.
+/// The treatment of chapters while others are computed.
 #[derive(Clone, Copy)]
 pub struct Keeping<'k> {
     /// Keeps finished chapters: they are not computed again.
     pub journal: &'k dyn Journal,
     /// Gets the report after each chapter; those that are missing say so.
     pub page: &'k (dyn Fn(&Report) -> Result<(), Error> + Sync),
-    /// What is computed once for all chapters.
+    /// The results that are computed once for all chapters.
     pub kept: &'k Kept,
 }
 

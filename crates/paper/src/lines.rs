@@ -18,7 +18,7 @@ const GAMMA: (f64, f64) = (-0.16, 0.12);
 const RIGHT: (f64, f64) = (0.002, 0.22);
 const LEFT: (f64, f64) = (-0.22, -0.002);
 
-/// How far continued points may lie from the formulas, in units of gamma and kappa2.
+/// The largest distance of continued points from the formulas, in units of gamma and kappa2.
 const CLOSE: f64 = 1e-8;
 
 /// Places of a line at which it is asked what begins there.
@@ -30,7 +30,7 @@ struct Track {
     line: Line,
     swapped: bool,
     points: Vec<CurvePoint>,
-    /// Whether the transition is continuous, at some places.
+    /// `true` where the transition is continuous, at some places.
     continuous: Vec<Option<bool>>,
 }
 
@@ -38,7 +38,7 @@ struct Track {
 #[derive(Clone)]
 pub(crate) struct Continued(Vec<Track>);
 
-/// Which points of curves are of a kind.
+/// The condition for points of curves of a kind.
 type Kind = fn(&CurvePoint) -> bool;
 
 /// A walk through the plane.
@@ -53,7 +53,7 @@ impl Continued {
     /// From a circle at rest, right and left of kappa2 = 0, everything is reached by following branches and switching between them.
     ///
     /// # Errors
-    /// What the continuation refuses; [`Error::Interrupted`].
+    /// A refusal of the continuation; [`Error::Interrupted`].
     pub(crate) fn follow(context: &Context<'_>) -> Result<Self, Error> {
         let mut found = context.kept.once("lines of Fig. 1", || Self::followed(context))?;
         // A fault makes the points other ones along gamma.
@@ -197,7 +197,7 @@ impl Track {
 }
 
 impl Continued {
-    /// What follows.
+    /// The claims that follow.
     #[must_use]
     pub(crate) fn claims(&self) -> [Claim; 2] {
         [self.agree(), self.kinds()]
@@ -210,14 +210,15 @@ impl Continued {
         check(
             "The lines of Fig. 1, continued numerically from special points of branches, are those of the formulas.",
             format!("largest distances: {}", words.collect::<Vec<_>>().join("; ")),
-            "one circle at rest on each side of *κ*_2 = 0 is followed, and what begins on its branch, and so on; each special point found is \
-             continued through the plane, without any formula; distance along *γ* (circle to ellipse: along *κ*_2) below 10^{-8}. The edge of \
-             the rectangular motion is no bifurcation of one motion and is not continued",
+            "one circle at rest on each side of *κ*_2 = 0 is followed, and what begins on its branch, and \
+            so on; each special point found is continued through the plane, without any formula; distance \
+            along *γ* (circle to ellipse: along *κ*_2) below 10^{-8}. The edge of the rectangular motion is \
+            no bifurcation of one motion and is not continued",
             self.0.len() == 6 && self.0.iter().all(|track| track.points.len() > 10 && track.off() < CLOSE),
         )
     }
 
-    /// Which transitions are continuous.
+    /// The claim on the transitions that are continuous.
     fn kinds(&self) -> Claim {
         let (hopf, others): (Vec<&Track>, Vec<&Track>) =
             self.0.iter().partition(|track| track.line == Line::StraightHopf);
@@ -233,7 +234,8 @@ impl Continued {
         let one = turns.first().copied().unwrap_or([f64::NAN; 2]);
         let words: Vec<String> = self.0.iter().map(Track::words).collect();
         check(
-            "All transitions of Fig. 1 that are bifurcations are continuous but one: straight motion ends in a jump left of a Bautin point.",
+            "All transitions of Fig. 1 that are bifurcations are continuous but one: straight motion ends \
+            in a jump left of a Bautin point.",
             format!(
                 "continuous at: {}. The kind of the last changes at *κ*_2 = {:.7}, *γ* = {:.7}; by the formulas at {:.7}, {:.7}",
                 words.join("; "),
@@ -242,8 +244,9 @@ impl Continued {
                 expected[0],
                 expected[1]
             ),
-            "what begins is followed by switching branches at places along each line, and is stable as the motion before it was; a Hopf \
-             bifurcation at every point by the sign of its first Lyapunov coefficient; one Bautin point, where the formula has it to 10^{-6}",
+            "what begins is followed by switching branches at places along each line, and is stable as the \
+            motion before it was; a Hopf bifurcation at every point by the sign of its first Lyapunov \
+            coefficient; one Bautin point, where the formula has it to 10^{-6}",
             others.len() == 5 && others.iter().all(all) && turns.len() == 1 && turns.iter().all(near),
         )
     }
@@ -294,7 +297,7 @@ fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     kept
 }
 
-/// Whether an ordinary point of a Hopf curve is supercritical.
+/// Returns `true` if an ordinary point of a Hopf curve is supercritical.
 fn kind(point: &CurvePoint) -> Option<bool> {
     match (point.degenerate, point.special) {
         (None, Special::Hopf(hopf)) => hopf.is_supercritical(),

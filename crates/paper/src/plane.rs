@@ -27,8 +27,8 @@ impl Plane {
         move |first| self.at([first, second])
     }
 
-    /// Whether what begins at a point of a curve of special points is stable, as the motion is on one side of it: the transition is
-    /// continuous. `None` if nothing is found to begin there.
+    /// Returns `true` if the motion that begins at a point of a curve of special points is stable, as the
+    /// motion is on one side of it: the transition is continuous. `None` if nothing is found to begin there.
     pub(crate) fn is_continuous(
         &self,
         at: &CurvePoint,

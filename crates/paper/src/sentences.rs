@@ -11,7 +11,7 @@ const TEXT: &str = include_str!("sentences.txt");
 struct Entry<'t> {
     /// First and last number.
     numbers: (u16, u16),
-    /// How it begins, or what the group says.
+    /// Its beginning, or the statement of the group.
     words: &'t str,
     /// Chapters whose claims check it, or the reason why none does.
     fate: Result<Vec<&'t str>, &'t str>,

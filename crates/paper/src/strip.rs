@@ -5,7 +5,7 @@ use motiform_lab::draw::sheet;
 use motiform_lab::scan::CellSummary;
 use motiform_study::Error;
 
-/// What was found at each value, increasing, and lines in front of it.
+/// The motions found at each value, increasing, and lines in front of them.
 pub(super) fn strip(
     x_label: &str,
     points: &[(f64, CellSummary)],

@@ -57,7 +57,7 @@ pub enum Answer {
     Known(Measured),
     /// The samples do not show it.
     Unknown {
-        /// Why, in a sentence.
+        /// The reason, in a sentence.
         reason: String,
     },
 }
@@ -78,7 +78,7 @@ impl Answer {
         }
     }
 
-    /// Why there is no value, if there is none.
+    /// The reason why there is no value, if there is none.
     #[must_use]
     pub fn reason(&self) -> Option<&str> {
         match self {

@@ -8,7 +8,7 @@ const APART: f64 = 1.25;
 /// A relative difference that is none: what the fit's own accuracy is.
 const ROUND: f64 = 0.003;
 
-/// What a persistent random walk must agree with.
+/// The measured quantities that a persistent random walk must agree with.
 #[derive(Debug, Clone, Copy)]
 pub struct Seen<'a> {
     /// Root-mean-square speed: S.
@@ -20,10 +20,11 @@ pub struct Seen<'a> {
 }
 
 impl Walk {
-    /// The walk, or no numbers where S is not the root-mean-square speed, D not the diffusion coefficient or P not the correlation time of the velocity.
+    /// The walk, or no numbers where S is not the root-mean-square speed, D not the diffusion coefficient or
+    /// P not the correlation time of the velocity.
     ///
-    /// A curve may be near the form with other numbers than those of the motion: translational noise raises its start, which the fit takes for speed; a motion that
-    /// turns is slow to diffuse.
+    /// A curve may be near the form with other numbers than those of the motion: translational noise raises
+    /// its start, which the fit takes for speed; a motion that turns is slow to diffuse.
     ///
     /// # Checked by  tests/all/diffusion.rs: active Brownian motion with translational noise
     #[must_use]

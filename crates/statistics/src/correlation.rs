@@ -39,10 +39,13 @@ pub(crate) struct Products {
 
 /// C(tau) = <q(t) . q(t + tau)> over units and times, for numbers of the deviation from the mean over all of them; rho = C/C(0).
 ///
-/// Correlation time: `int_0^inf rho dtau` under a smooth lag window of length W, at least 10 int |rho|, and half of what the slowest quantity of the body needs, lengthened until longer windows give the same; the change
-/// from W to 2 W is in the interval as far as it is more than chance. The sum over samples is that of an exponential at any dt, and of order dt^4 for others.
-/// For an oscillating rho it is the small rest of what cancels; then frequency and decay are given beside it. Unknown where rho does not decay within the lags,
-/// where samples are too coarse, and where it is within its error of 0 (it is a spectrum at frequency 0, so never below).
+/// Correlation time: `int_0^inf rho dtau` under a smooth lag window of length W, at least 10 int |rho|, and
+/// half of what the slowest quantity of the body needs, lengthened until longer windows give the same; the
+/// change from W to 2 W is in the interval as far as it is more than chance. The sum over samples is that of
+/// an exponential at any dt, and of order dt^4 for others. For an oscillating rho it is the small rest of
+/// what cancels; then frequency and decay are given beside it. Unknown where rho does not decay within the
+/// lags, where samples are too coarse, and where it is within its error of 0 (it is a spectrum at frequency
+/// 0, so never below).
 ///
 /// # Errors    none for samples that [`Tracks`] accepts
 /// # Checked by  tests/all/correlation.rs: Ornstein-Uhlenbeck, chiral active Brownian, circle, direct sums; tests/all/coverage.rs
@@ -50,8 +53,9 @@ pub fn autocorrelation(tracks: &Tracks, quantity: &Quantity) -> Result<Autocorre
     remembering(tracks, quantity, memory(tracks)?)
 }
 
-/// Half of the longest of the shortest windows of all quantities that are forgotten within the lags, in samples: they are of one body, whose slow
-/// changes are in all of them, be it by a small part that each alone hardly shows (speed and shape of a chaotic body, and how far it goes).
+/// Half of the longest of the shortest windows of all quantities that are forgotten within the lags, in
+/// samples: they are of one body, whose slow changes are in all of them, be it by a small part that each
+/// alone hardly shows (speed and shape of a chaotic body, and how far it goes).
 ///
 /// # Errors    none for samples that [`Tracks`] accepts
 pub(crate) fn memory(tracks: &Tracks) -> Result<usize> {
@@ -113,7 +117,7 @@ impl Products {
         Ok(Self { sums, groups: tracks.groups(), dt: tracks.dt(), total, is_number })
     }
 
-    /// Whether it does not vary, but for round-off.
+    /// Returns `true` if it does not vary, but for round-off.
     fn steady(&self, tracks: &Tracks, quantity: &Quantity) -> bool {
         let variance = self.sums[0].mean(None);
         variance.is_nan() || variance <= 1e-24 * typical(tracks, quantity)
@@ -150,8 +154,8 @@ impl Products {
         estimate.answer()
     }
 
-    /// The mean of a number is that of the samples, so each C lacks the variance of the mean, 2 T C(0)/(time of all): over a window of length W that is
-    /// the part 1.5 W/(time of all) of T.
+    /// The mean of a number is that of the samples, so each C lacks the variance of the mean, 2 T C(0)/(time
+    /// of all): over a window of length W that is the part 1.5 W/(time of all) of T.
     fn unbiased(&self, window: usize) -> f64 {
         let part = 1.5 * window as f64 * self.dt / self.total;
         if self.is_number { 1.0 / (1.0 - part.min(0.5)) } else { 1.0 }

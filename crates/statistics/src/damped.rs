@@ -24,7 +24,8 @@ pub(crate) struct Damped {
     pub(crate) b: f64,
 }
 
-/// The sum of squares (the first one half, so that it is an integral by the trapezoidal rule), with its normal equations: J^T J and J^T r for (lambda, omega, a, b).
+/// The sum of squares (the first one half, so that it is an integral by the trapezoidal rule), with its
+/// normal equations: J^T J and J^T r for (lambda, omega, a, b).
 struct Normal {
     cost: f64,
     matrix: [[f64; 4]; 4],

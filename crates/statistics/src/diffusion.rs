@@ -26,17 +26,21 @@ pub struct Diffusion {
     pub line: Option<[f64; 2]>,
 }
 
-/// The diffusion coefficient by two ways over one window of lags, of any motion that diffuses in the end (persistent, turning, oscillating):
+/// The diffusion coefficient by two ways over one window of lags, of any motion that diffuses in the end
+/// (persistent, turning, oscillating):
 ///
 /// D = 1/2 int_0^inf <v(t) . v(t + tau)> dtau   (Green and Kubo, windowed as the correlation time),
 /// D = 1/4 slope of MSD(tau)                    (least squares over lags from W/2 to W).
 ///
-/// W is the window of the correlation of the velocity ([`crate::autocorrelation`]): the shortest lags at which the displacements are a straight line, where they are also
-/// known best. For positions that are the integral of the velocities both weigh the correlation alike, so chance hardly enters their difference: it tells of
-/// samples too coarse for the velocity, and of motion that is not in the velocity (noise on positions).
+/// W is the window of the correlation of the velocity ([`crate::autocorrelation`]): the shortest lags at
+/// which the displacements are a straight line, where they are also known best. For positions that are the
+/// integral of the velocities both weigh the correlation alike, so chance hardly enters their difference: it
+/// tells of samples too coarse for the velocity, and of motion that is not in the velocity (noise on
+/// positions).
 ///
 /// # Errors    none for samples that [`Tracks`] accepts
-/// # Source    Green (1954), J. Chem. Phys. 22, 398; Kubo (1957), J. Phys. Soc. Jpn. 12, 570; Michalet and Berglund (2012), Phys. Rev. E 85, 061916
+/// # Source    Green (1954), J. Chem. Phys. 22, 398; Kubo (1957), J. Phys. Soc. Jpn. 12, 570;
+/// Michalet and Berglund (2012), Phys. Rev. E 85, 061916
 ///   (why the shortest lags that are diffusive are the best)
 /// # Checked by  tests/all/diffusion.rs: Ornstein-Uhlenbeck, active Brownian (chiral and not), circle, line; coverage in crate measure
 pub fn diffusion(tracks: &Tracks) -> Result<Diffusion> {

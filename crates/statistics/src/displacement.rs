@@ -35,8 +35,9 @@ pub struct DisplacementPoint {
 
 /// Mean-square displacement: the mean over units and over all times t of |r(t + tau) - r(t)|^2.
 ///
-/// Windows overlap; each has the same weight, so longer tracks count more. The sums are direct, which keeps all digits: with Fourier transforms
-/// (Kneller 1995) short lags lose those by which positions exceed displacements. Lags: about 16 per decade, up to half of the longest unit.
+/// Windows overlap; each has the same weight, so longer tracks count more. The sums are direct, which keeps
+/// all digits: with Fourier transforms (Kneller 1995) short lags lose those by which positions exceed
+/// displacements. Lags: about 16 per decade, up to half of the longest unit.
 ///
 /// # Units     (model length)^2
 /// # Checked by  tests/all/displacement.rs: Ornstein-Uhlenbeck, active Brownian (chiral and not), circle, line; Fourier sums
@@ -56,7 +57,8 @@ pub struct PathPiece<'p> {
     pub group: &'p dyn Fn(usize) -> usize,
 }
 
-/// [`mean_square`] of pieces of paths with gaps, in groups of windows that the caller makes: no displacement is taken from one piece to another.
+/// [`mean_square`] of pieces of paths with gaps, in groups of windows that the caller makes: no displacement
+/// is taken from one piece to another.
 ///
 /// Lags: about 16 per decade, up to half of the longest piece, and one interval at least.
 ///
@@ -120,7 +122,7 @@ impl MeanSquare {
         self.lags.len()
     }
 
-    /// Whether there is no lag.
+    /// Returns `true` if there is no lag.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.lags.is_empty()
@@ -150,7 +152,7 @@ impl MeanSquare {
         self.groups
     }
 
-    /// Whether a displacement over the lag of a place is known, and whether in every group.
+    /// Tells if a displacement over the lag of a place is known: in any group, and in every group.
     #[must_use]
     pub fn is_known(&self, place: usize) -> [bool; 2] {
         [self.sums[place].count() > 0.0, self.sums[place].is_everywhere()]

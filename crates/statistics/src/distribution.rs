@@ -28,15 +28,15 @@ pub struct Histogram {
     pub bins: Vec<Bin>,
     /// Samples in all.
     pub samples: usize,
-    /// How many independent samples they are worth.
+    /// Number of independent samples with the same information.
     pub independent: f64,
 }
 
 /// The histogram of samples, given as (group of units, value), between two edges; values outside count in the outermost bins.
 ///
-/// Samples along a track are correlated, so the binomial (Wilson) interval of a bin's share is that for n/d samples; the design effect d, at least 1,
-/// is the variance of the shares over the groups, summed over the bins, over what n independent samples would have:
-/// d = sum_b var_b / sum_b p_b (1 - p_b)/n.
+/// Samples along a track are correlated, so the binomial (Wilson) interval of a bin's share is that for n/d
+/// samples; the design effect d, at least 1, is the variance of the shares over the groups, summed over the
+/// bins, over what n independent samples would have: d = sum_b var_b / sum_b p_b (1 - p_b)/n.
 ///
 /// Source: Kish (1965), Survey Sampling, ch. 8 (design effect); Wilson (1927).
 ///

@@ -20,7 +20,7 @@ pub enum Error {
     Lengths {
         /// The body, from 0.
         body: usize,
-        /// Which series.
+        /// The name of the series.
         what: String,
         /// Its length.
         got: usize,
@@ -32,9 +32,9 @@ pub enum Error {
     Modes {
         /// The body, from 0.
         body: usize,
-        /// How many it has.
+        /// Its number of modes.
         got: usize,
-        /// How many have names.
+        /// Number of modes that have names.
         expected: usize,
     },
     /// Too few samples.
@@ -52,7 +52,7 @@ pub enum Error {
     NotFinite {
         /// The body, from 0.
         body: usize,
-        /// Which series.
+        /// The name of the series.
         what: String,
         /// Number of the sample.
         sample: usize,
@@ -66,7 +66,7 @@ pub enum Error {
         key: &'static str,
         /// Its value.
         value: f64,
-        /// What to give.
+        /// The remedy.
         remedy: &'static str,
     },
     /// No such quantity.

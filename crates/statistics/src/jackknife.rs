@@ -67,7 +67,7 @@ impl Sums {
         self.groups.iter().map(|group| group[1]).sum()
     }
 
-    /// Whether every group has a term.
+    /// Returns `true` if every group has a term.
     pub(crate) fn is_everywhere(&self) -> bool {
         self.groups.iter().all(|group| group[1] > 0.0)
     }

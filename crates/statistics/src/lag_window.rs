@@ -5,9 +5,10 @@ const MOST: f64 = 0.999;
 
 /// The window: 1 up to half of its length, then `1 - 3 x^2 + 2 x^3`, x from 0 to 1 over the second half.
 ///
-/// Flat at lag 0, so nothing is lost of what is forgotten within half of it; smooth at its end, so an oscillation of frequency omega that still goes on there
-/// leaks 48/(omega^3 W^2) at most. It is the window that the slope of a least-squares line through MSD(tau), tau from W/2 to W, gives to the correlation of the
-/// velocity.
+/// Flat at lag 0, so nothing is lost of what is forgotten within half of it; smooth at its end, so an
+/// oscillation of frequency omega that still goes on there leaks 48/(omega^3 W^2) at most. It is the window
+/// that the slope of a least-squares line through MSD(tau), tau from W/2 to W, gives to the correlation of
+/// the velocity.
 ///
 /// Source: Politis and Romano (1995), J. Time Ser. Anal. 16, 67 (flat-top windows).
 pub(crate) fn weight(lag: usize, length: usize) -> f64 {
@@ -20,19 +21,20 @@ pub(crate) fn weight(lag: usize, length: usize) -> f64 {
 pub(crate) struct Integral {
     /// The integral.
     pub(crate) value: f64,
-    /// What was taken from the trapezoidal sum.
+    /// The correction that was subtracted from the trapezoidal sum.
     pub(crate) correction: f64,
 }
 
 /// `int_0^W w C dtau` of samples `correlation[k]` = C(k dt).
 ///
 /// T = dt (C_0/2 + sum_k w_k C_k) exceeds the integral by what the spectrum holds above the Nyquist frequency. The alternating sum
-/// Y = dt (C_0/2 + sum_k (-1)^k w_k C_k), the spectrum at that frequency, tells how much: an exponential of rate g has T = (C_0 dt/2) coth(g dt/2) and
-/// Y = (C_0 dt/2) tanh(g dt/2), so
+/// Y = dt (C_0/2 + sum_k (-1)^k w_k C_k), the spectrum at that frequency, tells how much: an exponential of
+/// rate g has T = (C_0 dt/2) coth(g dt/2) and Y = (C_0 dt/2) tanh(g dt/2), so
 ///
 /// integral = T - (C_0 dt/2) (coth y - 1/y),   y = artanh(2 Y/(C_0 dt)).
 ///
-/// Exact for an exponential at any dt; T - Y/3 where samples are close, exact to order dt^2 for every correlation, with or without a cusp at lag 0.
+/// Exact for an exponential at any dt; T - Y/3 where samples are close, exact to order dt^2 for every
+/// correlation, with or without a cusp at lag 0.
 ///
 /// # Checked by  unit tests below: exponential, damped cosine, Gaussian
 pub(crate) fn integral(correlation: &[f64], length: usize, dt: f64) -> Integral {

@@ -1,8 +1,10 @@
-//! What people measure on tracks of moving bodies: mean-square displacement with persistence time and diffusion coefficient,
-//! autocorrelations, distributions of speed and turning angle, first-passage and residence times, power spectra.
+//! Statistics that are commonly measured on tracks of moving bodies: mean-square displacement with
+//! persistence time and diffusion coefficient, autocorrelations, distributions of speed and turning angle,
+//! first-passage and residence times, power spectra.
 //!
 //! Pure functions of evenly spaced samples: knows no model and no file. Definitions and formulas: docs/statistics.md. Errors are those
-//! over bodies, or over blocks of the tracks where there are few bodies ([`Tracks`]). What cannot be computed is an [`Answer`] with the reason.
+//! over bodies, or over blocks of the tracks where there are few bodies ([`Tracks`]). What cannot be computed
+//! is an [`Answer`] with the reason.
 
 mod answer;
 mod consistency;

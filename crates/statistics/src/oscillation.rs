@@ -28,11 +28,14 @@ pub struct Oscillation {
     pub deviation: f64,
 }
 
-/// The damped cosine `e^{-lambda tau} (a cos omega tau + b sin omega tau)` that is nearest to rho(tau) over lags up to `last`, by least squares;
-/// `None` where rho does not oscillate: it does not go below -0.05 by more than its error, or forgets within a radian (omega < lambda).
+/// The damped cosine `e^{-lambda tau} (a cos omega tau + b sin omega tau)` that is nearest to rho(tau) over
+/// lags up to `last`, by least squares; `None` where rho does not oscillate: it does not go below -0.05 by
+/// more than its error, or forgets within a radian (omega < lambda).
 ///
-/// Intervals: by leaving out groups and fitting again, on logarithms. Unknown are both where the damped cosine deviates by more than 10 %, and the decay where the amplitude
-/// does not fall to 1/e within these lags. Both are unknown for the reason `coarse`, if given: what is forgotten between samples is not seen, and without it the rest is another one.
+/// Intervals: by leaving out groups and fitting again, on logarithms. Unknown are both where the damped
+/// cosine deviates by more than 10 %, and the decay where the amplitude does not fall to 1/e within these
+/// lags. Both are unknown for the reason `coarse`, if given: what is forgotten between samples is not seen,
+/// and without it the rest is another one.
 ///
 /// # Checked by  tests/all/oscillation.rs: chiral active Brownian motion, circle, exponential; coverage in crate measure
 pub(crate) fn oscillation(curves: &Curves, last: usize, coarse: Option<String>) -> Option<Oscillation> {
@@ -61,7 +64,7 @@ fn ratios(curve: &[f64], last: usize) -> Vec<f64> {
     curve[..=last].iter().map(|c| c / curve[0]).collect()
 }
 
-/// Why the nearest damped cosine is not what the correlation is, if it is not.
+/// The reason why the nearest damped cosine does not describe the correlation, if it does not.
 fn refusal(best: &Damped, deviation: f64) -> Option<String> {
     if deviation > MISFIT {
         return Some(format!("not as one damped cosine (deviation {:.0} %)", 100.0 * deviation));
@@ -70,7 +73,8 @@ fn refusal(best: &Damped, deviation: f64) -> Option<String> {
     (best.omega * SHORTEST > TAU).then(|| coarse.to_owned())
 }
 
-/// Frequency and decay with their intervals: what every other sample changes is in them as far as it is more than chance (as in [`Estimate`]).
+/// Frequency and decay with their intervals: what every other sample changes is in them as far as it is more
+/// than chance (as in [`Estimate`]).
 fn measured(curves: &Curves, last: usize, best: &Damped) -> [Answer; 2] {
     let fine = fits(curves, last, best, 1);
     let coarse = fits(curves, last, best, 2);

@@ -20,8 +20,8 @@ pub struct Passage {
     pub time: MeanTime,
 }
 
-/// Radii for which there is something to see: from the root-mean-square displacement of four samples to that of a quarter of the longest lag,
-/// with equal ratios; none where nothing moved.
+/// Radii for which there is something to see: from the root-mean-square displacement of four samples to that
+/// of a quarter of the longest lag, with equal ratios; none where nothing moved.
 #[must_use]
 pub fn radii(curve: &MeanSquare) -> Vec<f64> {
     let last = curve.len().saturating_sub(1);
@@ -74,7 +74,8 @@ pub fn first_passages(tracks: &Tracks, radii: &[f64]) -> Vec<Passage> {
     radii.iter().zip(&found).filter_map(mean).collect()
 }
 
-/// When a path first leaves each disc about its start, in samples, and whether it does.
+/// The times, in samples, at which a path first leaves each disc about its start, and `false` with the length
+/// of the path where it does not.
 fn leave(path: &[[f64; 2]], radii: &[f64]) -> Vec<(f64, bool)> {
     let mut left = Vec::with_capacity(radii.len());
     for place in 1..path.len() {

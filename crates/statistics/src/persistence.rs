@@ -16,7 +16,7 @@ const MISFIT: f64 = 0.05;
 /// Points of the first search, per decade.
 const SEARCH: f64 = 10.0;
 
-/// What the fit of a persistent random walk says.
+/// The persistent random walk that was fitted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Walk {
     /// Persistence time P.
@@ -51,10 +51,11 @@ pub fn furth(square: f64, persistence: f64, t: f64) -> f64 {
 
 /// Fits [`furth`] to the curve: least squares of relative deviations, each point weighted by `1/(e^2 + 0.02^2)` with its relative error e.
 ///
-/// S^2 follows from P linearly; P is searched between a tenth of the shortest and 100 times the longest lag. Intervals: by leaving out groups
-/// of units and fitting again, on logarithms. Not known are P and S where the shortest lag exceeds 2 P (no ballistic part), P where
-/// the longest lag is below 2 P, D where it is below 5 P (diffusion is not reached), and all three where the form does not describe the curve: a deviation
-/// (root mean square) above 5 % and twice the errors.
+/// S^2 follows from P linearly; P is searched between a tenth of the shortest and 100 times the longest lag.
+/// Intervals: by leaving out groups of units and fitting again, on logarithms. Not known are P and S where
+/// the shortest lag exceeds 2 P (no ballistic part), P where the longest lag is below 2 P, D where it is
+/// below 5 P (diffusion is not reached), and all three where the form does not describe the curve: a
+/// deviation (root mean square) above 5 % and twice the errors.
 ///
 /// # Checked by  tests/all/displacement.rs: exact processes; tests/all/coverage.rs: intervals over 200 data sets
 #[must_use]

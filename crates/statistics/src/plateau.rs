@@ -1,4 +1,4 @@
-//! How long a lag window must be, and an integral with the bias of its window in the interval.
+//! The length of a lag window, and an integral with the bias of its window in the interval.
 
 use crate::jackknife::jackknife;
 use crate::lag_window::{Integral, integral};
@@ -66,7 +66,8 @@ impl Curves {
         jackknife(ratio(&self.values[0]), &without)
     }
 
-    /// The shortest window W with W >= 10 int_0^W |rho|; what |rho| has by chance alone does not count. `None` if there is none within the lags.
+    /// The shortest window W with W >= 10 int_0^W |rho|; what |rho| has by chance alone does not count.
+    /// `None` if there is none within the lags.
     pub(crate) fn least(&self) -> Option<usize> {
         let mut sum = 0.5;
         for lag in 1..=self.longest() {
@@ -82,11 +83,12 @@ impl Curves {
 
     /// The window: the shortest one from [`Curves::least`] and `memory` on whose integral agrees with those of all longer ones.
     ///
-    /// Its length follows the decay of |rho|, which is known well, and not the noise of the integral. A slow part of small size, which hardly adds to |rho|,
-    /// shows as a change of the integral with the length of the window: then the window becomes longer until nothing changes beyond 1.5 half widths.
+    /// Its length follows the decay of |rho|, which is known well, and not the noise of the integral. A slow
+    /// part of small size, which hardly adds to |rho|, shows as a change of the integral with the length of
+    /// the window: then the window becomes longer until nothing changes beyond 1.5 half widths.
     ///
-    /// Source: Sokal (1997), in Functional Integration, NATO ASI 361 (self-consistent window); Lepski (1991), Theory Probab. Appl. 35, 454 (comparison
-    /// with all longer ones).
+    /// Source: Sokal (1997), in Functional Integration, NATO ASI 361 (self-consistent window); Lepski (1991),
+    /// Theory Probab. Appl. 35, 454 (comparison with all longer ones).
     pub(crate) fn window(&self, memory: usize) -> Result<usize, String> {
         let longest = self.longest();
         let not_decayed = || {
@@ -150,8 +152,9 @@ impl Estimate {
     ///
     /// half^2 = jackknife^2 + t^2 max(0, c^2 - se(c)^2) + max(0, d^2 - se(d)^2),   t about 2,
     ///
-    /// c the change to `longer`, d that to `coarser`, twice the sampling interval (which is 15 times the error where the correlation is smooth or has a cusp at lag 0).
-    /// Unknown where a value is not above 0: then it is within its error of 0.
+    /// c the change to `longer`, d that to `coarser`, twice the sampling interval (which is 15 times the
+    /// error where the correlation is smooth or has a cusp at lag 0). Unknown where a value is not above 0:
+    /// then it is within its error of 0.
     pub(crate) fn answer(&self) -> Answer {
         let logarithms = |values: &[f64]| values.iter().map(|&x| libm::log(x)).collect::<Vec<f64>>();
         let values = logarithms(&self.values);
@@ -179,8 +182,9 @@ fn beyond_chance(one: &[f64], other: &[f64]) -> f64 {
     if square.is_nan() { 0.0 } else { square.max(0.0) }
 }
 
-/// Why samples are too coarse for an integral, if they are: the correction of the trapezoidal rule for an exponential is a large part of it, so that a
-/// correlation of another form would need another one; or every other sample gives another value.
+/// The reason why samples are too coarse for an integral, if they are: the correction of the trapezoidal rule
+/// for an exponential is a large part of it, so that a correlation of another form would need another one; or
+/// every other sample gives another value.
 pub(crate) fn too_coarse(found: &Integral, coarser: &Integral, dt: f64) -> Option<String> {
     let value = found.value.abs();
     let changed = (coarser.value - found.value).abs() > CHANGED * value;

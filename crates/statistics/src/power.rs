@@ -27,14 +27,15 @@ pub struct PowerSpectrum {
 
 /// The mean over all bodies and segments of the periodograms of Welch's method ([`welch`]), with the chi-square band.
 ///
-/// band: power times n/chi2(0.975; n) to n/chi2(0.025; n);   n = 36 K/19 for K half-overlapping segments with a Hann window (a little more where a
-/// body has only one). That is the band of a Gaussian process whose spectrum is smooth over 1/(N dt). For a vector n is that of one component:
-/// exact where the two are bound to each other (turning one way), too wide by up to sqrt 2 where they are independent.
+/// band: power times n/chi2(0.975; n) to n/chi2(0.025; n); n = 36 K/19 for K half-overlapping segments with a
+/// Hann window (a little more where a body has only one). That is the band of a Gaussian process whose
+/// spectrum is smooth over 1/(N dt). For a vector n is that of one component: exact where the two are bound
+/// to each other (turning one way), too wide by up to sqrt 2 where they are independent.
 ///
 /// Segments: a power of 2 of samples, at least 16 segments in all. `None` if the tracks are too short for that.
 ///
-/// Source: Welch (1967), IEEE Trans. Audio Electroacoust. 15, 70; Percival and Walden (1993), Spectral Analysis for Physical Applications, 6.17
-/// (degrees of freedom).
+/// Source: Welch (1967), IEEE Trans. Audio Electroacoust. 15, 70; Percival and Walden (1993), Spectral
+/// Analysis for Physical Applications, 6.17 (degrees of freedom).
 ///
 /// # Errors    none for samples that [`Tracks`] accepts
 /// # Checked by  tests/all/power.rs: white noise and Ornstein-Uhlenbeck within their bands

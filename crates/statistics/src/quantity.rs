@@ -20,7 +20,8 @@ pub enum Quantity {
 pub struct Series {
     /// One or two components.
     pub components: Vec<Vec<f64>>,
-    /// Where it is defined (there, and for a heading not at rest); everywhere if `None`. Undefined samples are 0.
+    /// `true` for each sample that is defined (and, for a heading, not at rest); all are defined if `None`.
+    /// Undefined samples are 0.
     pub defined: Option<Vec<bool>>,
 }
 
@@ -86,7 +87,8 @@ impl Quantity {
         }
     }
 
-    /// Whether it is a number, whose mean is subtracted from its fluctuations; a vector has the mean 0 by isotropy.
+    /// Returns `true` if it is a number, whose mean is subtracted from its fluctuations; a vector has the
+    /// mean 0 by isotropy.
     #[must_use]
     pub fn is_number(&self) -> bool {
         matches!(self, Self::Speed)

@@ -4,7 +4,7 @@ use crate::survival::{Duration, MeanTime, mean_time};
 use crate::{Quantity, Tracks};
 use serde::Serialize;
 
-/// How long a quantity stays on one side of a threshold.
+/// The residence of a quantity on one side of a threshold.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Side {
     /// Share of the time on this side.
@@ -28,8 +28,9 @@ pub struct Residence {
 
 /// Times for which the size of a quantity stays above and below a threshold (its median, if none is given).
 ///
-/// A stay begins with a crossing of the threshold, located by linear interpolation, so the first one of a unit (and after a gap) is left out; the last one is censored
-/// ([`mean_time`]). Under noise, stays shorter than the time between samples are not seen, and the mean time depends on that time.
+/// A stay begins with a crossing of the threshold, located by linear interpolation, so the first one of a
+/// unit (and after a gap) is left out; the last one is censored ([`mean_time`]). Under noise, stays shorter
+/// than the time between samples are not seen, and the mean time depends on that time.
 ///
 /// # Checked by  tests/all/passage.rs: a sine, whose stays are known
 #[must_use]

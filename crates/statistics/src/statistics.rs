@@ -12,7 +12,7 @@ use crate::{
 /// Bins of the speed.
 const BINS: usize = 40;
 
-/// What is asked beyond the usual.
+/// Settings of the statistics that have no default independent of the data.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Settings {
     /// Radii of the discs; chosen from the displacements if there are none.
@@ -30,7 +30,7 @@ pub struct Statistics {
     pub dt: f64,
     /// Samples of the shortest and of the longest track.
     pub samples: [usize; 2],
-    /// What errors refer to.
+    /// The units that errors refer to.
     pub errors: Errors,
     /// Mean speed <|v|>.
     pub mean_speed: Measured,

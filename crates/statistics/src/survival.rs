@@ -10,9 +10,9 @@ const AT_RISK: (f64, f64) = (0.001, 5.0);
 /// A duration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Duration {
-    /// How long it was watched.
+    /// The time of observation.
     pub time: f64,
-    /// Whether its end was seen.
+    /// `true` if its end was observed, `false` if the observation was censored.
     pub ended: bool,
     /// The group of units.
     pub group: usize,
@@ -39,8 +39,10 @@ pub struct MeanTime {
 ///
 /// restricted mean = int_0^L S dt;   mean = restricted mean + S(L)/k.
 ///
-/// L is the longest time at which 0.1 % of the durations and at least 5 are still watched; k is the rate of ends (ends over time watched) from where S falls to
-/// sqrt(S(L)), the second half of the fall on a logarithmic scale: an exponential tail, as escapes by diffusion have. If every end was seen, the mean is the plain mean. `None` without durations.
+/// L is the longest time at which 0.1 % of the durations and at least 5 are still watched; k is the rate of
+/// ends (ends over time watched) from where S falls to sqrt(S(L)), the second half of the fall on a
+/// logarithmic scale: an exponential tail, as escapes by diffusion have. If every end was seen, the mean is
+/// the plain mean. `None` without durations.
 ///
 /// Source: Kaplan and Meier (1958), J. Am. Stat. Assoc. 53, 457; Brown, Hollander, Korwar (1974), exponential completion of the tail.
 ///
@@ -74,7 +76,7 @@ pub fn mean_time(durations: &[Duration], groups: usize) -> Option<MeanTime> {
     Some(MeanTime { mean, restricted, limit, beyond: all.share, censored, count })
 }
 
-/// What lies below a Kaplan-Meier curve.
+/// The area below a Kaplan-Meier curve, up to a limit.
 struct Area {
     restricted: f64,
     /// S at the limit.
@@ -99,7 +101,8 @@ fn curve(sorted: &[Duration], limit: f64, left_out: Option<usize>) -> Area {
     Area { restricted, share: last.share, rate }
 }
 
-/// What is between two durations: the share that lasts, how long, how many are watched, and ends at its end.
+/// A step of the curve, between two durations: the share that lasts, its length, the number at risk, and the
+/// ends at its end.
 #[derive(Clone, Copy)]
 struct Step {
     share: f64,

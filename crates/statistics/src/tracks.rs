@@ -32,18 +32,19 @@ pub struct Track {
     pub modes: Vec<Vec<[f64; 2]>>,
 }
 
-/// What errors refer to.
+/// The units that errors refer to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(tag = "over", rename_all = "kebab-case")]
 pub enum Errors {
     /// Bodies, which are independent.
     Bodies {
-        /// How many.
+        /// Their number.
         count: usize,
     },
-    /// Blocks of the tracks, independent if they are long compared with all correlation times. Lags end within a block, or, by [`Tracks::of_records`], are as long as one.
+    /// Blocks of the tracks, independent if they are long compared with all correlation times. Lags end
+    /// within a block, or, by [`Tracks::of_records`], are as long as one.
     Blocks {
-        /// How many.
+        /// Their number.
         count: usize,
         /// Samples of the shortest one.
         samples: usize,
@@ -52,8 +53,9 @@ pub enum Errors {
 
 /// Tracks of bodies, sampled every `dt`; lengths may differ.
 ///
-/// With 8 bodies and more, a unit is a body. Fewer are cut into at least 16 blocks altogether, and a unit is a block: then nothing longer than a
-/// block is seen. Intervals are Student's, by leaving out each unit in turn (of more than 64 units: each of 64 groups).
+/// With 8 bodies and more, a unit is a body. Fewer are cut into at least 16 blocks altogether, and a unit is
+/// a block: then nothing longer than a block is seen. Intervals are Student's, by leaving out each unit in
+/// turn (of more than 64 units: each of 64 groups).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tracks {
     dt: f64,
@@ -75,8 +77,9 @@ impl Tracks {
         Self::in_units(dt, names, bodies)
     }
 
-    /// The same of tracks with gaps, such as those of cells: what is missing is NaN, in each series by itself ([`Track::without`] marks whole samples). A
-    /// displacement, a pair of a correlation or a turn counts where its samples are there; a duration that meets a gap is one that was not watched to its end;
+    /// The same of tracks with gaps, such as those of cells: what is missing is NaN, in each series by itself
+    /// ([`Track::without`] marks whole samples). A displacement, a pair of a correlation or a turn counts
+    /// where its samples are there; a duration that meets a gap is one that was not watched to its end;
     /// spectra use stretches without gaps.
     ///
     /// # Errors   as [`Tracks::new`]; fewer than 16 positions of a body that are there
@@ -97,9 +100,10 @@ impl Tracks {
         Ok(Self { dt, names, bodies, blocks, pieces: None, errors })
     }
 
-    /// The same for few short records, such as an observed cell: with fewer than 8 bodies, windows are grouped into at least 8 blocks by where they begin, and may end in the
-    /// next block. So lags reach an eighth of the record. Neighbouring groups share samples: at lags of a block's length intervals are somewhat too
-    /// short.
+    /// The same for few short records, such as an observed cell: with fewer than 8 bodies, windows are
+    /// grouped into at least 8 blocks by where they begin, and may end in the next block. So lags reach an
+    /// eighth of the record. Neighbouring groups share samples: at lags of a block's length intervals are
+    /// somewhat too short.
     ///
     /// # Errors   as [`Tracks::new`]
     /// # Checked by  tests/all/records.rs: coverage
@@ -146,7 +150,7 @@ impl Tracks {
         self.blocks.as_ref().unwrap_or(&self.bodies)
     }
 
-    /// What errors refer to.
+    /// The units that errors refer to.
     #[must_use]
     pub fn errors(&self) -> Errors {
         self.errors

@@ -18,8 +18,9 @@ pub struct Turning {
     pub at_rest: usize,
 }
 
-/// The distribution of the angle from r(t + tau) - r(t) to r(t + 2 tau) - r(t + tau), at three lags tau: one sample, an eighth of the longest
-/// unit, and their geometric mean. Times t follow one another at tau/2 at least, one sample at most: closer ones tell nothing new.
+/// The distribution of the angle from r(t + tau) - r(t) to r(t + 2 tau) - r(t + tau), at three lags tau: one
+/// sample, an eighth of the longest unit, and their geometric mean. Times t follow one another at tau/2 at
+/// least, one sample at most: closer ones tell nothing new.
 ///
 /// # Checked by  tests/all/distributions.rs: circle, Brownian motion (uniform)
 #[must_use]

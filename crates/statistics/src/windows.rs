@@ -1,4 +1,4 @@
-//! Where windows begin: the parts of the tracks over which lagged sums are taken and left out together.
+//! The starts of windows: the parts of the tracks over which lagged sums are taken and left out together.
 
 use crate::{Track, Tracks};
 use std::ops::Range;
@@ -9,12 +9,12 @@ pub(crate) struct Starts<'t> {
     pub(crate) group: usize,
     /// The samples.
     pub(crate) track: &'t Track,
-    /// Where windows begin; they may end beyond.
+    /// The samples at which windows start; they may end beyond.
     pub(crate) range: Range<usize>,
 }
 
 impl Starts<'_> {
-    /// Whether windows begin everywhere and end within.
+    /// Returns `true` if windows start at every sample of the track and end within it.
     pub(crate) fn is_whole(&self) -> bool {
         self.range == (0..self.track.position.len())
     }

@@ -1,5 +1,5 @@
-//! What a build without the feature `formats` has instead of Parquet and HDF5: the refusal to read or write such files. A browser has no
-//! files either, so nothing of this is reached there.
+//! The substitute for Parquet and HDF5 in a build without the feature `formats`: the refusal to read or write
+//! such files. A browser has no files either, so nothing of this is reached there.
 
 use crate::Error;
 use crate::Fields;

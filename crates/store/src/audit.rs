@@ -1,4 +1,4 @@
-//! Whether a folder is as it was written.
+//! The comparison of a folder with its inventory.
 
 use crate::survey::Survey;
 use crate::{Error, Inventory};
@@ -7,7 +7,7 @@ use std::path::Path;
 /// A folder compared with its inventory; names as there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Audit {
-    /// What it is.
+    /// Its inventory.
     pub inventory: Inventory,
     /// Files that are as they were written.
     pub unchanged: Vec<String>,
@@ -15,7 +15,7 @@ pub struct Audit {
     pub changed: Vec<String>,
     /// Files that are not there.
     pub missing: Vec<String>,
-    /// What others put there.
+    /// Files that others put there.
     pub foreign: Vec<String>,
 }
 

@@ -15,7 +15,7 @@ pub(crate) struct Draft {
     pub(crate) place: Place,
     /// The lock of what is replaced, if something is.
     pub(crate) held: Option<File>,
-    /// What was found in the place, in sentences.
+    /// The remarks on the place, in sentences.
     pub(crate) notes: Vec<String>,
     is_done: bool,
 }

@@ -1,4 +1,4 @@
-//! What a folder contains, also one that an earlier version wrote: those have no inventory, but can be read.
+//! The kind of a folder, also of one that an earlier version wrote: those have no inventory, but can be read.
 
 use crate::{Inventory, Kind, mend};
 use std::fs;

@@ -18,7 +18,7 @@ pub enum Error {
     Resumable {
         /// The folder.
         path: PathBuf,
-        /// What it is.
+        /// The kind of the result.
         kind: Kind,
     },
     /// The output exists and has no inventory.
@@ -35,9 +35,9 @@ pub enum Error {
     OtherKind {
         /// The folder.
         path: PathBuf,
-        /// What it is.
+        /// The kind of the existing result, in words.
         found: String,
-        /// What would be written.
+        /// The kind of the result that would be written.
         asked: Kind,
     },
     /// A folder without an inventory cannot be continued.
@@ -50,7 +50,8 @@ pub enum Error {
         path: PathBuf,
     },
     /// A folder without an inventory cannot be verified.
-    #[error("{} has no inventory of motiform (others wrote it, or an earlier version): there is nothing to compare it with", .path.display())]
+    #[error("{} has no inventory of motiform (others wrote it, or an earlier version): there is nothing to \
+        compare it with", .path.display())]
     NotVerified {
         /// The folder.
         path: PathBuf,
@@ -119,7 +120,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether the input was valid but the machine failed.
+    /// Returns `true` if the input was valid but the machine failed.
     #[must_use]
     pub fn is_machine_failure(&self) -> bool {
         matches!(self, Self::WriteFailed { .. })
@@ -148,12 +149,13 @@ impl Error {
     }
 }
 
-/// Whether the process has too little of something to look at a file: open files, of its own or of the system, or memory.
+/// Returns `true` if the process lacks something that is needed to look at a file: open files, of its own or
+/// of the system, or memory.
 pub(crate) fn is_shortage(error: &std::io::Error) -> bool {
     cfg!(unix) && matches!(error.raw_os_error(), Some(24 | 23 | 12))
 }
 
-/// What to do about a failed write: it depends on the system's reason, which ends with its number.
+/// The remedy for a failed write: it depends on the system's reason, which ends with its number.
 #[must_use]
 pub fn advice(reason: &str) -> &'static str {
     const ADVICE: [(&[&str], &str); 3] = [

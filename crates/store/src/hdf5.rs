@@ -17,7 +17,7 @@ struct Part<'a> {
     values: &'a [f64],
     /// Name and length of each dimension, slowest first.
     dims: Vec<(&'static str, usize)>,
-    /// Why values may be NaN.
+    /// The reason why values may be NaN.
     undefined: Option<&'static str>,
 }
 
@@ -94,7 +94,7 @@ fn parts(fields: &Fields) -> [Part<'_>; 4] {
     ]
 }
 
-/// What is wrong with the lengths of a part.
+/// Checks that the lengths of a part agree with its values; the error names the difference.
 fn check(part: &Part<'_>) -> Result<(), String> {
     let lengths = || part.dims.iter().map(|(_, length)| *length);
     let (name, got) = (part.name, part.values.len());

@@ -20,14 +20,14 @@ const FORMAT: u64 = 1;
 /// Maximum size of an inventory in bytes: ten million files.
 const MOST: u64 = 1 << 30;
 
-/// What a folder contains.
+/// The contents of a folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Inventory {
     /// Version of motiform that wrote it.
     pub version: String,
     /// The name of its [`Kind`]; a later version may have more of them.
     pub kind: String,
-    /// Whether the result is complete.
+    /// `true` if the result is complete.
     pub complete: bool,
     /// Names of files, `/` between folders, with the digests that were written under this name: the last one last.
     pub files: BTreeMap<String, Vec<String>>,
@@ -141,7 +141,7 @@ impl Inventory {
         text
     }
 
-    /// What it is, in a sentence.
+    /// The kind of the result, in words.
     #[must_use]
     pub fn words(&self) -> String {
         Kind::of_name(&self.kind).map_or_else(|| self.kind.clone(), |kind| kind.words().to_owned())
@@ -153,7 +153,7 @@ pub(crate) fn file_line(name: &str, digest: &str) -> String {
     format!("{}\n", json!({ "name": name, "sha256": digest }))
 }
 
-/// Whether a file is a figure, by its name: it can be drawn again.
+/// Returns `true` if a file is a figure, by its name: it can be drawn again.
 #[must_use]
 pub fn is_figure(name: &str) -> bool {
     let end = name.rsplit_once('.').map_or("", |(_, end)| end);

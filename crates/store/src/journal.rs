@@ -1,9 +1,9 @@
-//! What is finished of a long piece of work, kept for a run that goes on with it.
+//! The finished items of a long piece of work, kept for a run that continues it.
 
 use crate::Error;
 use crate::Folder;
 
-/// Where unfinished work lies in the folder of its result.
+/// The folder of unfinished work, within that of its result.
 pub const WORK: &str = "_work/";
 
 /// Keeps finished items by their names.

@@ -1,6 +1,6 @@
 //! Kinds of results.
 
-/// What a result is: only a result of the same kind may replace it.
+/// The kind of a result: only a result of the same kind may replace it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A body's path and shape.
@@ -17,7 +17,7 @@ pub enum Kind {
     Lifetimes,
     /// Statistics of many bodies.
     Statistics,
-    /// How tracked cells move.
+    /// The motions of tracked cells.
     Observations,
     /// Equations of tracked cells.
     Fits,
@@ -75,7 +75,7 @@ impl Kind {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// What it is in a sentence: `a scan`.
+    /// The kind in words: `a scan`.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -95,7 +95,7 @@ impl Kind {
         }
     }
 
-    /// Whether its command continues it with `--resume`.
+    /// Returns `true` if its command continues it with `--resume`.
     #[must_use]
     pub fn resumes(self) -> bool {
         matches!(

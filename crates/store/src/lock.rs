@@ -28,7 +28,7 @@ pub(crate) fn lock_file(path: &Path, shown: &Path) -> Result<File, Error> {
     }
 }
 
-/// Whether an open file still has its name.
+/// Returns `true` if an open file still has its name.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;

@@ -104,7 +104,7 @@ fn beside(target: &Path, number: &str, end: &str) -> PathBuf {
     target.with_file_name(format!("{}{number}.{end}", start_of(&name_of(target))))
 }
 
-/// How the names of places begin.
+/// The common start of the names of the places beside a target.
 fn start_of(name: &str) -> String {
     let end = (0..=LONGEST.min(name.len())).rev().find(|&end| name.is_char_boundary(end)).unwrap_or(0);
     format!(".{}.", &name[..end])
@@ -165,7 +165,7 @@ fn end_of<'f>(found: &'f str, name: &str) -> Option<(&'f str, &'static str)> {
     Some((number, end))
 }
 
-/// Whether it is a place for this target that no living process holds.
+/// Returns `true` if it is a place for this target that no living process holds.
 fn is_left(path: &Path, target: &Path, end: &str) -> bool {
     let old = || {
         let made = path.metadata().and_then(|there| there.modified()).ok();
@@ -187,7 +187,7 @@ fn is_left(path: &Path, target: &Path, end: &str) -> bool {
     ours && (end != NEW || old()) && free()
 }
 
-/// Whether nothing else is in a folder; an inventory that is not `whole` is empty.
+/// Returns `true` if nothing else is in a folder; an inventory that is not `whole` is empty.
 fn has_at_most_its_inventory(path: &Path, whole: bool) -> bool {
     let mut names = fs::read_dir(path).into_iter().flatten().flatten();
     let is_empty = |entry: &fs::DirEntry| entry.metadata().is_ok_and(|it| it.is_file() && it.len() == 0);

@@ -13,7 +13,8 @@ use std::fs::{self, File};
 use std::io::{Result as IoResult, Write};
 use std::path::{Path, PathBuf};
 
-/// Puts the result of a place over the one at `target`, and takes the old one away if the new one is complete. Returns what stayed, in sentences.
+/// Puts the result of a place over the one at `target`, and takes the old one away if the new one is
+/// complete. Returns what stayed, in sentences.
 ///
 /// # Errors
 /// [`Error::Changed`], [`Error::Taken`], [`Error::WriteFailed`]; errors name `shown`.
@@ -71,7 +72,7 @@ fn give_way(new: &Path, target: &Path, shown: &Path, old: &Inventory) -> Result<
     Ok(notes)
 }
 
-/// Whether a name, or that of a folder above it, is something else than a new file needs.
+/// Returns `true` if a name, or that of a folder above it, is taken by something else than a new file needs.
 pub(crate) fn is_taken(folder: &Path, name: &str) -> bool {
     let mut path = folder.to_owned();
     let parts: Vec<&str> = name.split('/').collect();
@@ -146,7 +147,8 @@ pub(crate) fn make_folders(folder: &Path, name: &str) -> IoResult<()> {
     }
 }
 
-/// Takes an old result away if the one that replaces it is complete; otherwise gives it a name beside that one. Anything else than an old result stays.
+/// Takes an old result away if the one that replaces it is complete; otherwise gives it a name beside that
+/// one. Anything else than an old result stays.
 pub(crate) fn retire(old: &Path, target: &Path) -> IoResult<()> {
     let read = |path: &Path| Inventory::read(path).ok().flatten();
     let hidden = old.parent() != target.parent();
@@ -201,7 +203,7 @@ fn name_visibly(old: &Path, target: &Path) -> IoResult<()> {
     disk::rename_to_free(old, visible).map(drop)
 }
 
-/// Whether a folder beside `target` is a result that it replaced.
+/// Returns `true` if a folder beside `target` is a result that it replaced.
 pub(crate) fn retires(old: &Path, target: &Path) -> bool {
     let inventory = Inventory::read(old).ok().flatten();
     inventory.is_some_and(|old| old.replaced_by == Some(name_of(target)))

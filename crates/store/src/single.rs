@@ -8,7 +8,8 @@ use crate::{Error, Inventory, Kind, disk, lock, sha256_file};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-/// A file that is written beside its place and renamed when it is complete. Dropped without [`StagedFile::commit`], it leaves nothing behind.
+/// A file that is written beside its place and renamed when it is complete. Dropped without
+/// [`StagedFile::commit`], it leaves nothing behind.
 #[derive(Debug)]
 pub struct StagedFile(Draft);
 
@@ -16,7 +17,8 @@ impl StagedFile {
     /// Prepares a file at `target`. With `force` it replaces one that motiform wrote and nobody changed.
     ///
     /// # Errors
-    /// [`Error::Exists`] without `force`; [`Error::NotOurs`] and [`Error::Changed`] for what is not replaced; [`Error::Busy`]; [`Error::Unwritable`].
+    /// [`Error::Exists`] without `force`; [`Error::NotOurs`] and [`Error::Changed`] for what is not replaced;
+    /// [`Error::Busy`]; [`Error::Unwritable`].
     pub fn new(target: &Path, kind: Kind, force: bool) -> Result<Self, Error> {
         Draft::new(Target::new(target)?, kind, |target, _| admit(target, force)).map(Self)
     }
@@ -27,7 +29,7 @@ impl StagedFile {
         &self.0.notes
     }
 
-    /// Where to write.
+    /// The path to write to.
     #[must_use]
     pub fn path(&self) -> PathBuf {
         self.0.place.result().join(name_of(&self.0.target.path))

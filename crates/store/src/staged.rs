@@ -13,16 +13,18 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Staged {
     draft: Draft,
-    /// Whether it replaces a folder with nothing in it.
+    /// `true` if it replaces an empty folder.
     onto_empty: bool,
 }
 
 impl Staged {
-    /// Prepares a folder at `target`, before any work is done. With `force` it replaces a result of the same kind; what is not ours there stays.
+    /// Prepares a folder at `target`, before any work is done. With `force` it replaces a result of the same
+    /// kind; what is not ours there stays.
     ///
     /// # Errors
-    /// [`Error::Exists`] and [`Error::Resumable`] without `force`; [`Error::NotOurs`], [`Error::OtherKind`] and [`Error::Changed`] for what is
-    /// not replaced; [`Error::NamedAsFile`]; [`Error::Busy`]; [`Error::Unwritable`].
+    /// [`Error::Exists`] and [`Error::Resumable`] without `force`; [`Error::NotOurs`], [`Error::OtherKind`]
+    /// and [`Error::Changed`] for what is not replaced; [`Error::NamedAsFile`]; [`Error::Busy`];
+    /// [`Error::Unwritable`].
     pub fn new(target: &Path, kind: Kind, force: bool) -> Result<Self, Error> {
         let target = Target::folder(target)?;
         mend(&target.path)?;
@@ -34,19 +36,19 @@ impl Staged {
         Ok(Self { draft, onto_empty })
     }
 
-    /// What was found in the place: leftovers of killed runs, and files that stay.
+    /// The remarks on the place: leftovers of killed runs, and files that stay.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.draft.notes
     }
 
-    /// Where to write.
+    /// The path to write to.
     #[must_use]
     pub fn path(&self) -> PathBuf {
         self.draft.place.result()
     }
 
-    /// Where it will be, as given.
+    /// The path of the finished output, as given.
     #[must_use]
     pub fn target(&self) -> &Path {
         &self.draft.target.shown
@@ -104,7 +106,7 @@ impl Staged {
     }
 }
 
-/// Whether there is a folder with nothing in it.
+/// Returns `true` if there is an empty folder at the path.
 pub(crate) fn is_empty(path: &Path) -> bool {
     path.symlink_metadata().is_ok_and(|there| there.is_dir())
         && fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_none())

@@ -1,4 +1,4 @@
-//! What is in a folder, compared with its inventory.
+//! The contents of a folder, compared with its inventory.
 
 use crate::place::name_of;
 use crate::{INVENTORY, Inventory, error, is_figure, sha256_file};
@@ -28,7 +28,8 @@ impl Survey {
         Ok(survey)
     }
 
-    /// What is not listed, without reading files. Results inside a result have their own inventory.
+    /// The names that are not listed, without reading files. Results inside a result have their own
+    /// inventory.
     pub(crate) fn names(folder: &Path, inventory: &Inventory) -> Result<Vec<String>> {
         let mut survey = Self::default();
         survey.walk(folder, "", inventory, &|_, _| Ok(true))?;
@@ -36,7 +37,7 @@ impl Survey {
         Ok(survey.outside_results(folder))
     }
 
-    /// What is not listed here, nor in the inventory of a result inside this one.
+    /// The names that are not listed here, nor in the inventory of a result inside this one.
     pub(crate) fn outside_results(&self, folder: &Path) -> Vec<String> {
         let is_result = |name: &str| name.ends_with('/') && folder.join(name).join(INVENTORY).is_file();
         self.foreign.iter().filter(|name| !is_result(name)).cloned().collect()
@@ -75,7 +76,7 @@ impl Survey {
     }
 }
 
-/// Whether a file is there as it was listed. One that cannot be read is not.
+/// Returns `true` if a file is there as it was listed. One that cannot be read is not.
 ///
 /// # Errors
 /// The process may open no more files, or has no memory: then nothing is known of the file.
@@ -90,7 +91,7 @@ pub(crate) fn is_ours(path: &Path, digests: &[String]) -> Result<bool> {
     }
 }
 
-/// Whether it is an incomplete file of this folder.
+/// Returns `true` if it is an incomplete file of this folder.
 pub(crate) fn is_partial(name: &str, inventory: &Inventory) -> bool {
     let name = name.rsplit('/').next().unwrap_or(name);
     inventory.partials.iter().any(|start| {

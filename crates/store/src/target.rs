@@ -1,4 +1,4 @@
-//! Where an output goes: links are followed, folders above it are made.
+//! The target of an output: links are followed, folders above it are made.
 
 use crate::Error;
 use std::fs;
@@ -63,7 +63,7 @@ impl Target {
         Ok(Self { shown: shown.to_owned(), path, made })
     }
 
-    /// Whether something is there.
+    /// Returns `true` if something is there.
     pub(crate) fn exists(&self) -> bool {
         self.path.symlink_metadata().is_ok()
     }

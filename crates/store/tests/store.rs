@@ -1,4 +1,4 @@
-//! What is not ours stays, whatever is replaced, continued or interrupted.
+//! Tests that the files of others stay, whatever is replaced, continued or interrupted.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

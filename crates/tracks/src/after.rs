@@ -1,4 +1,4 @@
-//! What is looked for after reading: frames that stand for 'none', cells filed twice, areas that no cell has.
+//! Checks after reading: frames that stand for 'none', cells filed twice, areas that no cell has.
 
 use crate::geometry::area;
 use crate::{Cell, Note, Outline};
@@ -16,8 +16,9 @@ const AREAS: [f64; 2] = [0.1, 1e6];
 /// Negative frames that are no sentinels: so many at least, as far apart as frames before a stimulus are.
 const BEFORE: usize = 2;
 
-/// Takes frames out whose number stands for 'none': negative ones, and a last one (999, 65535, ...) far from all others. Two negative frames and more that lead
-/// up to the others, as before a stimulus at frame 0, are frames.
+/// Takes frames out whose number stands for 'none': negative ones, and a last one (999, 65535, ...) far from
+/// all others. Two negative frames and more that lead up to the others, as before a stimulus at frame 0, are
+/// frames.
 pub(crate) fn sentinels(cell: &mut Cell, notes: &mut Vec<Note>) {
     let mut out: Vec<i64> = Vec::new();
     let negative = cell.frames.iter().filter(|outline| outline.frame < 0).count();
@@ -37,7 +38,8 @@ pub(crate) fn sentinels(cell: &mut Cell, notes: &mut Vec<Note>) {
     }
 }
 
-/// Whether the negative frames are a record that goes on at 0: no step among them and to the next one is above three times the smallest step of all.
+/// Returns `true` if the negative frames are a record that continues at 0: no step among them and to the next
+/// one is above three times the smallest step of all.
 fn leads_up(frames: &[Outline], negative: usize) -> bool {
     let steps = |frames: &[Outline]| {
         frames.windows(2).map(|pair| pair[1].frame - pair[0].frame).collect::<Vec<i64>>()

@@ -7,7 +7,7 @@ use std::path::Path;
 /// Bytes that are looked at.
 const HEAD: u64 = 1 << 16;
 
-/// Which format this file has. The extension plays no part.
+/// The format of a file. The extension plays no part.
 ///
 /// # Errors
 /// [`Error::UnknownFormat`] with what the content looks like, [`Error::Ambiguous`] where it fits several formats.
@@ -101,7 +101,8 @@ fn looks(text: &str) -> String {
         return "QuimP's parameters: give the .snQP file of the same name".to_owned();
     }
     format!(
-        "text that begins {:?}; a table needs a header with columns for frame, x and y: name them: --column frame=HEADER, in Python columns={{'frame': HEADER}}",
+        "text that begins {:?}; a table needs a header with columns for frame, x and y: name them: --column \
+        frame=HEADER, in Python columns={{'frame': HEADER}}",
         shorten(first)
     )
 }

@@ -3,7 +3,7 @@
 use crate::{Format, Place};
 use std::path::PathBuf;
 
-/// Why no tracks were read or written. Messages name file, line or entry, and what to do.
+/// The reasons why no tracks were read or written. Messages name the file, the line or entry, and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -12,7 +12,7 @@ pub enum Error {
     Io {
         /// The file.
         file: PathBuf,
-        /// Why; in the message, so it is no source.
+        /// The reason; in the message, so it is no source.
         reason: std::io::Error,
     },
     /// No path was given.
@@ -29,7 +29,7 @@ pub enum Error {
     UnknownFormat {
         /// The file.
         file: PathBuf,
-        /// What the content looks like.
+        /// The apparent kind of the content.
         found: String,
     },
     /// The content fits several formats.
@@ -43,19 +43,19 @@ pub enum Error {
     /// Something else stands where the format requires this.
     #[error("{place}: {found}, where {expected} is expected")]
     Structure {
-        /// Where.
+        /// The place.
         place: Place,
-        /// What is there.
+        /// The content that was found.
         found: String,
-        /// What should be there.
+        /// The content that was expected.
         expected: String,
     },
     /// The content ends too early.
     #[error("{place}: the file ends before {missing}: it is truncated; write or copy it again")]
     Truncated {
-        /// Where.
+        /// The place.
         place: Place,
-        /// What is missing.
+        /// The missing part.
         missing: String,
     },
     /// A column is not there, or several could be meant.
@@ -63,7 +63,7 @@ pub enum Error {
     Column {
         /// The file.
         file: PathBuf,
-        /// Which column.
+        /// The column.
         wanted: &'static str,
         /// None, or which.
         found: String,
@@ -73,9 +73,9 @@ pub enum Error {
     /// More than is read at once.
     #[error("{place}: more than {limit} {what}; split the file (in Rust: or raise Options::limits.{key})")]
     Limit {
-        /// Where.
+        /// The place.
         place: Place,
-        /// Of what there are too many.
+        /// The items that are too many.
         what: &'static str,
         /// The limit.
         limit: u64,
@@ -87,7 +87,7 @@ pub enum Error {
     NoOutlines {
         /// The file.
         file: PathBuf,
-        /// Why there is none.
+        /// The reason why there is none.
         reason: String,
     },
     /// An outline that belongs to no frame.
@@ -95,12 +95,13 @@ pub enum Error {
         "{place}: the outline has no frame number; name it FRAME-CELL.roi, or set their position in ImageJ"
     )]
     NoFrame {
-        /// Where.
+        /// The place.
         place: Place,
     },
     /// Several bodies under one name.
     #[error(
-        "{}: {name:?} has several different outlines in {conflicts} of its {frames} frames, first in frame {first}: several cells have one name; {remedy}",
+        "{}: {name:?} has several different outlines in {conflicts} of its {frames} frames, first in frame \
+        {first}: several cells have one name; {remedy}",
         .file.display()
     )]
     MixedCells {
@@ -114,21 +115,22 @@ pub enum Error {
         frames: usize,
         /// The first such frame.
         first: i64,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// The file and an option say different things.
-    #[error("{}: the file says {what} = {file_says}, the option {key} says {option_says}; leave the option out or correct the file", .file.display())]
+    #[error("{}: the file says {what} = {file_says}, the option {key} says {option_says}; leave the option \
+        out or correct the file", .file.display())]
     Disagree {
         /// The file.
         file: PathBuf,
-        /// What is measured.
+        /// The measured quantity.
         what: &'static str,
         /// Name of the option.
         key: &'static str,
-        /// What the file says.
+        /// The statement of the file.
         file_says: String,
-        /// What the option says.
+        /// The statement of the option.
         option_says: String,
     },
     /// Files in different units cannot be read together.
@@ -150,7 +152,7 @@ pub enum Error {
         key: &'static str,
         /// Its value.
         value: f64,
-        /// What to give.
+        /// The remedy.
         remedy: &'static str,
     },
     /// A name of a format that is not known.
@@ -159,16 +161,17 @@ pub enum Error {
         /// The name.
         name: String,
     },
-    /// What cannot be written in this format.
+    /// Data that this format cannot hold.
     #[error("{format} cannot hold this: {reason}")]
     Unwritable {
         /// The format.
         format: Format,
-        /// Why.
+        /// The reason.
         reason: String,
     },
     /// A file to write whose name ends in nothing known.
-    #[error("{}: outlines are written as a table (.csv: cell, frame, i, x, y) or, one cell in um and s, as AmoePy's text (.txt): end the name in one of these", .file.display())]
+    #[error("{}: outlines are written as a table (.csv: cell, frame, i, x, y) or, one cell in um and s, as \
+        AmoePy's text (.txt): end the name in one of these", .file.display())]
     Ending {
         /// The file.
         file: PathBuf,

@@ -13,7 +13,8 @@ pub struct Form {
     pub axis: f64,
     /// Area over that of the convex hull; 1 where the outline is convex.
     pub solidity: f64,
-    /// 4 pi area/perimeter^2; 1 for a circle. Steps of pixels lengthen the perimeter: a disc along the edges of its pixels has pi^2/16 = 0.62.
+    /// 4 pi area/perimeter^2; 1 for a circle. Steps of pixels lengthen the perimeter: a disc along the edges
+    /// of its pixels has pi^2/16 = 0.62.
     pub circularity: f64,
 }
 

@@ -68,7 +68,7 @@ impl Format {
         Self::ALL.map(Self::name).join(", ")
     }
 
-    /// Whether the y axis of this format points down, as in images. The others do not say.
+    /// Returns `true` if the y axis of this format points down, as in images. The others do not say.
     #[must_use]
     pub fn is_of_images(self) -> bool {
         matches!(

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, HashMap};
 /// A vertex: its place along the outline, and its coordinates.
 pub(crate) type Vertex = (i64, [f64; 2]);
 
-/// Where a vertex or an outline belongs.
+/// The cell and the frame that a vertex or an outline belongs to.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Key<'a> {
     pub(crate) cell: &'a str,

@@ -7,19 +7,20 @@ use crate::resolve::{Resolved, resolve};
 use crate::{Cell, Note, Result, Tracks};
 use std::path::Path;
 
-/// What is known about outlines in memory.
+/// The units and the orientation of outlines in memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Given {
     /// Unit of coordinates.
     pub length_unit: String,
     /// Unit of times.
     pub time_unit: String,
-    /// Whether y points down.
+    /// `true` if y points down.
     pub y_down: Option<bool>,
 }
 
-/// Tracks from outlines in memory, with the notes and checks of files: vertices that are not finite are counted and left out, a repeated last
-/// vertex is dropped. Frames are counted from the times, in intervals. No frame of a cell may occur twice.
+/// Tracks from outlines in memory, with the notes and checks of files: vertices that are not finite are
+/// counted and left out, a repeated last vertex is dropped. Frames are counted from the times, in intervals.
+/// No frame of a cell may occur twice.
 ///
 /// # Errors
 /// [`NoOutlines`](crate::Error::NoOutlines), where no outline has an area.

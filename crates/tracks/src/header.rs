@@ -13,7 +13,7 @@ const X: &[&str] = &["x", "nodex", "xcoord", "xpx", "coordx", "posx", "positionx
 const Y: &[&str] = &["y", "nodey", "ycoord", "ypx", "coordy", "posy", "positiony", "verty", "vertexy"];
 const TEXT: &[&str] = &["wkt", "geometry", "polygon", "geom"];
 
-/// Which column is which.
+/// The places of the columns.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Header {
     pub(crate) cell: Option<usize>,
@@ -115,7 +115,8 @@ pub(crate) fn names(header: &str) -> Vec<String> {
     names.iter().map(|name| name.trim().to_owned()).collect()
 }
 
-/// Whether a line is the header of a table of vertices: it has x and y, or the names of the options.
+/// Returns `true` if a line is the header of a table of vertices: it has x and y, or the names of the
+/// options.
 pub(crate) fn is_table(line: &str, columns: &Columns) -> bool {
     let names = names(line);
     let has = |option: &Option<String>, usual: &[&str]| match option {
@@ -125,7 +126,7 @@ pub(crate) fn is_table(line: &str, columns: &Columns) -> bool {
     names.len() > 2 && has(&columns.x, X) && has(&columns.y, Y)
 }
 
-/// Where `POLYGON` or `MULTIPOLYGON` begins in a line.
+/// The place where `POLYGON` or `MULTIPOLYGON` begins in a line.
 pub(crate) fn polygon(line: &str) -> Option<usize> {
     let upper = line.to_ascii_uppercase();
     let at = upper.match_indices("POLYGON").map(|found| found.0).find(|&at| {

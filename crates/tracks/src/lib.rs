@@ -1,8 +1,8 @@
 //! Outlines of tracked cells: files of other programs in, shape modes with their errors out.
 //!
-//! [`read()`] turns files into [`Tracks`]: cells with one closed polygon per frame, in one unit of length and one of time. What is wrong with the
-//! data is an [`Error`] or a [`Note`]. [`modes::modes`] turns tracks into centre and modes, with flags of quality. Formats, units and
-//! definitions: docs/cells.md.
+//! [`read()`] turns files into [`Tracks`]: cells with one closed polygon per frame, in one unit of length and
+//! one of time. What is wrong with the data is an [`Error`] or a [`Note`]. [`modes::modes`] turns tracks into
+//! centre and modes, with flags of quality. Formats, units and definitions: docs/cells.md.
 //!
 //! ```
 //! use motiform_tracks::modes::{ModeOptions, modes};

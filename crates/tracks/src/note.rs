@@ -1,4 +1,4 @@
-//! What was noticed in files that could be read.
+//! The notes on files that could be read.
 
 use serde::Serialize;
 use std::fmt;
@@ -96,7 +96,8 @@ impl fmt::Display for Note {
             }
             Self::LargeArea { area } => write!(
                 f,
-                "the median area of the cells is {area:.0} um^2: bacteria have 1 to 10, amoebae and leukocytes 50 to 500, spread tissue cells 500 to 5000; check the pixel size"
+                "the median area of the cells is {area:.0} um^2: bacteria have 1 to 10, amoebae and \
+                leukocytes 50 to 500, spread tissue cells 500 to 5000; check the pixel size"
             ),
             Self::ImplausibleArea { cell, area, unit } => {
                 write!(

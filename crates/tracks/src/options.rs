@@ -1,8 +1,8 @@
-//! What a caller may say about the files.
+//! The settings of the reader that a caller may give.
 
 use crate::{Error, Format, Result};
 
-/// How files are read. The default finds everything in the files and assumes no scale.
+/// The settings of the reader. The default finds everything in the files and assumes no scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// The format, where the content does not decide it.
@@ -82,7 +82,7 @@ impl Default for Limits {
 }
 
 impl Options {
-    /// Whether scale and interval can be used.
+    /// Checks that scale and interval can be used.
     ///
     /// # Errors
     /// [`Error::Setting`] if one is not finite and above 0.

@@ -1,4 +1,4 @@
-//! Where in a file something is.
+//! The place of something in a file.
 
 use std::fmt;
 use std::path::{Path, PathBuf};

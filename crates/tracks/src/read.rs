@@ -9,10 +9,11 @@ use std::path::{Path, PathBuf};
 
 /// Reads files of outlines; several files are one data set.
 ///
-/// The format of each file is found from its content ([`detect()`]); gzip files are unpacked. Coordinates are multiplied by the scale and times by
-/// the interval, which come from the file or from the options and are never assumed: where nobody says them, the units are
-/// [`PIXEL`](crate::PIXEL) and [`FRAME`](crate::FRAME). Outlines of one cell may lie in several `.roi` files; otherwise a cell whose name occurs in
-/// several files is named `file: cell`.
+/// The format of each file is found from its content ([`detect()`]); gzip files are unpacked. Coordinates are
+/// multiplied by the scale and times by the interval, which come from the file or from the options and are
+/// never assumed: where nobody says them, the units are [`PIXEL`](crate::PIXEL) and [`FRAME`](crate::FRAME).
+/// Outlines of one cell may lie in several `.roi` files; otherwise a cell whose name occurs in several files
+/// is named `file: cell`.
 ///
 /// # Errors
 /// Every [`Error`] names the file, the line or entry, and what to do. What can be read but must be known is a [`Note`].
@@ -54,7 +55,7 @@ fn twice<P: AsRef<Path>>(paths: &[P]) -> Option<&Path> {
     paths.iter().map(AsRef::as_ref).find(|path| !seen.insert(known(path)))
 }
 
-/// Where a cell was read from.
+/// The file and the format that a cell was read from.
 struct Source {
     file: PathBuf,
     format: Format,

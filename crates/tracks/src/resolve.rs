@@ -5,7 +5,7 @@ use crate::gather::Vertex;
 /// Coordinates beyond this count as not finite: moments of their outline would not be.
 const LARGEST: f64 = 1e60;
 
-/// What the vertices of a frame are.
+/// The outline that the vertices of a frame form.
 pub(crate) enum Resolved {
     /// One outline, filed `copies` times, without `missing` vertices that are not finite.
     One { points: Vec<[f64; 2]>, copies: usize, missing: usize },

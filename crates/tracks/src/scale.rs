@@ -9,25 +9,25 @@ const AGREE: f64 = 1e-3;
 /// Lengths of pixels of cameras on microscopes, from 200 times to 2 times (um).
 const PIXELS: [f64; 2] = [0.02, 5.0];
 
-/// What a file says about one unit.
+/// The statement of a file about one unit.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Said {
     /// Length of a pixel or time of a frame, where the file says it.
     pub(crate) step: Option<f64>,
     /// Its unit.
     pub(crate) unit: Option<String>,
-    /// Whether the values of the file are multiplied by the step already.
+    /// `true` if the values of the file are multiplied by the step already.
     pub(crate) applied: bool,
 }
 
-/// What a file says about lengths and times.
+/// The statements of a file about lengths and times.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Scale {
     pub(crate) length: Said,
     pub(crate) time: Said,
 }
 
-/// How values become lengths or times: the factor and the unit.
+/// The conversion of values to lengths or times: the factor and the unit.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Use {
     pub(crate) factor: f64,
@@ -79,8 +79,8 @@ pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([U
     Ok(([length, time], notes))
 }
 
-/// Takes a pixel of exactly 1 as unknown, and with it an interval of exactly 1: what programs write that were not told the scale. An interval of
-/// 1 s beside another pixel may be true.
+/// Takes a pixel of exactly 1 as unknown, and with it an interval of exactly 1: what programs write that were
+/// not told the scale. An interval of 1 s beside another pixel may be true.
 fn unset(said: &mut Scale, file: &Path) -> Option<Note> {
     let one = |said: &Said| said.step == Some(1.0);
     if !one(&said.length) {

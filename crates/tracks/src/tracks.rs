@@ -23,11 +23,11 @@ pub struct Tracks {
     pub length_unit: String,
     /// Unit of times; [`FRAME`] where the interval is unknown.
     pub time_unit: String,
-    /// Whether y points down: known for formats of images, `None` for tables and text.
+    /// `true` if y points down: known for formats of images, `None` for tables and text.
     pub y_down: Option<bool>,
     /// The images, where a file describes them.
     pub image: Option<Image>,
-    /// What was noticed while reading.
+    /// The notes made while reading.
     pub notes: Vec<Note>,
 }
 

@@ -1,11 +1,12 @@
 //! The boundary to the worker's JavaScript: exported functions over linear memory, and functions that the worker provides. No bindings are
 //! generated, so there is nothing to keep in step but this file and `web/src/alone/engine.ts`.
 //!
-//! A text comes in by [`buffer`], which gives the place to write it to, and the length that the next call names. Messages go out by a pointer
-//! and a length, which the worker copies before it returns.
+//! A text comes in by [`buffer`], which gives the place to write it to, and the length that the next call
+//! names. Messages go out by a pointer and a length, which the worker copies before it returns.
 //!
-//! Why it is sound: the module has one thread. The worker's functions take pointers into memory that is borrowed for the call and written by
-//! nobody meanwhile; they keep none of them, and call nothing of this module.
+//! Why it is sound: the module has one thread. The worker's functions take pointers into memory that is
+//! borrowed for the call and written by nobody meanwhile; they keep none of them, and call nothing of this
+//! module.
 
 #![allow(unsafe_code, reason = "calls to the worker, and names that it finds; see above")]
 #![allow(unreachable_pub, reason = "the exports are for the worker")]

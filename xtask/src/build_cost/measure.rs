@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// What a build costs.
+/// The cost of a build.
 pub(crate) struct Cost {
     /// Elapsed.
     pub(crate) seconds: f64,
@@ -19,7 +19,8 @@ pub(crate) struct Cost {
 /// Ticks per second of the process table on Linux.
 const TICKS: f64 = 100.0;
 
-/// Runs cargo from an empty cargo folder into an empty target folder, both removed afterwards. `{}` in an argument is a folder for its output.
+/// Runs cargo from an empty cargo folder into an empty target folder, both removed afterwards. `{}` in an
+/// argument is a folder for its output.
 pub(crate) fn cold(root: &Path, arguments: &[&str]) -> Result<Cost> {
     let folder = std::env::temp_dir().join(format!("motiform-build-cost-{}", std::process::id()));
     fs::create_dir(&folder).with_context(|| format!("{} must not exist", folder.display()))?;

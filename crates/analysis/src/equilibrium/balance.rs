@@ -40,7 +40,8 @@ fn along<B: Equivariant + ?Sized>(body: &B, ray: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Where the slope of these values, at successive powers of 2, grows from one whole number to another.
+/// The powers of 2 at which the logarithmic slope of these values, taken at successive powers of 2, grows
+/// from one whole number to another.
 fn changes(values: &[f64]) -> Vec<f64> {
     let slope = |(power, pair): (i32, &[f64])| (f64::from(power) + 0.5, libm::log2(pair[1] / pair[0]));
     let of_one_term = |&(_, slope): &(f64, f64)| slope.is_finite() && (slope - slope.round()).abs() < WHOLE;

@@ -13,7 +13,8 @@ const STEPS: usize = 60;
 /// A step this small against the distance from the nearest known equilibrium leads to another one: Newton's method itself does the rest.
 const CLOSE: f64 = 1e-2;
 
-/// How many times its error an equilibrium must be away from the known ones: errors are bounds to first order.
+/// The distance from the known equilibria, in errors, beyond which an equilibrium is a new one: errors are
+/// bounds to first order.
 const APART: f64 = 100.0;
 
 /// Equations are solved by elimination unless they are this near to singular ones.
@@ -35,11 +36,12 @@ const RESOLVED: f64 = 0.01;
 /// equations, because M grows as fast as the residual falls. The distance from `u_i` is that from the nearest of its rotated
 /// copies. As only a scalar is new, the step is Newton's step d times `1/(1 - d . grad ln M)`.
 ///
-/// Equilibria that their linearisation does not determine (one of a family) are not deflated, since the next one is beside them, and none of
-/// them is found.
+/// Equilibria that their linearisation does not determine (one of a family) are not deflated, since the next
+/// one is beside them, and none of them is found.
 ///
-/// Source: Farrell, Birkisson, Funke (2015), SIAM J. Sci. Comput. 37, A2026: power 1, shift 1; the scalar is from the formula of Sherman and
-/// Morrison. In random equations of 4 to 6 unknowns power 2 takes half as many starts more: it drives away from the other roots near a known one.
+/// Source: Farrell, Birkisson, Funke (2015), SIAM J. Sci. Comput. 37, A2026: power 1, shift 1; the scalar is
+/// from the formula of Sherman and Morrison. In random equations of 4 to 6 unknowns power 2 takes half as
+/// many starts more: it drives away from the other roots near a known one.
 ///
 /// # Checked by  tests/all/deflation.rs: all roots of known fields, rotated copies, families; lab's tests/all/equilibria/: other searches
 #[derive(Clone, Debug)]
@@ -53,9 +55,9 @@ pub struct Deflation {
 #[derive(Clone, Debug)]
 struct Known {
     copies: Copies,
-    /// How far it may be from the true one.
+    /// Bound on its distance from the true one.
     error: f64,
-    /// Whether it is isolated: no member of a family of equilibria.
+    /// `true` if it is isolated: no member of a family of equilibria.
     isolated: bool,
 }
 
@@ -66,7 +68,7 @@ impl Deflation {
         Self { known: Vec::new(), unit: Units::of(body).length }
     }
 
-    /// Whether two equilibria are one, up to rotations.
+    /// Returns `true` if two equilibria are one, up to rotations.
     #[must_use]
     pub fn is_same<B: Equivariant + ?Sized>(
         &self,
@@ -132,7 +134,8 @@ impl Deflation {
         (sum, nearest.min(norm(shape).max(reach)))
     }
 
-    /// Whether it is determined by its linearisation and none of the known ones, beyond its error and theirs.
+    /// Returns `true` if it is determined by its linearisation and none of the known ones, beyond its error
+    /// and theirs.
     fn lacks<B: Equivariant + ?Sized>(&self, body: &B, found: &RelativeEquilibrium) -> bool {
         let error = norm(&found.uncertainty(body).shape);
         let apart = |known: &Known| {
@@ -144,10 +147,11 @@ impl Deflation {
     }
 }
 
-/// Whether differences of the field's values confirm its derivatives, to the part [`RESOLVED`] of the largest one of each equation.
+/// Returns `true` if differences of the field's values confirm its derivatives, to the part [`RESOLVED`] of
+/// the largest one of each equation.
 ///
-/// Far away, terms that cancel exactly (those of `(z + conj z)^3` for an imaginary z) leave derivatives that are rounding alone: any shape then
-/// seems to solve the equations, as the residual is small against them.
+/// Far away, terms that cancel exactly (those of `(z + conj z)^3` for an imaginary z) leave derivatives that
+/// are rounding alone: any shape then seems to solve the equations, as the residual is small against them.
 fn is_resolved<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> bool {
     let (dim, step) = (shape.len(), DIFFERENCE * norm(shape));
     if step == 0.0 {
@@ -185,7 +189,7 @@ fn step<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Option<
 }
 
 impl RelativeEquilibrium {
-    /// Whether it is isolated, as its linearisation shows: no eigenvalue is zero within its error.
+    /// Returns `true` if it is isolated, as its linearisation shows: no eigenvalue is zero within its error.
     fn is_isolated(&self, error: f64, unit: f64) -> bool {
         let rates = self.eigenvalues.iter().zip(&self.errors);
         let mut leading = rates.take_while(|(value, error)| value.0 >= -APART * **error);
@@ -193,14 +197,15 @@ impl RelativeEquilibrium {
             && leading.all(|(value, error)| libm::hypot(value.0, value.1) > APART * *error)
     }
 
-    /// Whether these are one equilibrium of equations with this unit of shapes ([`Units`]), up to rotations.
+    /// Returns `true` if these are one equilibrium of equations with this unit of shapes ([`Units`]), up to
+    /// rotations.
     #[must_use]
     pub fn is_same<B: Equivariant + ?Sized>(&self, body: &B, other: &Self, unit: f64) -> bool {
         near(self.distance(body, &other.shape), &other.shape, unit)
     }
 }
 
-/// Whether something this far from `shape` is the same.
+/// Returns `true` if a shape at this distance from `shape` is the same.
 fn near(distance: f64, shape: &[f64], unit: f64) -> bool {
     distance < SAME * norm(shape).max(LEAST * unit)
 }

@@ -1,8 +1,8 @@
 //! Equilibria that lie in a family: neighbours are equilibria as well.
 //!
 //! Where the equations have more symmetry than stated (`symmetry = "none"` on equations without a preferred direction, a mode whose phase
-//! nothing fixes) an eigenvalue is 0 that belongs to no symmetry which is divided out. Deviations along the family neither grow nor decay; what the
-//! body does is the same on all of its members, up to that symmetry.
+//! nothing fixes) an eigenvalue is 0 that belongs to no symmetry which is divided out. Deviations along the
+//! family neither grow nor decay; what the body does is the same on all of its members, up to that symmetry.
 
 use super::{RelativeEquilibrium, Units, linearisation, neutral_direction};
 use crate::linear::{add, basis, dot, norm, null_space};
@@ -38,7 +38,8 @@ impl RelativeEquilibrium {
         self.eigenvalues.iter().zip(&self.errors).map(zero).collect()
     }
 
-    /// How many eigenvalues vanish within their errors: those of the family that it lies in, or of a bifurcation.
+    /// Number of eigenvalues that vanish within their errors: those of the family that it lies in, or of a
+    /// bifurcation.
     #[must_use]
     pub fn vanishing_count(&self) -> usize {
         self.vanishing().iter().filter(|&&zero| zero).count()
@@ -46,8 +47,9 @@ impl RelativeEquilibrium {
 
     /// This equilibrium without the eigenvalues 0 of the family that it lies in; `None` where it is alone.
     ///
-    /// Newton's method takes the smallest step to an equilibrium: from a shape beside a member, along a direction in which nothing grows or decays, it
-    /// goes to another member, and at a bifurcation it comes back. The family must have as many dimensions as there are eigenvalues 0.
+    /// Newton's method takes the smallest step to an equilibrium: from a shape beside a member, along a
+    /// direction in which nothing grows or decays, it goes to another member, and at a bifurcation it comes
+    /// back. The family must have as many dimensions as there are eigenvalues 0.
     pub(crate) fn across_family<B: Equivariant + ?Sized>(&self, body: &B) -> Option<Self> {
         let size = norm(&self.shape);
         if self.vanishing_count() == 0 || size == 0.0 {
@@ -76,7 +78,8 @@ impl RelativeEquilibrium {
         self.across_family(body).map_or(0, |_| self.vanishing_count())
     }
 
-    /// Whether a path of equilibria leads from this one to `other`, the straight way along the family: towards `other`, in short steps.
+    /// Returns `true` if a path of equilibria leads from this one to `other`, the straight way along the
+    /// family: towards `other`, in short steps.
     ///
     /// # Checked by  lab: tests/all/equilibria/families.rs: circles, tori, an ellipse, rotated copies; bifurcations, which are none
     #[must_use]

@@ -41,11 +41,12 @@ pub struct RelativeEquilibrium {
     /// Eigenvalues of the reduced linearisation, largest real part first (inverse model time). The neutral direction of
     /// the rotations is removed exactly.
     pub eigenvalues: Vec<(f64, f64)>,
-    /// How far the real part of each eigenvalue may be away, by rounding and by the error of the shape. Only as sharp as signs need:
-    /// after the first eigenvalue that is clearly negative a bound of all of them.
+    /// Bound on the error of the real part of each eigenvalue, by rounding and by the error of the shape.
+    /// Only as sharp as signs need: after the first eigenvalue that is clearly negative a bound of all of
+    /// them.
     #[serde(default)]
     pub errors: Vec<f64>,
-    /// How many neutral directions were removed (0 for a circle, which no rotation changes).
+    /// Number of neutral directions that were removed (0 for a circle, which no rotation changes).
     pub neutral: usize,
     /// Size of the linearisation's entries: what its eigenvalues are small against.
     pub scale: f64,
@@ -75,26 +76,27 @@ impl RelativeEquilibrium {
         self.eigenvalues.first().map_or(f64::NEG_INFINITY, |value| value.0)
     }
 
-    /// How far [`RelativeEquilibrium::growth`] may be away: a growth rate closer to zero than this has no sign.
+    /// Bound on the error of [`RelativeEquilibrium::growth`]: a growth rate closer to zero than this has no
+    /// sign.
     #[must_use]
     pub fn growth_error(&self) -> f64 {
         self.errors.first().copied().unwrap_or(0.0)
     }
 
-    /// Whether every perturbation decays, beyond the error of the growth rates.
+    /// Returns `true` if every perturbation decays, beyond the error of the growth rates.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.growth() < -self.growth_error()
     }
 
-    /// How many directions grow, beyond the error of their growth rates.
+    /// Number of directions that grow, beyond the error of their growth rates.
     #[must_use]
     pub fn growing(&self) -> usize {
         let clear = |(value, error): (&(f64, f64), &f64)| value.0 > *error;
         self.eigenvalues.iter().zip(&self.errors).filter(|&pair| clear(pair)).count()
     }
 
-    /// Whether some direction grows, beyond the error of its growth rate.
+    /// Returns `true` if some direction grows, beyond the error of its growth rate.
     #[must_use]
     pub fn is_unstable(&self) -> bool {
         self.growing() > 0

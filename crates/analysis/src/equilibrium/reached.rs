@@ -1,4 +1,4 @@
-//! Whether an orbit has come to a steady motion.
+//! The test that an orbit has come to a steady motion.
 
 use super::RelativeEquilibrium;
 use crate::linear::norm;

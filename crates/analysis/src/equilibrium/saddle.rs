@@ -13,13 +13,14 @@ pub struct Saddle {
     pub out: f64,
     /// `lambda_-` (negative): how fast they arrive.
     pub inward: f64,
-    /// How far their sum may be away: the cycle attracts where it is clearly negative.
+    /// Bound on the error of their sum: the cycle attracts where the sum is clearly negative.
     #[serde(default)]
     pub error: f64,
 }
 
 impl Saddle {
-    /// Whether a cycle through this saddle attracts: `lambda_+ + lambda_- < 0`, beyond the error of the sum.
+    /// Returns `true` if a cycle through this saddle attracts: `lambda_+ + lambda_- < 0`, beyond the error of
+    /// the sum.
     ///
     /// Source: Krupa and Melbourne (1995), Ergod. Th. Dynam. Sys. 15, 121.
     #[must_use]

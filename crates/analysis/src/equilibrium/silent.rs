@@ -8,7 +8,7 @@ use motiform_dynamics::Equivariant;
 /// A change below this part of the largest rate is none: the shape is known to about that.
 const SAME: f64 = 1e-8;
 
-/// By how much a mode is turned alone (rad): no angle of a symmetric body.
+/// The angle by which a mode is turned alone (rad): no angle of a symmetric body.
 const TURN: f64 = 1.0;
 
 impl RelativeEquilibrium {
@@ -39,7 +39,8 @@ impl RelativeEquilibrium {
         silent
     }
 
-    /// Whether another shape is an equilibrium too, with the same linearisation of the unknowns outside of `mode`.
+    /// Returns `true` if another shape is an equilibrium too, with the same linearisation of the unknowns
+    /// outside of `mode`.
     fn acts_alike<B: Equivariant + ?Sized>(
         &self,
         body: &B,

@@ -7,7 +7,8 @@ use nalgebra::DMatrix;
 /// Most eigenvalues that are refined one by one, from the leading one on.
 const MOST: usize = 6;
 
-/// How far the eigenvalues of a decomposition may be away, for a matrix of this dimension with entries up to `largest`.
+/// Bound on the errors of the eigenvalues of a decomposition, for a matrix of this dimension with entries up
+/// to `largest`.
 #[must_use]
 pub fn rounding(dim: usize, largest: f64) -> f64 {
     30.0 * EPS * dim as f64 * largest

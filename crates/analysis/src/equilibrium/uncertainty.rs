@@ -1,4 +1,4 @@
-//! How far a computed relative equilibrium may be from the true one.
+//! Bounds on the distance between a computed relative equilibrium and the true one.
 
 use super::{RelativeEquilibrium, linearisation, matrix_of};
 use crate::graded::{EPS, spread};
@@ -26,8 +26,8 @@ impl Uncertainty {
     /// Of the solution `(u, omega)` of `f(u) - omega Gu = 0`, `Gu . du = 0`: `|M^-1| (|r| + rho)` with the matrix M of these equations,
     /// their residual r and its rounding `rho_i = 2 eps sum_j |A_ij u_j|`.
     ///
-    /// A residual in a mode that decays fast moves nothing by much: it is divided by that mode's rate. Where M is singular the equilibrium is one of
-    /// a family, and the distance is that to the nearest of them.
+    /// A residual in a mode that decays fast moves nothing by much: it is divided by that mode's rate. Where
+    /// M is singular the equilibrium is one of a family, and the distance is that to the nearest of them.
     pub(super) fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64, turns: bool) -> Self {
         let dim = shape.len();
         let columns = linearisation(body, shape, omega);
@@ -67,8 +67,9 @@ impl Uncertainty {
         }
     }
 
-    /// Bounds of the errors of `Df - omega G`: rounding against the largest entry of each row, and twice what some changes by the error of the shape
-    /// make of it, with random signs: with signs of its own a change may be one along a family, which changes nothing.
+    /// Bounds of the errors of `Df - omega G`: rounding against the largest entry of each row, and twice what
+    /// some changes by the error of the shape make of it, with random signs: with signs of its own a change
+    /// may be one along a family, which changes nothing.
     pub(super) fn of_linearisation<B: Equivariant + ?Sized>(
         &self,
         body: &B,
@@ -93,7 +94,7 @@ impl Uncertainty {
 }
 
 impl RelativeEquilibrium {
-    /// How far it may be from the true one.
+    /// Bounds on its distance from the true one.
     #[must_use]
     pub fn uncertainty<B: Equivariant + ?Sized>(&self, body: &B) -> Uncertainty {
         Uncertainty::of(body, &self.shape, self.turning_rate, self.neutral > 0)

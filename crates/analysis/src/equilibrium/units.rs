@@ -11,7 +11,7 @@ const RAYS: usize = 2;
 /// A shape of no more than this part of the unit is no size.
 const NOTHING: f64 = 1e-6;
 
-/// What bounds and steps count in where the motion itself has no size: at rest, and for turning rates.
+/// The units of bounds and steps where the motion itself has no size: at rest, and for turning rates.
 ///
 /// Each is a power of 1000, as prefixes of units are: equations of ordinary size have the units 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,8 @@ pub struct Units {
 }
 
 impl Units {
-    /// The units of a field: along rays on which modes decay with the third power of their number, the median of the sizes at which terms balance, and the rate there.
+    /// The units of a field: along rays on which modes decay with the third power of their number, the median
+    /// of the sizes at which terms balance, and the rate there.
     #[must_use]
     pub fn of<B: Equivariant + ?Sized>(body: &B) -> Self {
         let rays = rays(body);

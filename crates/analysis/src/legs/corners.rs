@@ -1,4 +1,4 @@
-//! Where a path has its corners.
+//! The corners of a path.
 
 use super::path::{PathSample, wrapped};
 use std::f64::consts::TAU;

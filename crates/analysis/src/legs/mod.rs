@@ -12,7 +12,7 @@ use path::{check, continued, place, wrapped};
 /// that one's leg to the fourth, and a stop at the end of the fourth is known to be one only when the body moves again.
 const COPIES: usize = 5;
 
-/// What makes the corners of a path.
+/// The cause of the corners of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CornerKind {
     /// The body stops and goes.
@@ -41,7 +41,7 @@ pub struct Leg {
 pub struct Legs {
     /// Peak to peak of the unwrapped heading, rad.
     pub swing: f64,
-    /// What makes its corners; `None` if there are none.
+    /// The cause of its corners; `None` if there are none.
     pub kind: Option<CornerKind>,
     /// Times of the corners, growing.
     pub corners: Vec<f64>,

@@ -18,7 +18,7 @@ pub struct PathSample {
     pub vy: f64,
 }
 
-/// Whether a path is a stretch or a period.
+/// The kind of a path: a stretch or a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ends {
     /// A stretch: what is cut by its ends is left out.

@@ -1,4 +1,4 @@
-//! Which law mean lives follow.
+//! The law that mean lives follow.
 
 use super::laws::spread;
 use super::{ExponentialLife, LifeCount, PowerLawLife};
@@ -17,7 +17,7 @@ const IMPROBABLE: f64 = 1e-3;
 /// Fewest events, values that were watched, and values with events.
 const LEAST: (usize, usize, usize) = (20, 4, 3);
 
-/// Which law mean lives follow, with both fits as far as they were made.
+/// The law that mean lives follow, with both fits as far as they were made.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "answer", rename_all = "kebab-case")]
 pub enum LifeLaws {
@@ -63,7 +63,7 @@ pub enum LifeLaws {
         values: usize,
         /// Those with events.
         with_events: usize,
-        /// What is needed of each.
+        /// The numbers needed.
         needed: (usize, usize, usize),
     },
 }

@@ -16,7 +16,7 @@ const PLACES: usize = 240;
 /// The nearest place that is tried, relative to the range of the parameter.
 const NEAREST: f64 = 1e-4;
 
-/// How well a law fits the counts.
+/// The goodness of fit of a law to the counts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Goodness {
     /// Twice the log-likelihood that is lacking to a law through all points.
@@ -59,7 +59,7 @@ pub struct ExponentialLife {
     pub at: f64,
     /// Mean life there (model time), 95 % error.
     pub life: Estimate,
-    /// How well it fits.
+    /// The goodness of the fit.
     pub goodness: Goodness,
 }
 
@@ -79,13 +79,13 @@ pub struct Critical {
 pub struct PowerLawLife {
     /// The place of the crisis.
     pub critical: Critical,
-    /// Whether chaos is transient above the crisis, and not below.
+    /// `true` if chaos is transient above the crisis, `false` if below.
     pub above: bool,
     /// The critical exponent gamma, with its 95 % error (that of the crisis' place included).
     pub exponent: Estimate,
     /// C: model time times the parameter's unit to the power gamma.
     pub coefficient: f64,
-    /// How well it fits.
+    /// The goodness of the fit.
     pub goodness: Goodness,
 }
 
@@ -273,7 +273,7 @@ fn moments(entries: &[(f64, f64)], slope: f64) -> (f64, f64, f64) {
     (most + libm::log(total), mean, squares / total)
 }
 
-/// Where `beyond` becomes true: between bounds that double from `unit` on.
+/// The place where `beyond` becomes true: between bounds that double from `unit` on.
 fn root(beyond: impl Fn(f64) -> bool, unit: f64) -> f64 {
     let (mut low, mut high) = (-unit, unit);
     for _ in 0..40 {
@@ -286,7 +286,7 @@ fn root(beyond: impl Fn(f64) -> bool, unit: f64) -> f64 {
     change(|slope| !beyond(slope), low, high)
 }
 
-/// Where a condition that holds at `yes` and not at `no` ends.
+/// The end of a condition that holds at `yes` and not at `no`, by bisection.
 fn change(holds: impl Fn(f64) -> bool, mut yes: f64, mut no: f64) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (yes + no);

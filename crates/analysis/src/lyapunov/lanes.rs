@@ -15,7 +15,7 @@ use motiform_dynamics::{Bundle, Equivariant, Mask, Outcome, StepControl, Watch};
 /// One orbit whose exponents are asked for.
 #[derive(Clone, Debug)]
 pub struct TangentMember<B, F, const N: usize> {
-    /// What its exponents are handed back with.
+    /// The key that its exponents are returned with.
     pub key: usize,
     /// The body.
     pub body: B,
@@ -27,7 +27,8 @@ pub struct TangentMember<B, F, const N: usize> {
     pub settings: LyapunovSettings,
 }
 
-/// Whether exponents with these settings are computed in lanes: DOP853 with error control, on a machine that has them.
+/// Returns `true` if exponents with these settings are computed in lanes: DOP853 with error control, on a
+/// machine that has them.
 #[must_use]
 pub fn runs_in_lanes(settings: &LyapunovSettings) -> bool {
     let Method::Explicit(tableau) = settings.method else { return false };

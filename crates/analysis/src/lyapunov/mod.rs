@@ -19,10 +19,10 @@ use renormalisation::{Renormalisation, Stretch};
 pub use separation::separates;
 pub(crate) use separation::{GROWN, SECULAR};
 
-/// How to compute exponents.
+/// The settings of the computation of exponents.
 #[derive(Clone, Copy, Debug)]
 pub struct LyapunovSettings {
-    /// How many exponents, from the largest.
+    /// Number of exponents, from the largest.
     pub count: usize,
     /// Stepper of orbit and tangent vectors.
     pub method: Method,
@@ -44,18 +44,18 @@ pub struct Lyapunov {
     /// The exponents, largest first (inverse model time), each with its 95 % error; empty unless the run completed. The error is
     /// infinite where the run is too short for one ([`Lyapunov::without_error`] says why).
     pub exponents: Vec<Estimate>,
-    /// How many exponents must be zero on the motion that the run ended on: the flow's own direction, the rotations', and those along a family
-    /// of steady motions.
+    /// Number of exponents that must be zero on the motion that the run ended on: those of the flow's own
+    /// direction, of the rotations, and along a family of steady motions.
     pub neutral: usize,
     /// Growth rates over the intervals of the run: end times, and for each interval one rate per vector.
     pub history: Vec<(f64, Vec<f64>)>,
-    /// How fast the reduced shape changed at the end of each interval.
+    /// The rate of change of the reduced shape at the end of each interval.
     pub reduced_speeds: Vec<f64>,
     /// Time averaged over.
     pub time: f64,
     /// Time before that.
     pub transient: f64,
-    /// How the run ended.
+    /// The end of the run.
     pub outcome: Outcome,
     /// The shape at the end.
     pub shape: Vec<f64>,
@@ -71,7 +71,7 @@ impl Lyapunov {
         all
     }
 
-    /// Why exponents of this run have no error; `None` if all have one.
+    /// The reason why exponents of this run have no error; `None` if all have one.
     #[must_use]
     pub fn without_error(&self) -> Option<String> {
         if self.exponents.iter().all(Estimate::has_error) {
@@ -131,9 +131,9 @@ impl Lyapunov {
 /// undetermined. They are infinite where the rates are worth fewer than 16 independent ones, and where the run is shorter than
 /// 20 of the motion's fastest times: such a run says nothing about its error.
 ///
-/// A neutral exponent (of the flow's direction, of the rotations) is exactly 0, and the growth along it is that of a bounded length: what is
-/// computed is the difference of two ends over T. Its error is no 95 % statement but a bound, two to three times that difference, and
-/// shrinks like 1/T.
+/// A neutral exponent (of the flow's direction, of the rotations) is exactly 0, and the growth along it is
+/// that of a bounded length: what is computed is the difference of two ends over T. Its error is no 95 %
+/// statement but a bound, two to three times that difference, and shrinks like 1/T.
 ///
 /// Source: Benettin, Galgani, Giorgilli, Strelcyn (1980), Meccanica 15, 9.
 ///
@@ -238,8 +238,9 @@ pub(crate) fn first_state(start: &[f64], count: usize) -> Vec<f64> {
     state
 }
 
-/// How many neutral directions the motion has that a run ended on, from the shape at its end and the size of its first one: that of the
-/// rotations, that of the flow unless the body is at a steady motion, and those of a family of steady motions.
+/// Number of neutral directions of the motion that a run ended on, from the shape at its end and the size of
+/// its first one: that of the rotations, that of the flow unless the body is at a steady motion, and those of
+/// a family of steady motions.
 fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64], size: f64) -> usize {
     match RelativeEquilibrium::reached(body, shape, size) {
         Some(found) => found.neutral + found.family_dimension(body),
@@ -250,7 +251,7 @@ fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64], size: f6
 /// An average over less than so many of the motion's fastest times has no error, however smooth it is.
 const SHORTEST: f64 = 20.0;
 
-/// How fast a shape changes, against its size.
+/// The rate of change of a shape, against its size: `|rate|/|shape|`.
 fn pace(shape: &[f64], rate: &[f64]) -> f64 {
     let size = norm(shape);
     if size > 0.0 { norm(rate) / size } else { 0.0 }

@@ -1,4 +1,5 @@
-//! When tangent vectors are made orthonormal, and what they have grown by: the same for one orbit and for a lane of many.
+//! The times at which tangent vectors are made orthonormal, and their growth in between: the same for one
+//! orbit and for a lane of many.
 
 use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions, pace};
 use crate::Result;
@@ -38,7 +39,7 @@ pub(crate) struct Renormalisation {
     /// Usual length of a stretch: chosen while the flow settles, then kept.
     interval: f64,
     averaging: bool,
-    /// Whether there would be more than [`MOST`] stretches: there are no exponents then.
+    /// `true` if there would be more than [`MOST`] stretches: there are no exponents then.
     given_up: bool,
     /// Start of the stretch under way, start of the averages, end of the phase.
     start: f64,
@@ -103,7 +104,7 @@ impl Renormalisation {
         (self.begun, self.end, self.steps_before) = (t, t + self.settings.span, steps);
     }
 
-    /// What there is of the averages of a shape that changes at this pace; `None` before they begin.
+    /// The averages so far of a shape that changes at this pace; `None` before they begin.
     pub(crate) fn so_far(&self, pace: f64) -> Option<SoFar<'_>> {
         (!self.history.is_empty()).then_some(SoFar { history: &self.history, begun: self.begun, pace })
     }

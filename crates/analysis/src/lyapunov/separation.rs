@@ -14,8 +14,8 @@ pub(crate) const SECULAR: f64 = 2.0 * 1.791_759_469_228_055;
 /// A positive exponent is above this many of its 95 % errors.
 const ERRORS: f64 = 3.0;
 
-/// Whether an exponent, averaged over `time` in so many runs, is `asked` times as large as a positive one must be: three times its 95 % error, and
-/// growth beyond any power of time.
+/// Returns `true` if an exponent, averaged over `time` in so many runs, is `asked` times as large as a
+/// positive one must be: three times its 95 % error, and growth beyond any power of time.
 #[must_use]
 pub fn separates(exponent: Estimate, time: f64, runs: usize, asked: f64) -> bool {
     let Estimate { value, error } = exponent;
@@ -24,8 +24,8 @@ pub fn separates(exponent: Estimate, time: f64, runs: usize, asked: f64) -> bool
 }
 
 impl Lyapunov {
-    /// Whether its largest exponent is positive beyond its error, and beyond any growth like a power of time ([`separates`]): chaos, or an unstable motion
-    /// that the run stays on.
+    /// Returns `true` if its largest exponent is positive beyond its error, and beyond any growth like a
+    /// power of time ([`separates`]): chaos, or an unstable motion that the run stays on.
     #[must_use]
     pub fn separates(&self) -> bool {
         self.exponents.first().is_some_and(|&first| separates(first, self.time, 1, 1.0))

@@ -1,8 +1,8 @@
-//! What a search asks of the caller, who computes orbits.
+//! The requests of a search to its caller, who computes orbits.
 
 use super::verdict::Verdict;
 
-/// What a search wants to see next.
+/// The next observation that a search needs.
 #[derive(Debug)]
 pub(super) enum Ask {
     /// The orbit, for this long, from where it is.

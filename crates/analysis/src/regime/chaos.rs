@@ -12,7 +12,7 @@ use motiform_dynamics::{Equivariant, Watch};
 /// K of the 0-1 test below this speaks for order.
 const ORDER: f64 = 0.3;
 
-/// What a witness for order asks of an exponent: so many times the errors and the growth.
+/// The factor on the required errors and growth of an exponent where a witness sees order.
 const DOUBT: f64 = 1.3;
 
 /// The largest exponent over `span`, after a fifth of it for the vector to turn its way.
@@ -39,14 +39,14 @@ pub(super) fn exponent_settings(settings: &Settings, span: f64) -> LyapunovSetti
     }
 }
 
-/// What the returns of a look say about chaos: witnesses beside the exponent.
+/// The evidence on chaos from the returns of a look: witnesses beside the exponent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Witness {
     /// K of the 0-1 test on the sizes at the minima; absent for few returns.
     pub(super) zero_one: Option<f64>,
     /// Dimension of the set of returns; absent for few returns.
     pub(super) dimension: Option<f64>,
-    /// Whether early and late returns fill the same set; absent for few returns.
+    /// `true` if early and late returns fill the same set; absent for few returns.
     pub(super) stationary: Option<bool>,
     /// Number of returns.
     pub(super) returns: usize,
@@ -63,12 +63,12 @@ impl Witness {
         }
     }
 
-    /// Whether the returns drift or shrink, and the 0-1 test sees order.
+    /// Returns `true` if the returns drift or shrink, and the 0-1 test sees order.
     pub(super) fn shrinks_orderly(&self) -> bool {
         self.stationary == Some(false) && self.sees_order()
     }
 
-    /// Whether the 0-1 test sees order. It may be right, or blind to weak chaos in narrow bands.
+    /// Returns `true` if the 0-1 test sees order. It may be right, or blind to weak chaos in narrow bands.
     fn sees_order(&self) -> bool {
         self.zero_one.is_some_and(|k| k < ORDER)
     }
@@ -124,13 +124,15 @@ pub(super) fn chaotic(
 /// An exponent above this many of its errors is worth more time.
 const NEARLY: f64 = 2.0;
 
-/// Whether the pooled exponent of at least two runs is above twice its error: too much for order, and maybe too little for chaos.
+/// Returns `true` if the pooled exponent of at least two runs is above twice its error: too much for order,
+/// and maybe too little for chaos.
 pub(super) fn is_near(runs: &[Growth]) -> bool {
     let near = |all: &Pooled| all.runs > 1 && all.estimate.value > NEARLY * all.estimate.error;
     pooled(runs).filter(near).is_some()
 }
 
-/// Whether as much time again as the latest runs took would decide: each of them is long enough for a growth beyond a power of time.
+/// Returns `true` if as much time again as the latest runs took would decide: each of them is long enough for
+/// a growth beyond a power of time.
 pub(super) fn is_long_enough(runs: &[Growth]) -> bool {
     let long = |all: Pooled| all.estimate.value * all.time > SECULAR * all.runs as f64;
     pooled(runs).is_some_and(long)
@@ -142,8 +144,9 @@ pub(super) fn is_long_enough(runs: &[Growth]) -> bool {
 /// grown by more than the number of returns, error included, it grows like a power of time at most. (The 0-1 test may fail
 /// on a torus: where the number of minima per turn changes, the returns are an exchange of intervals, which wanders.)
 ///
-/// A set that shrinks is no torus: close to a bifurcation the returns approach a periodic orbit as a power of time, along a curve. This sees what
-/// changes within a look by more than the distance of its returns; [`super::lasting`] sees less.
+/// A set that shrinks is no torus: close to a bifurcation the returns approach a periodic orbit as a power of
+/// time, along a curve. This sees what changes within a look by more than the distance of its returns;
+/// [`super::lasting`] sees less.
 pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verdict> {
     let Estimate { value, error } = *run.exponents.first().filter(|first| first.has_error())?;
     let (k, dimension) = (witness.zero_one?, witness.dimension?);
@@ -157,7 +160,8 @@ pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verd
         return None;
     }
     let why = format!(
-        "the returns lie on a closed curve (dimension {dimension:.2}), lambda_1 = {value:.1e} +- {error:.1e}, 0-1 test {k:.2}: a torus of shapes"
+        "the returns lie on a closed curve (dimension {dimension:.2}), lambda_1 = {value:.1e} +- \
+        {error:.1e}, 0-1 test {k:.2}: a torus of shapes"
     );
     let mut verdict = Verdict::new(Regime::QuasiPeriodic, Attractor::Torus, why, time);
     verdict.margin = Some((ORDER / k.abs().max(0.03)).max(most / growth.max(0.1)));
@@ -165,7 +169,7 @@ pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verd
     Some(verdict)
 }
 
-/// What keeps the evidence from deciding.
+/// The evidence that is missing for a decision, in words.
 pub(super) fn missing(runs: &[Growth], witness: &Witness) -> String {
     let Some(Pooled { estimate, .. }) = pooled(runs) else {
         return "no exponent".to_owned();

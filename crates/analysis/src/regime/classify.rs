@@ -32,7 +32,7 @@ use motiform_dynamics::{Equivariant, Watch};
 /// then says so ([`super::Attractor::Unstable`]); front ends perturb such starts.
 ///
 /// # Errors
-/// What the numerics refuse (a start of the wrong length, say). Everything that happens to the orbit is a verdict.
+/// Input that the numerics refuse (a start of the wrong length, say). Everything that happens to the orbit is a verdict.
 ///
 /// # Checked by  tests/all/regimes.rs (tensor: the analytic lines; cell: the known windows), tests/all/zoo.rs (known answers)
 pub fn classify<B: Equivariant + ?Sized>(

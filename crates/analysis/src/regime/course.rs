@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 /// Angles below this (rad) are none.
 const NO_ANGLE: f64 = 1e-6;
 
-/// Which of the directions that the symmetry distinguishes a motion has. With rotations and the mirror there are none.
+/// The direction of a motion, among those that the symmetry distinguishes. With rotations and the mirror
+/// there are none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Course {

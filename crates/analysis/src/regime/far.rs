@@ -1,9 +1,10 @@
 //! Orbits far out: whether one that crawls there leaves every bound.
 //!
-//! Far out nonlinear terms make the equations stiff: an orbit may grow exponentially along a slow direction at a rate of some tens, while its fast
-//! directions decay at a rate of `|u|^2`, so that an explicit method takes half a million steps from one bound to the next. A singularity takes
-//! some hundred. Such an orbit is followed ahead by an implicit method ([`Ascent`]), of the same equations, to the same bound: where that leaves,
-//! the look is over; where it does not, nothing has happened.
+//! Far out nonlinear terms make the equations stiff: an orbit may grow exponentially along a slow direction
+//! at a rate of some tens, while its fast directions decay at a rate of `|u|^2`, so that an explicit method
+//! takes half a million steps from one bound to the next. A singularity takes some hundred. Such an orbit is
+//! followed ahead by an implicit method ([`Ascent`]), of the same equations, to the same bound: where that
+//! leaves, the look is over; where it does not, nothing has happened.
 
 use crate::implicit::Ascent;
 use crate::linear::norm;
@@ -20,7 +21,7 @@ const CRAWLS: u64 = 4000;
 pub(super) struct Far {
     /// The norm beyond which a shape is far out.
     norm: f64,
-    /// How long the orbit is followed ahead: as long as the look.
+    /// The time for which the orbit is followed ahead: as long as the look.
     ahead: f64,
     steps: u64,
     /// The number of steps at which the orbit is followed ahead next.

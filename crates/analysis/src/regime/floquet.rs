@@ -1,8 +1,8 @@
 //! The exponents of a periodic orbit.
 //!
 //! `ln |m|/T` for each multiplier m. The matrix of a period has errors of about its accuracy times its largest entries: a multiplier that
-//! is not far above them says nothing. In systems that are followed in all directions such exponents are those of the parts of the period; in
-//! larger ones the leading exponents are computed.
+//! is not far above them says nothing. In systems that are followed in all directions such exponents are
+//! those of the parts of the period; in larger ones the leading exponents are computed.
 
 use super::settings::Settings;
 use crate::Estimate;

@@ -64,7 +64,7 @@ impl Form {
         }
     }
 
-    /// What it is, as a clause of a verdict.
+    /// The meaning of the form, as a clause of a verdict.
     #[must_use]
     pub const fn meaning(self) -> &'static str {
         match self {

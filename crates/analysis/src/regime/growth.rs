@@ -1,4 +1,4 @@
-//! How tangent vectors grew: runs in which the shape moved, and the exponent of several of them.
+//! The growth of tangent vectors: runs in which the shape moved, and the exponent of several of them.
 
 use crate::Estimate;
 use crate::lyapunov::{Lyapunov, durations, rates};
@@ -10,16 +10,18 @@ const RESTING: f64 = 0.3;
 /// and then there must be as many of them: an exponent over a few rests at saddles is that of the saddles.
 const LEAST_RESTS: usize = 8;
 
-/// In a run that rests, an exponent is what is left of larger numbers: neighbouring orbits come closer at each saddle and separate again. Close
-/// to a cycle of saddles they do so by more than this (natural logarithm; measured: 15 to 19 there, below 7 in chaos that rests), and
-/// the errors of steps decide the difference.
+/// In a run that rests, an exponent is what is left of larger numbers: neighbouring orbits come closer at
+/// each saddle and separate again. Close to a cycle of saddles they do so by more than this (natural
+/// logarithm; measured: 15 to 19 there, below 7 in chaos that rests), and the errors of steps decide the
+/// difference.
 const CANCELS: f64 = 12.0;
 
-/// Why a run gives no exponent of the motion.
+/// The reason why a run gives no exponent of the motion.
 #[derive(Debug)]
 pub(super) struct NoMeasure {
     pub(super) why: String,
-    /// Whether the exponent is what errors of steps leave of larger numbers: a longer run would not change that.
+    /// `true` if the exponent is the residue that errors of steps leave of larger numbers: a longer run would
+    /// not change that.
     pub(super) cancels: bool,
 }
 
@@ -39,7 +41,8 @@ pub(super) fn in_motion(run: &Lyapunov, slow: f64, fastest: f64) -> Result<Lyapu
     let fall = deepest_fall(&run);
     if share > RESTING && fall > CANCELS {
         let why = format!(
-            "neighbouring orbits come closer by e^-{fall:.0} and separate again in rests at saddles: what is left of it is no measure of chaos"
+            "neighbouring orbits come closer by e^-{fall:.0} and separate again in rests at saddles: what \
+            is left of it is no measure of chaos"
         );
         return Err(NoMeasure { why, cancels: true });
     }
@@ -52,7 +55,7 @@ pub(super) fn in_motion(run: &Lyapunov, slow: f64, fastest: f64) -> Result<Lyapu
     Ok(run)
 }
 
-/// By how much (natural logarithm) the first tangent vector was shorter at one time than at an earlier one, at most.
+/// The largest fall of the first tangent vector from one time to a later one (natural logarithm of its length).
 fn deepest_fall(run: &Lyapunov) -> f64 {
     let Some(last) = run.history.last() else { return 0.0 };
     let spans = durations(&run.history, last.0 - run.time);
@@ -65,7 +68,7 @@ fn deepest_fall(run: &Lyapunov) -> f64 {
     fall
 }
 
-/// How the tangent vector grew in one run.
+/// The growth of the tangent vector in one run.
 #[derive(Clone, Debug)]
 pub(super) struct Growth {
     /// Growth rates of the intervals, and their durations.

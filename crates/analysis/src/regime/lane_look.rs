@@ -11,7 +11,7 @@ use motiform_dynamics::section::{PIECES, polished, slope_at, zero_between};
 use motiform_dynamics::steppers::unrolled::{Dop853, LaneStep, StepSlopes};
 use motiform_dynamics::{Bundle, Equivariant, Mask, VectorField};
 
-/// What the lanes have seen so far.
+/// The observations in all lanes so far.
 pub(super) struct LaneObserver<L, const N: usize> {
     /// The last time and value at which the rate of the size was not zero, in the lanes of `known`.
     t: L,
@@ -26,7 +26,7 @@ pub(super) struct LaneObserver<L, const N: usize> {
     resting: Mask,
     /// The vector of the size ([`Gauge`]), the same for all lanes; `None` where it is the norm.
     form: Option<[f64; N]>,
-    /// What is kept lane by lane; `None` in vacant lanes.
+    /// The observations that are kept lane by lane; `None` in vacant lanes.
     pub(super) seen: [Option<Seen>; 16],
 }
 
@@ -106,7 +106,7 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
         self.seen[lane] = Some(Seen::new(u));
     }
 
-    /// What a look has seen so far, as far as [`super::search::Search::arrives`] asks.
+    /// The observations of a look so far, as far as [`super::search::Search::arrives`] needs them.
     pub(super) fn now(&mut self, lane: usize) -> Option<&Seen> {
         let seen = self.seen[lane].as_mut()?;
         seen.fastest = self.fastest.lane(lane);

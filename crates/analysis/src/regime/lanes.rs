@@ -25,7 +25,7 @@ use std::collections::VecDeque;
 
 /// A motion to classify.
 pub struct Candidate<F, const N: usize> {
-    /// What its verdict is handed back with.
+    /// The key that its verdict is returned with.
     pub key: usize,
     /// The body.
     pub body: Box<dyn Equivariant>,
@@ -38,7 +38,7 @@ pub struct Candidate<F, const N: usize> {
 /// Searches that wait for an exponent before they are measured together.
 const WAITING: usize = 48;
 
-/// Whether motions with these settings are classified in lanes.
+/// Returns `true` if motions with these settings are classified in lanes.
 #[must_use]
 pub fn classifies_in_lanes(settings: &Settings) -> bool {
     runs_in_lanes(&exponent_settings(settings, 1.0))
@@ -72,7 +72,7 @@ struct Classification<F, const N: usize> {
     t: f64,
     u: [f64; N],
     pace: Option<Pace>,
-    /// How long to look, or to measure.
+    /// The duration of the look or of the run for an exponent.
     span: f64,
 }
 
@@ -227,7 +227,7 @@ struct SearchLanes<'l, 'd, L: Bundle, F: InLanes, const N: usize> {
     /// The fields of the lanes, one by one.
     singles: [Option<F>; 16],
     observer: LaneObserver<L, N>,
-    /// Where looks pause next.
+    /// The times at which looks pause next.
     pauses: L,
     /// The square of the norm beyond which a lane gives its orbit up: it may crawl there, or escape ([`Far`](super::far::Far)).
     far: L,
@@ -312,13 +312,13 @@ impl<L: Bundle, F: InLanes + Clone, const N: usize> SearchLanes<'_, '_, L, F, N>
         self.in_lanes[lane] = Some(InLane { motion, begun });
     }
 
-    /// Whether a lane has stopped for a pause of its look, within bounds.
+    /// Returns `true` if a lane has stopped for a pause of its look, within bounds.
     fn pauses(&self, lane: usize, leaving: &Leaving<N>) -> bool {
         let bounded = leaving.u.iter().map(|x| x * x).sum::<f64>() <= self.far.lane(lane);
         leaving.why != Why::Failed && bounded && self.pauses.lane(lane) <= leaving.t
     }
 
-    /// Where the look of a lane that pauses ends, if it does not end here.
+    /// The end of the look of a lane that pauses; `None` if the look ends here.
     fn goes_on(&mut self, lane: usize, leaving: &Leaving<N>) -> Option<f64> {
         let InLane { motion, begun } = self.in_lanes[lane].as_mut()?;
         let look = (begun.0, begun.0 + motion.span);

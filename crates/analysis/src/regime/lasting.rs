@@ -1,9 +1,10 @@
 //! Does a closed curve of returns keep its size?
 //!
-//! A torus lasts. Beside an unstable torus, and where two tori have just vanished, an orbit stays for thousands of turns on a curve that is closed,
-//! dense and without chaos, and that slowly changes: by less than a hundredth from look to look. What tells the two apart is the trend of mean
-//! values over time. On a torus those of a smooth function, smoothly weighted, converge faster than any power of the time; those of returns need
-//! not, for the number of extremes per turn may change along the torus.
+//! A torus lasts. Beside an unstable torus, and where two tori have just vanished, an orbit stays for
+//! thousands of turns on a curve that is closed, dense and without chaos, and that slowly changes: by less
+//! than a hundredth from look to look. What tells the two apart is the trend of mean values over time. On a
+//! torus those of a smooth function, smoothly weighted, converge faster than any power of the time; those of
+//! returns need not, for the number of extremes per turn may change along the torus.
 
 use super::look::Look;
 use super::returns;
@@ -24,14 +25,15 @@ const SAMPLES: f64 = 32.0;
 /// and most samples in all.
 const MOST_SAMPLES: f64 = 1e6;
 
-/// Change, against the size of the curve, that a torus shows at most in a run, error included: the nearest that an orbit may be, by chance, to an
-/// unstable torus without being seen to leave. Beside a resonance means over a part are off by several times as much, until parts are longer.
+/// Change, against the size of the curve, that a torus shows at most in a run, error included: the nearest
+/// that an orbit may be, by chance, to an unstable torus without being seen to leave. Beside a resonance
+/// means over a part are off by several times as much, until parts are longer.
 const CHANGE: f64 = 1e-3;
 
 /// Change that counts as none: the last of an exponential approach.
 const NONE: f64 = 1e-5;
 
-/// By how much the size of a curve of returns changed in a run, against itself.
+/// The relative change of the size of a curve of returns in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Change {
     /// The trend, and its 99 % error.
@@ -42,8 +44,8 @@ pub(super) struct Change {
 }
 
 impl Change {
-    /// Over a run from `shape` that is as long as the look; `None` where it ends early, or has too few returns. The width of the returns is that of the
-    /// look.
+    /// Over a run from `shape` that is as long as the look; `None` where it ends early, or has too few
+    /// returns. The width of the returns is that of the look.
     pub(super) fn along<B: Equivariant + ?Sized>(
         body: &B,
         shape: &[f64],
@@ -61,8 +63,9 @@ impl Change {
         outcome.is_complete().then(|| Self::of(&sizes.values, returns::width(&minima), time)).flatten()
     }
 
-    /// From sizes at equal intervals over `time`. They have the variance `base + width^2`, and the base is the same on all curves around one orbit: the
-    /// change of the width is that of the variance divided by `2 width^2`.
+    /// From sizes at equal intervals over `time`. They have the variance `base + width^2`, and the base is
+    /// the same on all curves around one orbit: the change of the width is that of the variance divided by
+    /// `2 width^2`.
     fn of(sizes: &[f64], width: f64, time: f64) -> Option<Self> {
         let length = sizes.len() / PARTS;
         if length < 2 {
@@ -91,8 +94,8 @@ impl Change {
 
 /// The variance of a part of the sizes.
 ///
-/// Means are weighted by `exp(-1/(x (1 - x)))`, x from 0 to 1 along the part: on a torus they converge faster than any power of the number of samples,
-/// plain ones as 1/n.
+/// Means are weighted by `exp(-1/(x (1 - x)))`, x from 0 to 1 along the part: on a torus they converge faster
+/// than any power of the number of samples, plain ones as 1/n.
 ///
 /// Source: Das, Saiki, Sander and Yorke (2017), Nonlinearity 30, 4111.
 fn variance(part: &[f64]) -> f64 {

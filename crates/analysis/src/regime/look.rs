@@ -25,18 +25,18 @@ pub(super) struct Rest {
     pub(super) end: f64,
     /// The shape where it was slowest.
     pub(super) shape: Vec<f64>,
-    /// Whether its beginning and its end were seen.
+    /// `true` if its beginning and its end were seen.
     pub(super) whole: bool,
 }
 
 impl Rest {
-    /// How long it lasted, at least.
+    /// Its duration, at least.
     pub(super) fn duration(&self) -> f64 {
         self.end - self.start
     }
 }
 
-/// What a look saw.
+/// A look: the observation of an orbit over a span of time.
 #[derive(Debug)]
 pub(super) struct Look {
     pub(super) start: f64,
@@ -46,7 +46,7 @@ pub(super) struct Look {
     pub(super) extremes: Vec<Extreme>,
     /// Complete rests.
     pub(super) rests: Vec<Rest>,
-    /// When the rest began that the look ended in; `None` where it began before, or there is none.
+    /// The time when the rest began that the look ended in; `None` where it began before, or there is none.
     pub(super) resting: Option<f64>,
     /// Reduced speed: fastest in this look, and at its end.
     pub(super) fastest: f64,
@@ -65,11 +65,12 @@ pub(super) const RESTS: f64 = 0.01;
 /// Most extremes that are kept, the latest.
 const KEPT: usize = 4096;
 
-/// Whether a look may end, by what it has seen so far and the shape.
+/// The test that a look may end, by what it has seen so far and the shape.
 pub(super) type Ends<'e> = dyn FnMut(&Seen, &[f64]) -> bool + 'e;
 
-/// Where a look from `start` to `end` pauses next after `t`, to ask whether the orbit has arrived at an equilibrium: with the first step that
-/// reaches one of its quarters; infinite for nowhere. The look of a large system does not pause.
+/// The first pause of a look from `start` to `end` after `t`, to ask whether the orbit has arrived at an
+/// equilibrium: with the first step that reaches one of its quarters; infinite for none. The look of a large
+/// system does not pause.
 pub(super) fn pause(dim: usize, (start, end): (f64, f64), t: f64) -> f64 {
     let quarter = 0.25 * (end - start);
     let pauses = [1.0, 2.0, 3.0].map(|count| start + count * quarter);
@@ -91,7 +92,8 @@ impl Look {
         Self::take_until(body, orbit, (time, None), request, watch)
     }
 
-    /// As [`Look::take`]; it ends at a [`pause`] if `ends` says so of what was seen and of the shape. Steps are those of a look without pauses.
+    /// As [`Look::take`]; it ends at a [`pause`] if `ends` says so of what was seen and of the shape. Steps
+    /// are those of a look without pauses.
     pub(super) fn take_until<B: Equivariant + ?Sized>(
         body: &B,
         orbit: &mut dyn Integration,
@@ -129,8 +131,9 @@ impl Look {
         Ok(seen.look((start, orbit.t()), outcome, orbit.state().to_vec()))
     }
 
-    /// Whether the norm of the shape and its [`Gauge`] stayed the same, up to the part `hovering` of its size: the orbit was at an
-    /// equilibrium all the time. (Without symmetry the norm alone may be constant on an orbit.)
+    /// Returns `true` if the norm of the shape and its [`Gauge`] stayed the same, up to the part `hovering`
+    /// of its size: the orbit was at an equilibrium all the time. (Without symmetry the norm alone may be
+    /// constant on an orbit.)
     pub(super) fn is_still(&self, hovering: f64) -> bool {
         let least = hovering * self.sizes.1;
         let low = self.extremes.iter().map(|extreme| extreme.size).fold(f64::INFINITY, f64::min);
@@ -171,7 +174,7 @@ fn significant(extremes: Vec<Extreme>, flutter: f64) -> Vec<Extreme> {
     kept
 }
 
-/// What has been seen so far.
+/// The observations of a look so far.
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
     extremes: Vec<Extreme>,
@@ -210,7 +213,7 @@ impl Seen {
         self.extremes.push(extreme);
     }
 
-    /// Whether a rest is under way.
+    /// Returns `true` if a rest is under way.
     pub(super) fn resting(&self) -> bool {
         self.rest.is_some()
     }

@@ -1,4 +1,4 @@
-//! Which motion is it? The decision, with its evidence.
+//! The classification of a motion, with its evidence.
 
 mod ask;
 mod chaos;

@@ -1,4 +1,4 @@
-//! What the centre of mass does while the shape moves: speed, heading, drift.
+//! The motion of the centre of mass while the shape moves: speed, heading, drift.
 
 use super::settings::Settings;
 use super::verdict::Spread;
@@ -86,7 +86,7 @@ impl Path {
         self.velocities.iter().map(|v| libm::hypot(v[0], v[1])).collect()
     }
 
-    /// Whether the body ever moves.
+    /// Returns `true` if the body ever moves.
     pub(super) fn moves(&self) -> bool {
         self.speeds().iter().any(|&speed| speed > self.resolution.max(STILL * self.largest))
     }
@@ -137,7 +137,8 @@ impl Path {
         Some(out)
     }
 
-    /// Whether the velocity keeps to one line, forwards or backwards, to within `angle` (rad) of its largest value.
+    /// Returns `true` if the velocity keeps to one line, forwards or backwards, to within `angle` (rad) of
+    /// its largest value.
     pub(super) fn keeps_to_a_line(&self, angle: f64) -> bool {
         let speed = |v: &[f64; 2]| libm::hypot(v[0], v[1]);
         let fastest = self.velocities.iter().max_by(|a, b| speed(a).total_cmp(&speed(b)));

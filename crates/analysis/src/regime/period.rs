@@ -8,10 +8,12 @@ use motiform_dynamics::{Equivariant, Watch};
 
 /// The period of a motion that repeats, and the rotation that it adds up to.
 ///
-/// A shape comes back as its own image under a rotation or a mirror. Where the symmetry of the motion leaves a finite number of such images, the
-/// body is as it was after as many returns, and this is its period: two returns of mirror images, and two of a shape with a mirror axis that comes
-/// back turned, for its axis comes back as an axis. Where it leaves any angle, no number of returns brings the body back: the period is that of the shape, with a
-/// net rotation. So the period does not change with modes that act on nothing and do not turn: after it they are as they were, too.
+/// A shape comes back as its own image under a rotation or a mirror. Where the symmetry of the motion leaves
+/// a finite number of such images, the body is as it was after as many returns, and this is its period: two
+/// returns of mirror images, and two of a shape with a mirror axis that comes back turned, for its axis comes
+/// back as an axis. Where it leaves any angle, no number of returns brings the body back: the period is that
+/// of the shape, with a net rotation. So the period does not change with modes that act on nothing and do not
+/// turn: after it they are as they were, too.
 ///
 /// Source: spatial and spatio-temporal symmetries, Golubitsky and Stewart (2002), The Symmetry Perspective, section 3.1.
 ///
@@ -42,7 +44,8 @@ impl Period {
 const SAME_TIME: f64 = 1e-3;
 
 impl Verdict {
-    /// The periodic orbit of this motion near `shape`, over its first return, as Newton's method has it; `None` for a motion that does not repeat.
+    /// The periodic orbit of this motion near `shape`, over its first return, as Newton's method has it;
+    /// `None` for a motion that does not repeat.
     #[must_use]
     pub fn orbit<B: Equivariant + ?Sized>(
         &self,

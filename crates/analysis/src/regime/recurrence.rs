@@ -70,8 +70,8 @@ pub(super) fn recurrences<B: Equivariant + ?Sized>(
     found
 }
 
-/// Whether the same recurrence a period earlier was no closer: an orbit that others approach is approached. `true` where both are at
-/// the resolution.
+/// Returns `true` if the same recurrence a period earlier was no closer: an orbit that others approach is
+/// approached. `true` where both are at the resolution.
 ///
 /// Where the look is too short to tell, a small system may be tried. In a large one a try costs as much as hundreds of periods: it is
 /// asked for two close returns in a row. Chaos shows one close return in every look, and two of them as the square of that.
@@ -92,7 +92,7 @@ fn settles<B: Equivariant + ?Sized>(
 /// An unstable periodic orbit this near to the latest return, against the latest swing, is the motion itself.
 const ON: f64 = 1e-6;
 
-/// What the latest returns of a look say.
+/// The result of the latest returns of a look.
 #[derive(Debug)]
 pub(super) enum Returns {
     /// The look ends on a stable periodic orbit; the recurrence led to it.
@@ -180,7 +180,8 @@ fn resolved<B: Equivariant + ?Sized>(
     }
 }
 
-/// Whether one of the rests between two times was at a saddle by which cycles attract ([`attracting_saddle`]).
+/// Returns `true` if one of the rests between two times was at a saddle by which cycles attract
+/// ([`attracting_saddle`]).
 pub(super) fn passes_attracting_saddle<B: Equivariant + ?Sized>(
     body: &B,
     rests: &[Rest],
@@ -211,8 +212,8 @@ fn unmirrored<B: Equivariant + ?Sized>(
     }
 }
 
-/// The symmetry that every shape of the orbit has: that of some moments, spread over the period. (A zigzag that rests near a straight motion
-/// is nearly symmetric there, and only there.)
+/// The symmetry that every shape of the orbit has: that of some moments, spread over the period. (A zigzag
+/// that rests near a straight motion is nearly symmetric there, and only there.)
 pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
     body: &B,
     orbit: &PeriodicOrbit,
@@ -232,7 +233,8 @@ pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
     Ok(all)
 }
 
-/// Whether the orbit is one of the flow, and not of its tolerance: it passes no saddle that attracts as a cycle does.
+/// Returns `true` if the orbit is one of the flow, and not of its tolerance: it passes no saddle that
+/// attracts as a cycle does.
 fn is_of_the_flow<B: Equivariant + ?Sized>(
     body: &B,
     orbit: &PeriodicOrbit,

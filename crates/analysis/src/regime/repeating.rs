@@ -1,4 +1,4 @@
-//! What a body does on a periodic orbit that is given, stable or not.
+//! The motion of a body on a periodic orbit that is given, stable or not.
 
 use super::course::Direction;
 use super::form::Form;
@@ -11,7 +11,7 @@ use crate::isotropy::Isotropy;
 use crate::periodic::PeriodicOrbit;
 use motiform_dynamics::{Equivariant, Watch};
 
-/// What a body does over one period.
+/// The motion of a body over one period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Repeating {
     /// The kind of the motion.
@@ -36,7 +36,7 @@ pub struct Repeating {
 /// tolerance are those of `settings`; its looks and budgets do not matter.
 ///
 /// # Errors
-/// What the numerics refuse.
+/// Input that the numerics refuse.
 pub fn repeating<B: Equivariant + ?Sized>(
     body: &B,
     orbit: &PeriodicOrbit,

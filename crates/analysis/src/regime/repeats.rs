@@ -8,12 +8,12 @@ const STEADY: u32 = 2;
 /// Runs in a row whose exponent is what errors of steps leave of larger numbers: the next one would say the same.
 const CANCELLED: u32 = 3;
 
-/// What the latest looks and runs of a search have in common.
+/// The common results of the latest looks and runs of a search.
 #[derive(Debug, Default)]
 pub(super) struct Repeats {
     /// Turns between rests in the last look that were all the same.
     turns: Option<SteadyTurns>,
-    /// In how many looks in a row they were the same.
+    /// Number of looks in a row in which they were the same.
     steady: u32,
     /// Runs in a row without an exponent of the motion.
     cancelled: u32,
@@ -37,7 +37,8 @@ impl Repeats {
         self.turns.as_ref()
     }
 
-    /// Whether more time would say the same; `None` if it may not, otherwise for how long it has been so, in words.
+    /// The number of repetitions, in words, after which more time would give the same result; `None` if it
+    /// might not.
     pub(super) fn since(&self) -> Option<String> {
         if self.steady >= STEADY {
             return Some(format!("in {} looks in a row", self.steady));

@@ -1,4 +1,4 @@
-//! How far an answer moves in a finer model: the resolution of a verdict.
+//! The resolution of a verdict: the change of an answer in a finer model.
 
 use super::classify::classify;
 use super::settings::Settings;
@@ -17,8 +17,8 @@ pub struct Resolution {
     pub parameter: String,
     /// Its other value.
     pub value: f64,
-    /// The largest relative change of speed, turning rate and period; of a cycle that of the rates at its saddle; of chaos that of speed and largest
-    /// exponent, averages over a time.
+    /// The largest relative change of speed, turning rate and period; of a cycle that of the rates at its
+    /// saddle; of chaos that of speed and largest exponent, averages over a time.
     pub change: f64,
     /// Of chaos and tori the largest exponent there, averaged over a shorter time (inverse model time).
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -31,16 +31,17 @@ const LOOKS: f64 = 4.0;
 /// Looks over which an exponent is averaged in the finer model.
 const RUN: f64 = 4.0;
 
-/// Exponents that differ by more than this many times the sum of their errors are not those of one motion: as for runs that are pooled ([`super::growth`]).
+/// Exponents that differ by more than this many times the sum of their errors are not those of one motion: as
+/// for runs that are pooled ([`super::growth`]).
 const APART: f64 = 2.0;
 
 impl Verdict {
     /// This verdict with its resolution: what Newton's method finds from `shape` on this motion, given in the representation of `finer`, a
-    /// model of the same body in which `parameter` has this value. Undetermined where it is another motion there, or none. Chaos and tori are run on there for
-    /// a while.
+    /// model of the same body in which `parameter` has this value. Undetermined where it is another motion
+    /// there, or none. Chaos and tori are run on there for a while.
     ///
     /// # Errors
-    /// What the numerics refuse.
+    /// Input that the numerics refuse.
     pub fn resolved_by<B: Equivariant + ?Sized>(
         mut self,
         finer: &B,
@@ -80,8 +81,8 @@ impl Verdict {
         Ok(self)
     }
 
-    /// The verdict on a cycle with its resolution: the rates at the saddle beside `shape` in the finer model. Undetermined where a cycle does not
-    /// attract by them.
+    /// The verdict on a cycle with its resolution: the rates at the saddle beside `shape` in the finer model.
+    /// Undetermined where a cycle does not attract by them.
     fn at_saddle<B: Equivariant + ?Sized>(mut self, finer: &B, shape: &[f64], changed: (&str, f64)) -> Self {
         let found = RelativeEquilibrium::find(finer, shape);
         let (Some(own), Some(found)) = (self.saddle, found) else { return self };
@@ -95,8 +96,9 @@ impl Verdict {
         self
     }
 
-    /// The verdict on chaos or a torus with its resolution: the largest exponent of a run in the finer model. Undetermined where the two differ by more than
-    /// twice the sum of their errors; without a resolution where the run has no exponent.
+    /// The verdict on chaos or a torus with its resolution: the largest exponent of a run in the finer model.
+    /// Undetermined where the two differ by more than twice the sum of their errors; without a resolution
+    /// where the run has no exponent.
     fn averaged<B: Equivariant + ?Sized>(
         mut self,
         finer: &B,

@@ -1,4 +1,4 @@
-//! What the returns to the section say: witnesses beside the exponent.
+//! The evidence of the returns to the section: witnesses beside the exponent.
 
 use super::look::Extreme;
 use crate::linear::norm;
@@ -20,7 +20,8 @@ pub(super) fn dimension(minima: &[&Extreme]) -> Option<f64> {
     correlation_dimension(&points, 1e-9 * spread(&points)).ok().map(|found| found.value)
 }
 
-/// Whether the early and the late half of the returns fill the same set, in delay coordinates; `None` for too few.
+/// Returns `true` if the early and the late half of the returns fill the same set, in delay coordinates;
+/// `None` for too few.
 pub(super) fn stationary(minima: &[&Extreme]) -> Option<bool> {
     let points = delays(minima);
     let (early, late) = points.split_at(points.len() / 2);

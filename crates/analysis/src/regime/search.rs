@@ -24,7 +24,7 @@ use motiform_dynamics::{Equivariant, Outcome, Watch};
 /// An equilibrium is sought during a look where the reduced shape changes slower than this, against its fastest.
 const SETTLED: f64 = 1e-3;
 
-/// The decision on one motion, under way. It asks for observations and is told them: who makes them, one orbit or a lane of
+/// The decision on one motion, under way. It asks for observations and receives them: their source, one orbit or a lane of
 /// many, makes no difference to it.
 #[derive(Debug)]
 pub(super) struct Search {
@@ -32,12 +32,12 @@ pub(super) struct Search {
     /// Length of the look under way, and whether it is the first.
     span: f64,
     first: bool,
-    /// Where the orbit was last seen.
+    /// The latest shape of the orbit.
     shape: Vec<f64>,
     /// Model time spent, and to be spent at most.
     time: f64,
     budget: f64,
-    /// Whether the budget was doubled for an exponent that was nearly decided.
+    /// `true` if the budget was doubled for an exponent that was nearly decided.
     extended: bool,
     /// Fastest change of the reduced shape so far.
     fastest: f64,
@@ -45,7 +45,7 @@ pub(super) struct Search {
     largest: f64,
     /// Complete rests of all looks.
     rests: Vec<Rest>,
-    /// How tangent vectors grew in the runs so far.
+    /// The growth of tangent vectors in the runs so far.
     growth: Vec<Growth>,
     /// The stay at an unstable equilibrium that is under way.
     stay: Stay,
@@ -53,22 +53,22 @@ pub(super) struct Search {
     arrived: Option<RelativeEquilibrium>,
     /// The reduced speed at which an equilibrium was last sought during a look.
     sought: f64,
-    /// What the latest looks and runs have in common.
+    /// The common results of the latest looks and runs.
     repeats: Repeats,
     /// The closed curve that the returns of the last look lay on.
     curve: Curve,
-    /// What kept the last look from deciding.
+    /// The evidence that the last look lacked for a decision, in words.
     missing: String,
-    /// What the next observation is for.
+    /// The purpose of the next observation.
     pending: Pending,
 }
 
-/// What was asked for.
+/// The purpose of a requested observation.
 #[derive(Debug)]
 enum Pending {
     /// The next look.
     Look,
-    /// Whether the orbit comes closer to the nearby equilibrium.
+    /// The test that the orbit comes closer to the nearby equilibrium.
     Approach { found: Box<RelativeEquilibrium>, before: f64, reached: f64, size: f64 },
     /// An exponent; the look before.
     Exponent(Box<Look>),
@@ -112,8 +112,9 @@ impl Search {
         Ask::Look(self.span)
     }
 
-    /// Whether a look may end here, before its time: the orbit is close to a stable equilibrium. It is asked where the shape hardly changes any
-    /// more, and again where it changes ten times slower: in a cycle between saddles it rests as well.
+    /// Returns `true` if a look may end here, before its time: the orbit is close to a stable equilibrium. It
+    /// is asked where the shape hardly changes any more, and again where it changes ten times slower: in a
+    /// cycle between saddles it rests as well.
     pub(super) fn arrives<B: Equivariant + ?Sized>(&mut self, body: &B, seen: &Seen, shape: &[f64]) -> bool {
         let slow = (SETTLED * self.fastest.max(seen.fastest)).min(0.1 * self.sought);
         if !matches!(self.pending, Pending::Look) || seen.last_speed > slow {
@@ -192,7 +193,10 @@ impl Search {
             self.missing = if found.is_unstable() {
                 format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth())
             } else {
-                "the orbit rests at a shape that is neutral in a direction beside those of its symmetry (growth rate 0 within round-off): at these parameters the equations have more symmetry than stated, or the shape bifurcates".to_owned()
+                "the orbit rests at a shape that is neutral in a direction beside those of its symmetry \
+                (growth rate 0 within round-off): at these parameters the equations have more symmetry than \
+                stated, or the shape bifurcates"
+                    .to_owned()
             };
             return if before > reached {
                 self.recurs(body, look, watch)

@@ -1,10 +1,10 @@
-//! How long to look, and with what.
+//! The settings of a classification: time spans, method and limits.
 
 use crate::periodic::Flow;
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Outcome, Request, StepControl};
 
-/// How a motion is classified.
+/// The settings of a classification.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// Stepper of the shape.
@@ -50,8 +50,8 @@ impl Settings {
         self.flow().accuracy()
     }
 
-    /// How near (against its size) to a stable equilibrium an orbit of these settings hovers: nearer than this it has
-    /// arrived.
+    /// The distance (against its size) from a stable equilibrium at which an orbit of these settings hovers:
+    /// nearer than this it has arrived.
     pub(super) fn hovering(&self) -> f64 {
         match self.control {
             StepControl::Adaptive { rtol, .. } => (100.0 * rtol).max(1e-8),
@@ -69,7 +69,7 @@ impl Settings {
     }
 }
 
-/// What became of a look or a test.
+/// The outcome of a look or a test, if it did not reach its end.
 pub(super) fn ended(outcome: &Outcome) -> Option<Outcome> {
     (!outcome.is_complete()).then_some(*outcome)
 }

@@ -1,7 +1,8 @@
 //! Does a curve of returns shrink onto a stable periodic orbit?
 //!
-//! Beside a bifurcation of a torus the returns of an orbit fill a closed curve that shrinks as slowly as the multiplier of the periodic orbit
-//! inside is near 1: by a tenth in a look. What they shrink by is compared with what the multipliers say.
+//! Beside a bifurcation of a torus the returns of an orbit fill a closed curve that shrinks as slowly as the
+//! multiplier of the periodic orbit inside is near 1: by a tenth in a look. What they shrink by is compared
+//! with what the multipliers say.
 
 use super::look::{Extreme, Look};
 use super::recurrence::Recurrence;
@@ -38,8 +39,9 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// Takes in a look whose returns lie on a closed curve, or not. Whether it is the second one in a row with a curve of this size: beside an
-    /// unstable torus an orbit stays for thousands of turns, while the curve slowly changes.
+    /// Takes in a look whose returns lie on a closed curve, or not. Whether it is the second one in a row
+    /// with a curve of this size: beside an unstable torus an orbit stays for thousands of turns, while the
+    /// curve slowly changes.
     pub(super) fn is_seen_again(&mut self, look: &Look, closed: bool) -> bool {
         let size = closed.then(|| returns::width(&look.minima()));
         let before = std::mem::replace(&mut self.size, size);
@@ -47,8 +49,9 @@ impl Curve {
     }
 }
 
-/// The stable periodic orbit that the returns of a look shrink onto, at least as fast as its multipliers say, and its recurrence. `None` where
-/// that is not seen: there is none, it is unstable, they stay away from it, or the look is too short to tell.
+/// The stable periodic orbit that the returns of a look shrink onto, at least as fast as its multipliers say,
+/// and its recurrence. `None` where that is not seen: there is none, it is unstable, they stay away from it,
+/// or the look is too short to tell.
 pub(super) fn shrinking_onto<B: Equivariant + ?Sized>(
     body: &B,
     look: &Look,

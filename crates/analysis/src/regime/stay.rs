@@ -9,7 +9,7 @@ const EVERY_DEVIATION: f64 = 1500.0;
 /// The logarithm of the shape's size over its round-off.
 const ROUND_OFF: f64 = 37.0;
 
-/// How long an orbit has been at one unstable equilibrium.
+/// The time that an orbit has spent at one unstable equilibrium.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stay {
     time: f64,

@@ -7,7 +7,7 @@ use crate::equilibrium::RelativeEquilibrium;
 use crate::symmetry::{align, reduced_speed};
 use motiform_dynamics::{Equivariant, VectorField};
 
-/// So many turns in a row: by chance, all have one sense with a probability of 2^-12.
+/// Number of turns in a row: by chance, all have one sense with a probability of 2^-12.
 const TURNS: usize = 12;
 
 /// Turns that differ by less (rad) are the same.
@@ -16,12 +16,12 @@ const SAME: f64 = 1e-3;
 /// Shapes that differ by less than this part of the motion's diameter are the same.
 const CLOSE: f64 = 0.005;
 
-/// What the last turns of a look were like.
+/// The last turns of a look: their angle, sense and times.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SteadyTurns {
-    /// By how much the body turned each time (rad, above 0).
+    /// Angle of each turn of the body (rad, above 0).
     angle: f64,
-    /// Whether it turned to the left and to the right by turns.
+    /// `true` if it turned to the left and to the right by turns.
     alternates: bool,
     /// The shortest and the longest time from turn to turn.
     times: (f64, f64),
@@ -68,7 +68,7 @@ impl SteadyTurns {
         Self { angle, alternates, times: (1.0, 1.0), rates: (0.3, -0.2) }
     }
 
-    /// Whether the turns of another look were the same.
+    /// Returns `true` if the turns of another look were the same.
     pub(super) fn agrees(&self, other: &Self) -> bool {
         self.alternates == other.alternates && (self.angle - other.angle).abs() < SAME
     }
@@ -81,8 +81,9 @@ impl SteadyTurns {
             (Regime::QuasiPeriodic, "to the same side")
         };
         let why = format!(
-            "turns by {:.3} degrees {sense}, {TURNS} times in a row, after rests near motionless shapes that are saddles; lambda_+ = {:.4} \
-             and lambda_- = {:.4} have a positive sum, so the rests stay bounded; round-off decides how long they are ({:.1} to {:.1} from turn to turn)",
+            "turns by {:.3} degrees {sense}, {TURNS} times in a row, after rests near motionless shapes \
+            that are saddles; lambda_+ = {:.4} and lambda_- = {:.4} have a positive sum, so the rests stay \
+            bounded; round-off decides how long they are ({:.1} to {:.1} from turn to turn)",
             self.angle.to_degrees(),
             self.rates.0,
             self.rates.1,

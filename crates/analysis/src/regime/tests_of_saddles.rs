@@ -1,5 +1,6 @@
-//! Which recurrences are not tried, against the reduced tensor model: its motionless ellipse has `lambda_pm = gamma +- 2 a1 r2`, so cycles
-//! between ellipses attract where gamma is below 0 (physics: `lambda_+ + lambda_- = 2 gamma`).
+//! Tests of recurrences that are not tried, against the reduced tensor model: its motionless ellipse has
+//! `lambda_pm = gamma +- 2 a1 r2`, so cycles between ellipses attract where gamma is below 0 (physics:
+//! `lambda_+ + lambda_- = 2 gamma`).
 
 use super::look::Rest;
 use super::recurrence::passes_attracting_saddle;

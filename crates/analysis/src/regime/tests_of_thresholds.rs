@@ -49,7 +49,8 @@ fn pooled_error() -> f64 {
     mean_over(&rates, &vec![1.0; 2 * INTERVALS]).map_or(0.0, |mean| mean.error)
 }
 
-/// Whether two runs in a row, pooled, are chaos: `ratio` is the exponent over its error, `growth` the logarithm of the growth in both.
+/// Returns `true` if two runs in a row, pooled, are chaos: `ratio` is the exponent over its error, `growth`
+/// the logarithm of the growth in both.
 fn is_chaos(ratio: f64, growth: f64, zero_one: f64) -> bool {
     let (value, time) = (0.01, 0.5 * growth / 0.01);
     let one = run(value, value / (ratio * pooled_error()), time);
@@ -116,8 +117,9 @@ fn a_torus_stays_as_it_is() {
     }
 }
 
-/// An exponent beyond twice its error is not zero. Where the 0-1 test does not see order (K > 0.3), the distance of neighbouring orbits may not have
-/// grown by more than the number of returns (here e^6.9), error included.
+/// An exponent beyond twice its error is not zero. Where the 0-1 test does not see order (K > 0.3), the
+/// distance of neighbouring orbits may not have grown by more than the number of returns (here e^6.9), error
+/// included.
 #[test]
 fn a_torus_has_an_exponent_of_zero() {
     let unit = {

@@ -1,4 +1,4 @@
-//! What a classification says: the regime, the evidence for it, and how sure it is.
+//! The result of a classification: the regime, the evidence for it, and its margin.
 
 use crate::Estimate;
 use crate::equilibrium::Saddle;
@@ -73,7 +73,7 @@ impl Regime {
         }
     }
 
-    /// What a body does in it, in one sentence.
+    /// The motion of a body in this regime, in one sentence.
     #[must_use]
     pub const fn meaning(self) -> &'static str {
         match self {
@@ -203,11 +203,11 @@ pub struct Verdict {
     pub heading: Option<f64>,
     /// The evidence in one sentence, with its numbers.
     pub why: String,
-    /// How far the deciding number lies from where the decision would change, in units of its own uncertainty or
-    /// tolerance: 1 and less is weak, 10 is clear. Absent where nothing was decided.
+    /// The distance of the deciding number from the value at which the decision would change, in units of its
+    /// own uncertainty or tolerance: 1 and less is weak, 10 is clear. Absent where nothing was decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
-    /// How far its numbers move with more modes, where the model has a parameter for their number.
+    /// The change of its numbers with more modes, where the model has a parameter for their number.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub resolution: Option<Resolution>,
     /// Speed of the centre of mass (model length per model time).
@@ -219,8 +219,8 @@ pub struct Verdict {
     /// Its 95 % error, where it is an average over a part of the motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turning_error: Option<f64>,
-    /// Period (model time): after it the body is as it was, but for the net rotation. Two returns of the shape where it comes back mirrored, or turned
-    /// by half a turn on a line.
+    /// Period (model time): after it the body is as it was, but for the net rotation. Two returns of the
+    /// shape where it comes back mirrored, or turned by half a turn on a line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period: Option<f64>,
     /// Net rotation of the body per period (rad, in -pi..pi).

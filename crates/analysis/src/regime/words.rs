@@ -31,7 +31,7 @@ pub(super) fn blow_up(singular: bool, t: f64, time: f64) -> Verdict {
     verdict
 }
 
-/// What a body does at a relative equilibrium, in words.
+/// The motion of a body at a relative equilibrium, in words.
 fn what(steady: &SteadyMotion) -> String {
     let (speed, turning) = (steady.speed.value, steady.turning_rate.value);
     match (steady.moves(), steady.turns()) {
@@ -101,7 +101,8 @@ pub(super) fn unstable<B: Equivariant + ?Sized>(
 ) -> Verdict {
     let steady = SteadyMotion::of(body, found);
     let why = format!(
-        "{}, but unstable, growth rate {:.4e}: this start has an exact symmetry, and its orbit stayed for a time of {stay:.0}; a typical start leaves it",
+        "{}, but unstable, growth rate {:.4e}: this start has an exact symmetry, and its orbit stayed for a \
+        time of {stay:.0}; a typical start leaves it",
         what(&steady),
         found.growth()
     );
@@ -191,15 +192,16 @@ pub(super) fn periodic<B: Equivariant + ?Sized>(
     Ok(verdict)
 }
 
-/// Why a motion that stays on a periodic orbit has no name.
+/// The reason why a motion that stays on a periodic orbit has no name.
 pub(super) fn not_stable(orbit: &PeriodicOrbit) -> String {
     let (growth, error) = (orbit.growth(), orbit.growth_error());
     if orbit.is_unstable() {
         format!("the orbit stays on an unstable periodic orbit (largest multiplier {growth:.3})")
     } else {
         format!(
-            "the orbit stays on a periodic orbit that is neutral in a direction beside those of its symmetry (largest multiplier {growth:.6} +- \
-             {error:.0e}): the equations have more symmetry than stated, or the orbit bifurcates"
+            "the orbit stays on a periodic orbit that is neutral in a direction beside those of its \
+            symmetry (largest multiplier {growth:.6} +- {error:.0e}): the equations have more symmetry than \
+            stated, or the orbit bifurcates"
         )
     }
 }

@@ -10,11 +10,13 @@ use motiform_analysis::periodic::Flow;
 use motiform_analysis::regime::{Form, settle};
 use motiform_dynamics::{Equivariant, Scalar, Semilinear, Shape, Symmetry, System, VectorField};
 
-/// Van der Pol's oscillator in the plane, `x'' = (1 - |x|^2) x' - x` for a vector x, which is the velocity of the body; and beside it a mode of this index that
-/// acts on nothing and whose phase nothing fixes, `w' = w (1 - |w|^2)`, if there is an index. State x, x', w.
+/// Van der Pol's oscillator in the plane, `x'' = (1 - |x|^2) x' - x` for a vector x, which is the velocity of
+/// the body; and beside it a mode of this index that acts on nothing and whose phase nothing fixes,
+/// `w' = w (1 - |w|^2)`, if there is an index. State x, x', w.
 ///
-/// On a line it is van der Pol's oscillator. Deviations across the line decay: `y'' = (1 - x^2) y' - y` has the solution x, which is the rotation, and by
-/// Liouville's formula the multiplier `exp(integral of 1 - x^2)`, below 1.
+/// On a line it is van der Pol's oscillator. Deviations across the line decay: `y'' = (1 - x^2) y' - y` has
+/// the solution x, which is the rotation, and by Liouville's formula the multiplier
+/// `exp(integral of 1 - x^2)`, below 1.
 struct Line {
     index: Option<u8>,
 }
@@ -90,8 +92,8 @@ impl Equivariant for Line {
     }
 }
 
-/// The shape is back after half of van der Pol's period, turned by half a turn. A mode of odd index is not: it is where it was. One of even index is back
-/// as well, but has no mirror axis in common with the others.
+/// The shape is back after half of van der Pol's period, turned by half a turn. A mode of odd index is not:
+/// it is where it was. One of even index is back as well, but has no mirror axis in common with the others.
 #[test]
 fn forth_and_back_is_one_period() {
     let reference: toml::Table = include_str!("../../../../reference/zoo.toml").parse().unwrap();

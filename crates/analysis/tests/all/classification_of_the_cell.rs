@@ -1,5 +1,5 @@
-//! What the classification of the active cell costs, and what it refuses to try. Costs are counted in evaluations of the field, never in
-//! seconds.
+//! The cost of the classification of the active cell, and the tries that it refuses. Costs are counted in
+//! evaluations of the field, never in seconds.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -87,8 +87,8 @@ const _: fn() = || {
     is_equivariant::<Counted>();
 };
 
-/// At 13.5 two returns to the same saddle look like a perfect recurrence. No try at a periodic orbit may follow its tangent vectors far, and
-/// rests decide as soon as three of them were seen.
+/// At 13.5 two returns to the same saddle look like a perfect recurrence. No try at a periodic orbit may
+/// follow its tangent vectors far, and rests decide as soon as three of them were seen.
 #[test]
 fn a_cycle_of_saddles_is_named_without_following_tangent_vectors_through_its_rests() {
     let settings = settings("cell");

@@ -86,7 +86,8 @@ fn members_of_a_family_are_not_found_one_by_one() {
     assert!(known.iter().all(|one| one.shape[0].hypot(one.shape[1]) < 1e-12), "{known:?}");
 }
 
-/// The coefficients of `1, x, .., x^4` are -18.006, 21.005, 1.002, -5.001 and 1: the powers that dominate somewhere balance at about 2 units.
+/// The coefficients of `1, x, .., x^4` are -18.006, 21.005, 1.002, -5.001 and 1: the powers that dominate
+/// somewhere balance at about 2 units.
 #[test]
 fn sizes_follow_from_the_equations() {
     for unit in [1e-6, 1.0, 1e6] {

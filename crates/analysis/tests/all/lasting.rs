@@ -63,8 +63,8 @@ fn verdict(rate: f64, kind: Kind, amplitude: f64) -> (Verdict, f64) {
 /// Some looks more than the ordinary ones, with enough returns for a torus.
 const LONG: Settings = Settings { budget: 4e4, ..ORDINARY };
 
-/// Beside an unstable torus, and where two tori have vanished, an orbit stays for thousands of turns on a closed curve. It is named a torus only
-/// where it has arrived at the stable one.
+/// Beside an unstable torus, and where two tori have vanished, an orbit stays for thousands of turns on a
+/// closed curve. It is named a torus only where it has arrived at the stable one.
 #[test]
 fn a_curve_that_does_not_last_is_no_torus() {
     let starts = [0.99, 0.997, 1.003, 1.04];

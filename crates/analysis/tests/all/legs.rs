@@ -202,7 +202,7 @@ fn bad_input_is_refused() {
 }
 
 proptest! {
-    /// Whatever the samples are, rests and jumps included: numbers, angles in (-pi, pi], lists that belong together.
+    /// The results for samples of any kind, rests and jumps included: numbers, angles in (-pi, pi], lists that belong together.
     #[test]
     fn any_path_has_finite_angles_or_an_error(
         values in prop::collection::vec((0..4_u8, -1.0..1.0f64, -1.0..1.0f64, -5.0..5.0f64, -5.0..5.0f64), 8..60),

@@ -30,7 +30,8 @@ fn step(p: &TensorParameters, u: &State, h: f64) -> State {
     std::array::from_fn(|i| u[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]))
 }
 
-/// What does not depend on where the body points: sizes of the three parts, and two angles between them.
+/// Quantities that do not depend on the direction of the body: sizes of the three parts, and two angles
+/// between them.
 fn reduced(u: &State) -> [f64; 5] {
     let (v, s, w) = (u[0].hypot(u[1]), u[2].hypot(u[3]), u[4].hypot(u[5]));
     let along = u[2] * (u[0] * u[0] - u[1] * u[1]) + 2.0 * u[3] * u[0] * u[1]; // S v v
@@ -38,7 +39,7 @@ fn reduced(u: &State) -> [f64; 5] {
     [v, s, w, along, across]
 }
 
-/// What a long run does at its end.
+/// The end of a long run.
 struct Late {
     escaped: bool,
     /// Largest change of the reduced shape over the last quarter.
@@ -72,7 +73,7 @@ fn long_run(p: &TensorParameters, start: &State, time: f64) -> Late {
     late
 }
 
-/// Whether a verdict that is sure of itself fits what the run did.
+/// Returns `true` if a verdict with a clear margin agrees with the run.
 fn fits(verdict: &Verdict, late: &Late) -> bool {
     let rests = late.change < 1e-6 * late.size.max(1e-3);
     if late.escaped {
@@ -160,7 +161,7 @@ fn verdicts_from_invariant_subspaces_agree_with_long_runs() {
     assert!(3 * undecided < asked, "{undecided} of {asked}");
 }
 
-/// Whether the reduced shape of a cell rests at the end of a run.
+/// Returns `true` if the reduced shape of a cell rests at the end of a run.
 fn cell_rests<B: Equivariant>(body: &B, start: &[f64], time: f64, settings: &Settings) -> bool {
     let control = StepControl::Fixed { step: 0.1 };
     let mut orbit = settings.method.shape_orbit(body, control, 0.0, start).unwrap();

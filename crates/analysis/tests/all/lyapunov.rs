@@ -134,7 +134,8 @@ fn errors_cover_the_truth_as_often_as_they_say() {
     assert!(error < 12.0 * off, "errors of {error} say nothing about {off}");
 }
 
-/// How often the intervals of many runs cover `truth`, or their own mean; and how wide they are against 1.96 times the scatter.
+/// The share of many runs whose intervals cover `truth`, or their own mean; and the width of the intervals
+/// against 1.96 times the scatter.
 fn coverage(runs: &[Estimate], truth: Option<f64>) -> (f64, f64) {
     let n = runs.len() as f64;
     let truth = truth.unwrap_or_else(|| runs.iter().map(|x| x.value).sum::<f64>() / n);
@@ -177,7 +178,8 @@ fn errors_of_chaos_are_sharp() {
     }
 }
 
-/// What is too short for an error has none: an average over less than a turn, or over an instant of which only round-off is seen.
+/// Averages over less than a turn, or over an instant of which only round-off is seen, are too short for an
+/// error and have none.
 #[test]
 fn short_averages_have_no_error() {
     let model = full(0.5, 0.1);
@@ -191,8 +193,8 @@ fn short_averages_have_no_error() {
     assert!(seen.exponents[0].has_error() && seen.without_error().is_none());
 }
 
-/// A short run that still approaches a stable circular motion has the zero of the rotations alone: its flow decays like everything else. The slowest
-/// rate is .164, so it ends at e^-10 of its size from the motion.
+/// A short run that still approaches a stable circular motion has the zero of the rotations alone: its flow
+/// decays like everything else. The slowest rate is .164, so it ends at e^-10 of its size from the motion.
 #[test]
 fn a_run_that_settles_has_no_neutral_direction_along_its_flow() {
     for (transient, span) in [(30.0, 30.0), (40.0, 25.0), (200.0, 200.0)] {
@@ -236,7 +238,8 @@ fn neutral_directions_are_those_of_the_motion_that_a_run_ends_on() {
     }
 }
 
-/// The rule for a positive exponent on both sides of each of its limits: three errors, and a growth by e^10 in all and by e^3.58 in each run.
+/// The rule for a positive exponent on both sides of each of its limits: three errors, and a growth by e^10
+/// in all and by e^3.58 in each run.
 #[test]
 fn a_positive_exponent_needs_three_errors_and_growth_beyond_powers_of_time() {
     let one = |value, error| Estimate { value, error };

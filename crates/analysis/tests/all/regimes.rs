@@ -98,8 +98,9 @@ fn circular_is_stable(kappa2: f64, gamma: f64) -> bool {
 /// A line nearer than this (in kappa2 or gamma; the box is 0.44 by 0.28) may count as crossed.
 const NEAR_A_LINE: f64 = 2e-3;
 
-/// Whether |z1| goes through the same minima again and again, not ever smaller ones as on a heteroclinic cycle, until `time`: fixed steps, no Newton's method.
-/// The formulas say where straight motion becomes unstable, not which cycles there are beside that line.
+/// Returns `true` if |z1| goes through the same minima again and again, not ever smaller ones as on a
+/// heteroclinic cycle, until `time`: fixed steps, no Newton's method. The formulas say where straight motion
+/// becomes unstable, not which cycles there are beside that line.
 fn repeats(kappa2: f64, gamma: f64, start: &[f64], time: f64) -> bool {
     let model = reduced(kappa2, gamma);
     let mut orbit = Orbit::new(&model, &RK4, StepControl::Fixed { step: 0.1 }, 0.0, start).unwrap();
@@ -173,7 +174,7 @@ const FULL: [(f64, &str); 6] = [
     (0.1, "BBBB***zzzzccccc"),
 ];
 
-/// What motiform finds instead, at (kappa2, kappa3), and why it is trusted.
+/// The motions that motiform finds instead, at (kappa2, kappa3), and the reason why each is trusted.
 const FOUND: [((f64, f64), &str); 5] = [
     ((0.1, 0.4), "z"), // chaos ends in it after 200 to 20 000 time units; lambda_1 = (1 +- 7) 1e-5 over the next 40 000
     ((0.3, 0.1), "*"), // chaos that may escape
@@ -295,8 +296,8 @@ fn rectangular_motion_carries_its_turns_and_its_saddle() {
     assert!(verdict.legs.iter().all(|turn| (turn.abs() - FRAC_PI_2).abs() < 1e-3), "{:?}", verdict.legs);
 }
 
-/// Just above gamma = 0 the lines say that quasi-periodic motion is stable, with rests as long as round-off makes them. Nothing is learned from
-/// looks that say the same: a search ends long before its budget.
+/// Just above gamma = 0 the lines say that quasi-periodic motion is stable, with rests as long as round-off
+/// makes them. Nothing is learned from looks that say the same: a search ends long before its budget.
 #[test]
 fn turns_that_stay_the_same_are_decided_early() {
     for kappa2 in [-0.18, -0.15] {

@@ -1,4 +1,4 @@
-//! Whether two sets of points are one: sets of known orbits, stationary and not.
+//! The test that two sets of points are one: sets of known orbits, stationary and not.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

@@ -1,4 +1,5 @@
-//! Whether an equilibrium moves and turns does not depend on how it was found or how finely the body is resolved.
+//! The independence of a steady motion's name from the way to the equilibrium and from the resolution of the
+//! body.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

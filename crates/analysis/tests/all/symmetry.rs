@@ -24,7 +24,7 @@ fn image<B: Equivariant>(body: &B, shape: &[f64], angle: f64, mirrored: bool) ->
     out
 }
 
-/// What remains of the distance is the rounding of the rotations (up to 21 modes), far below 1e-12.
+/// Asserts that the remaining distance is the rounding of the rotations (up to 21 modes), far below 1e-12.
 fn exact<B: Equivariant>(body: &B, shape: &[f64], angle: f64) {
     for mirrored in [false, true] {
         let reference = image(body, shape, angle, mirrored);

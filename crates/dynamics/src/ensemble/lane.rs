@@ -11,13 +11,14 @@ pub trait LaneTask<B: Bundle, const D: usize> {
     /// The field of all lanes, with each lane's own parameters.
     type Field: VectorField<B>;
 
-    /// Whether [`LaneTask::stepped`] is to be called.
+    /// `true` if [`LaneTask::stepped`] is to be called.
     const WATCHES: bool = false;
 
-    /// Whether [`LaneTask::after_step`] is to be called.
+    /// `true` if [`LaneTask::after_step`] is to be called.
     const AFTER_STEP: bool = false;
 
-    /// Whether [`LaneTask::after_step`] is also called for lanes that have just entered, with steps estimated where they entered.
+    /// `true` if [`LaneTask::after_step`] is also called for lanes that have just entered, with steps
+    /// estimated at their entry.
     const AT_ENTRY: bool = false;
 
     /// The field.
@@ -50,7 +51,7 @@ pub trait LaneTask<B: Bundle, const D: usize> {
     fn leave(&mut self, lane: usize, leaving: &Leaving<D>) -> Then;
 }
 
-/// Where a member starts.
+/// The start of a member: time, state and end of the time span.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry<const D: usize> {
     /// Time.
@@ -70,7 +71,7 @@ pub struct Pace {
     pub(crate) previous: f64,
 }
 
-/// Why a member has stopped.
+/// The reason why a member has stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Why {
     /// It reached the end of its time span.
@@ -85,7 +86,7 @@ pub enum Why {
 /// A member that has stopped.
 #[derive(Clone, Copy, Debug)]
 pub struct Leaving<const D: usize> {
-    /// Why.
+    /// The reason.
     pub why: Why,
     /// Time.
     pub t: f64,

@@ -10,12 +10,12 @@ use crate::simd::{InstructionSet, LaneKernel, run_lanes_on, run_wide};
 use crate::steppers::unrolled::{Dop853, LaneStep, StepSlopes};
 use crate::{Bundle, InPlane, Mask, VectorField, Watch};
 
-/// What the state of a member is.
+/// The extent of a member's state: the shape alone, or the shape and the position.
 pub trait Extent {
     /// Numbers of the position behind the shape.
     const POSITION: usize;
 
-    /// Whether rows are recorded. (A kernel without rows takes half as long to compile.)
+    /// `true` if rows are recorded. (A kernel without rows takes half as long to compile.)
     const ROWS: bool;
 
     /// The field of such states.
@@ -80,7 +80,7 @@ pub struct NoisyMember<F, const D: usize> {
     pub noise: NoiseSteps,
 }
 
-/// How members under noise are run: the flow by DOP853 with error control.
+/// The settings of a run of members under noise: the flow by DOP853 with error control.
 #[derive(Clone, Copy, Debug)]
 pub struct NoisySpan {
     /// Start and end.
@@ -116,8 +116,8 @@ pub struct NoisyQueue<'q, F, const D: usize> {
 }
 
 /// Runs the members in lanes on this thread; `false`, without any work, on a machine without lanes. The states are those of
-/// [`crate::NoisyOrbit`] over [`crate::Orbit`] driven from the start to the end, to the last bit, on every instruction set: the flow is computed in lanes,
-/// the noise lane by lane. A step does not allocate.
+/// [`crate::NoisyOrbit`] over [`crate::Orbit`] driven from the start to the end, to the last bit, on every
+/// instruction set: the flow is computed in lanes, the noise lane by lane. A step does not allocate.
 ///
 /// # Checked by  tests/all/noisy_lanes.rs: the bits of single orbits, for every instruction set
 pub fn propagate_noisy<F: InLanes, E: Extent, const D: usize>(

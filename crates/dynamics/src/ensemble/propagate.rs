@@ -39,7 +39,7 @@ pub struct Member<F, const D: usize> {
     pub start: [f64; D],
 }
 
-/// How an ensemble is run: by DOP853 with error control.
+/// The settings of a run of an ensemble: DOP853 with error control.
 #[derive(Clone, Copy, Debug)]
 pub struct Propagation<'t> {
     /// Times at which the states are computed, increasing, the first one at least 0.

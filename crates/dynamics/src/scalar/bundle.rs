@@ -25,14 +25,14 @@ impl Mask {
         Self(u16::MAX >> (16 - count))
     }
 
-    /// Whether lane `lane` is set.
+    /// Returns `true` if lane `lane` is set.
     #[inline(always)]
     #[must_use]
     pub fn has(self, lane: usize) -> bool {
         self.0 >> lane & 1 == 1
     }
 
-    /// Whether any lane is set.
+    /// Returns `true` if any lane is set.
     #[inline(always)]
     #[must_use]
     pub fn any(self) -> bool {

@@ -46,7 +46,8 @@ pub trait Scalar:
     /// `N` of them in a row, for sums along it.
     type Row<const N: usize>: Row<Self>;
 
-    /// Whether a value of this type lives in a kernel that was compiled for the widest instructions already.
+    /// `true` if values of this type occur only in kernels that were compiled for the widest instructions
+    /// already.
     const IN_KERNEL: bool = false;
 
     /// The constant `value`, of the same kind as `self` (same lanes; derivative zero).

@@ -24,7 +24,7 @@ use crate::scalar::Bundle;
 /// Work that benefits from vector instructions. `run` and all that it calls must be `#[inline(always)]` functions (not
 /// closures), otherwise they are compiled for the baseline instruction set.
 pub trait Kernel {
-    /// What it computes.
+    /// The result of the kernel.
     type Output;
 
     /// Does the work.
@@ -33,7 +33,7 @@ pub trait Kernel {
 
 /// A piece of work over eight lanes. As with [`Kernel`], all that it calls must be `#[inline(always)]`.
 pub trait LaneKernel {
-    /// What it computes.
+    /// The result of the kernel.
     type Output;
 
     /// Does the work with bundles of type `B`.
@@ -142,7 +142,7 @@ pub fn run_wide<K: LaneKernel>(kernel: K) -> Option<K::Output> {
     }
 }
 
-/// Whether this machine has vector registers that lanes are compiled for.
+/// Returns `true` if this machine has vector registers that lanes are compiled for.
 #[must_use]
 pub fn has_lanes() -> bool {
     InstructionSet::widest() > InstructionSet::Portable

@@ -26,7 +26,7 @@ impl PhiValues {
 /// One term of a combination of stages: `(stage, coefficient)`, the coefficient a function of `h lambda`.
 pub type ExponentialTerm = (usize, fn(&PhiValues) -> f64);
 
-/// Where a stage lies in the step.
+/// The position of a stage in the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Node {
     /// `t + h/2`, reached by `e^{z/2}`.
@@ -63,7 +63,7 @@ impl ExponentialTableau {
         self.rows.len() + 1
     }
 
-    /// Whether the method can control its step.
+    /// Returns `true` if the method can control its step.
     #[must_use]
     pub const fn is_adaptive(&self) -> bool {
         self.error.is_some()

@@ -44,7 +44,7 @@ impl Method {
         }
     }
 
-    /// Whether it can control its step.
+    /// Returns `true` if the method can control its step.
     #[must_use]
     pub fn is_adaptive(self) -> bool {
         match self {

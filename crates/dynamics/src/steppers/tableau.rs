@@ -22,13 +22,13 @@ pub struct Tableau {
     pub rows: &'static [&'static [Term]],
     /// Weights `b_i`.
     pub weights: &'static [Term],
-    /// How the error of a step is estimated.
+    /// The estimate of a step's error.
     pub error: ErrorEstimate,
     /// The interpolant inside a step.
     pub dense: Dense,
 }
 
-/// How a method estimates the error of one step (all weights multiply `h k_i`).
+/// The error estimate of a method for one step (all weights multiply `h k_i`).
 #[derive(Debug)]
 pub enum ErrorEstimate {
     /// None: the method runs with fixed steps only.
@@ -96,13 +96,13 @@ impl Tableau {
         self.stages() + 1 + self.dense.rows.len()
     }
 
-    /// Whether the method can control its step.
+    /// Returns `true` if the method can control its step.
     #[must_use]
     pub const fn is_adaptive(&self) -> bool {
         !matches!(self.error, ErrorEstimate::None)
     }
 
-    /// Whether the error estimate needs the slope at the end of the step.
+    /// Returns `true` if the error estimate needs the slope at the end of the step.
     #[must_use]
     pub fn error_needs_end(&self) -> bool {
         let end = self.stages();

@@ -97,7 +97,7 @@ const fn node(tableau: &'static Tableau, stage: usize) -> f64 {
     if stage < tableau.nodes.len() { tableau.nodes[stage] } else { 0.0 }
 }
 
-/// Where a step starts and how long it is, lane by lane.
+/// The starts and sizes of a step, lane by lane.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneStep<'u, B, const D: usize> {
     /// Time at its start.

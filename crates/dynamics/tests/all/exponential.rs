@@ -223,7 +223,8 @@ fn bad_input_is_refused_and_overflow_is_an_outcome() {
     }
 }
 
-/// `u' = -u` has decayed to 1e-287 at 660 and to 1e-295 at 680: the one is what it is, the other 0, and not a number that every operation is slow with.
+/// `u' = -u` has decayed to 1e-287 at 660 and to 1e-295 at 680: the one is what it is, the other 0, and not a
+/// number that every operation is slow with.
 #[test]
 fn what_has_decayed_to_the_least_numbers_is_0() {
     struct Decay;

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 const NUMBERS: usize = 19;
 const MASKS: usize = 7;
 
-/// What one bundle gives: numbers lane by lane, and masks.
+/// The results of one bundle: numbers lane by lane, and masks.
 struct Results {
     lanes: usize,
     numbers: [[f64; MOST_LANES]; NUMBERS],

@@ -37,7 +37,7 @@ pub(crate) struct Services {
     pub(crate) ahead: returns::Ahead,
     pub(crate) swarms: swarm::Swarms,
     pub(crate) answers: Answers,
-    /// What a body can begin with; the page can add its own equations.
+    /// The subjects that a body can begin with; the page can add its own equations.
     pub(crate) catalogue: RefCell<Catalogue>,
 }
 
@@ -78,7 +78,7 @@ pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) {
         || swarm::perform(errand, back);
 }
 
-/// Where the requests of a page come from.
+/// The source of a page's requests.
 pub(crate) trait Asks {
     /// The next request; `None` if the page has disconnected, pending if it has not asked anything yet.
     fn next(&self) -> Poll<Option<Ask>>;

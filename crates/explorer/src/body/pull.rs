@@ -18,8 +18,8 @@ const NEAR: f64 = 1e-3;
 const REACH: (f64, f64) = (0.25, 2.5);
 
 impl Setting {
-    /// The body with its outline pulled to a point. The velocity of a model that has one is left as it is, for the outline does not depend on
-    /// it; the path goes on where it is.
+    /// The body with its outline pulled to a point. The velocity of a model that has one is left as it is,
+    /// for the outline does not depend on it; the path goes on where it is.
     pub(super) fn pulled(&self, pull: &Pull, seen: &Seen<'_>) -> Result<Self, Error> {
         let [x, y] = pull.to;
         let remedy = "the outline is pulled to a finite point other than the centre";
@@ -86,7 +86,7 @@ impl Pulled<'_> {
         Ok(gradient)
     }
 
-    /// How far the outline reaches in the direction; `None` if it is no curve.
+    /// The reach of the outline in the direction; `None` if it is no curve.
     fn extent(&self, coordinates: &[f64]) -> Result<Option<f64>, Error> {
         let state = state_of(self.model, coordinates, self.position)?;
         let shape = &state[..self.model.dim()];

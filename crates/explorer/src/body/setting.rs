@@ -22,12 +22,12 @@ const AHEAD: (usize, Duration) = (600, Duration::from_millis(30));
 /// No entry of a shape is larger, and no body is farther away or later: sums of squares and steps of time stay numbers.
 const LARGEST: (f64, f64) = (1e9, 1e12);
 
-/// What stays the same until the next change.
+/// The data of a body that stay the same until the next change.
 pub(crate) struct Setting {
     /// Model and preset as the page names them.
     model_name: String,
     preset: Option<String>,
-    /// What it began with.
+    /// The subject that it began with.
     origin: Rc<Subject>,
     /// The study as started: a restart uses its initial state.
     study: Study,
@@ -99,7 +99,8 @@ impl Setting {
         Ok(Self { radius, ..next })
     }
 
-    /// Whether the model or the study says how large the undeformed body is; otherwise it is drawn so large that its deformations suit it.
+    /// Returns `true` if the model or the study gives the radius of the undeformed body; otherwise it is
+    /// drawn at a size that suits its deformations.
     pub(super) fn has_own_radius(&self) -> bool {
         self.model.radius().is_some() || self.study.figure.radius > 0.0
     }
@@ -126,7 +127,7 @@ impl Setting {
         &self.study.display
     }
 
-    /// What the body began with.
+    /// The subject that the body began with.
     pub(crate) fn origin(&self) -> &Subject {
         &self.origin
     }

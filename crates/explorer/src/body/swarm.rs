@@ -26,7 +26,7 @@ const PICTURE: Duration = Duration::from_millis(22);
 /// Streams of noise of the swarm begin here; so many for each revision.
 const STREAMS: (u64, u64) = (1 << 40, 256);
 
-/// What stays of a swarm from one change of the body to the next.
+/// The data of a swarm that are kept from one change of the body to the next.
 pub(super) struct Group {
     from: SwarmStart,
     /// Shape, then x and y.
@@ -103,7 +103,7 @@ impl Swarms {
         self.worker.report(errand).map_or(Ok(()), |text| self.answers.text(text))
     }
 
-    /// Whether there is one that goes on after a change.
+    /// Returns `true` if there is one that goes on after a change.
     pub(super) fn goes_on(&self) -> bool {
         self.group.borrow().is_some()
     }

@@ -37,7 +37,7 @@ pub(crate) struct BranchService {
     heard: Arc<Heard>,
 }
 
-/// What is known, and the page that is told.
+/// The branches known so far, and the page that receives them.
 struct Heard {
     known: Mutex<Option<Known>>,
     answers: Answers,
@@ -90,7 +90,7 @@ impl BranchService {
         *lock(&self.heard.known) = None;
     }
 
-    /// Whether branches are, or were, followed along this parameter.
+    /// Returns `true` if branches are, or were, followed along this parameter.
     pub(crate) fn along(&self, name: &str) -> bool {
         lock(&self.heard.known).as_ref().is_some_and(|known| known.plan.computation.along.name == name)
     }

@@ -20,7 +20,7 @@ const EVERY: Duration = Duration::from_millis(120);
 /// Most points of a branch to each side, and most branches of a job.
 const MOST: (usize, u16) = (2000, 24);
 
-/// What to follow: the motion that the start of a plan settles on, and at most so many branches.
+/// The task: to follow branches from the motion that the start of a plan settles on, at most so many.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Job {
     pub(super) epoch: u32,

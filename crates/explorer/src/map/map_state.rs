@@ -123,7 +123,7 @@ fn axis(side: &Side, values: Vec<f64>) -> Axis {
     Axis { name: side.name.clone(), values }
 }
 
-/// What the values along a side may be.
+/// The values that a side of a map may take.
 struct Range {
     allowed: (f64, f64),
     whole: bool,

@@ -95,7 +95,7 @@ impl Map {
         }
     }
 
-    /// Whether the visible map has this parameter as an axis.
+    /// Returns `true` if the visible map has this parameter as an axis.
     pub(crate) fn has_axis(&self, name: &str) -> bool {
         let map_state = lock(&self.map_state);
         map_state.present().is_some_and(|map| map.plan.computation.axes.iter().any(|axis| axis.name == name))

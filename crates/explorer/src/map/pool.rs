@@ -96,7 +96,7 @@ struct Window {
     taken: usize,
     /// Cells under way, by their number in the plan.
     under_way: BTreeMap<usize, Cell>,
-    /// Whether each helper has work.
+    /// `true` for each helper that has work.
     busy: Vec<bool>,
     telling: Telling,
 }

@@ -42,7 +42,7 @@ pub(super) fn compute(
     work.finish()
 }
 
-/// What the threads share.
+/// The data that the threads share.
 struct Work<'w> {
     view: &'w View,
     map_state: &'w Mutex<MapState>,

@@ -1,4 +1,4 @@
-//! What the server says, as JSON.
+//! The messages of the server, as JSON.
 
 use super::SectionKind;
 use super::typescript::{Fields, Typed, interface, messages, words};
@@ -281,6 +281,9 @@ pub(crate) fn parts() -> String {
             [$(interface(&<$type>::name(), <$type>::DOCS, None, &<$type>::fields())),*]
         };
     }
-    let parts = all! { Parameter Coordinate Observable Side Plane Model Preset Regime Registry Tracked Exponent Spectrum Returns Grid Line SpecialPoint };
+    let parts = all! {
+        Parameter Coordinate Observable Side Plane Model Preset Regime Registry Tracked Exponent Spectrum Returns
+        Grid Line SpecialPoint
+    };
     parts.join("\n") + "\n" + &Dashes::declaration()
 }

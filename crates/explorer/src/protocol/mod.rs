@@ -1,6 +1,7 @@
-//! All messages between page and server, declared once: the Rust types here, `crates/explorer/web/src/protocol.ts` made from them (a test compares).
+//! All messages between page and server, declared once: the Rust types here, and
+//! `crates/explorer/web/src/protocol.ts`, which is made from them (a test compares).
 //!
-//! This file has what a page may ask; everything else is refused.
+//! This file has the requests that a page may send; everything else is refused.
 
 mod answers;
 mod typescript;
@@ -216,7 +217,7 @@ impl Request {
     /// Reads a message.
     ///
     /// # Errors
-    /// What is wrong with it, in one sentence.
+    /// The fault of the message, in one sentence.
     pub fn parse(text: &str) -> Result<Self, String> {
         Ask::parse(text).map(Self)
     }
@@ -238,14 +239,14 @@ impl Ask {
     /// Reads a message.
     ///
     /// # Errors
-    /// What is wrong with it, in one sentence.
+    /// The fault of the message, in one sentence.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         serde_json::from_str(text).map_err(|_| Self::wrong(text).to_owned())
     }
 }
 
 impl Ask {
-    /// What is wrong with a message, in words of its own: nothing of the message is repeated.
+    /// The fault of a message, in words of its own: nothing of the message is repeated.
     fn wrong(text: &str) -> &'static str {
         let Ok(value) = serde_json::from_str::<serde_json::Value>(text) else {
             return "this message is not JSON, or has a number that is not finite";

@@ -103,7 +103,7 @@ macro_rules! messages {
             }
 
             impl $name {
-                /// What it is.
+                /// The comment of the declaration, line by line.
                 #[allow(dead_code, reason = "wishes are lines without comments")]
                 pub(crate) const DOCS: &'static [&'static str] = &[$($doc),*];
             }
@@ -114,7 +114,11 @@ pub(crate) use messages;
 
 /// Declares a choice of words: a Rust enum and a TypeScript type of strings.
 macro_rules! words {
-    ($( $(#[doc = $doc:literal])* $name:ident as $alias:literal { $( $(#[doc = $word_doc:literal])* $word:ident = $text:literal, )* } )*) => {$(
+    ($(
+        $(#[doc = $doc:literal])* $name:ident as $alias:literal {
+            $( $(#[doc = $word_doc:literal])* $word:ident = $text:literal, )*
+        }
+    )*) => {$(
         $(#[doc = $doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
         pub(crate) enum $name { $( $(#[doc = $word_doc])* #[serde(rename = $text)] $word, )* }

@@ -16,7 +16,7 @@ const UNANSWERED: usize = 64;
 /// An answer that is not read within this time is given up.
 const READ_WITHIN: Duration = Duration::from_secs(60);
 
-/// How long others may be silent.
+/// The times for which clients may be silent.
 #[derive(Clone, Copy, Debug)]
 pub struct Patience {
     /// Time for the head of a request.

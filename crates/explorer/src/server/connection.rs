@@ -1,6 +1,7 @@
 //! The connection to one page: incoming messages and answers, until one side disconnects.
 //!
-//! Two threads share it: that of the connection reads, another one writes. What a reader has to say to the other side goes through the outbox, too.
+//! Two threads share it: that of the connection reads, another one writes. What a reader has to say to the
+//! other side goes through the outbox, too.
 
 use crate::server::accept::{Patience, shut};
 use crate::server::outbox::{End, Next, Outbox};
@@ -32,7 +33,7 @@ const READ_WHOLE: usize = 32 * LONGEST;
 /// A page has so long to read why it is closed, and to close in turn.
 pub(crate) const GOODBYE: Duration = Duration::from_millis(400);
 
-/// What a page is served with.
+/// The data that a page is served with.
 pub(crate) struct Guest {
     pub(crate) greeting: Greeting,
     pub(crate) catalogue: Catalogue,

@@ -49,7 +49,7 @@ impl Token {
         &self.0
     }
 
-    /// Whether `other` is the token; takes as long for every wrong one of the same length.
+    /// Returns `true` if `other` is the token; takes as long for every wrong one of the same length.
     #[must_use]
     pub(crate) fn is(&self, other: &str) -> bool {
         let difference = self.0.bytes().zip(other.bytes()).fold(0, |sum, (a, b)| sum | (a ^ b));
@@ -68,13 +68,14 @@ impl Names {
         Self { port }
     }
 
-    /// Whether a request was sent to this server under its own name: not through another name that was made to point
-    /// here (DNS rebinding).
+    /// Returns `true` if a request was sent to this server under its own name: not through another name that
+    /// was made to point here (DNS rebinding).
     pub(crate) fn host_is_ours(&self, headers: &HeaderMap) -> bool {
         one(headers, header::HOST).is_some_and(|host| self.hosts().contains(&host.to_owned()))
     }
 
-    /// Whether a request comes from a page of this server: browsers always send the origin of a WebSocket.
+    /// Returns `true` if a request comes from a page of this server: browsers always send the origin of a
+    /// WebSocket.
     pub(crate) fn origin_is_ours(&self, headers: &HeaderMap) -> bool {
         let ours = self.hosts().map(|host| format!("http://{host}"));
         one(headers, header::ORIGIN).is_some_and(|origin| ours.contains(&origin.to_owned()))
@@ -88,7 +89,7 @@ impl Names {
 /// The origin of a page that has none, such as one in a sandboxed frame.
 pub(crate) const NO_ORIGIN: &str = "null";
 
-/// Whether a request comes from a page without an origin.
+/// Returns `true` if a request comes from a page without an origin.
 pub(crate) fn no_origin(headers: &HeaderMap) -> bool {
     one(headers, header::ORIGIN) == Some(NO_ORIGIN)
 }

@@ -16,7 +16,8 @@ pub struct Handover {
 }
 
 impl Handover {
-    /// Writes a file that redirects to `address`, in the user's folder for running programs or, where there is none, in that of temporary files.
+    /// Writes a file that redirects to `address`, in the user's folder for running programs or, where there
+    /// is none, in that of temporary files.
     ///
     /// # Errors
     /// The folder cannot be written to, or the system provides no random numbers.
@@ -35,7 +36,7 @@ impl Handover {
         Ok(made)
     }
 
-    /// Where it is.
+    /// The path of the file.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -44,7 +45,7 @@ impl Handover {
 
 impl Drop for Handover {
     fn drop(&mut self) {
-        // Who removed it before has done no harm.
+        // A file that was removed before does no harm.
         let _ = std::fs::remove_file(&self.path);
     }
 }

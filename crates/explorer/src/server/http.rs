@@ -12,7 +12,7 @@ use tungstenite::http::{HeaderValue, Response, StatusCode, header};
 /// Bytes of the head of a request. Browsers send one or two thousand.
 const LONGEST_HEAD: usize = 16 * 1024;
 
-/// What is sent: all answers are in the program.
+/// A response: all bodies are in the program.
 pub(crate) type Answer = Response<&'static [u8]>;
 
 /// Reads the head of a request; with it comes what was read beyond it.
@@ -62,7 +62,7 @@ pub(crate) fn bytes(answer: &Answer) -> Vec<u8> {
     bytes
 }
 
-/// How long the other side has to close the connection in turn.
+/// The time in which the other side must close the connection in turn.
 const CLOSES_WITHIN: Duration = Duration::from_millis(400);
 
 /// Lets the other side read an answer to its end: if what it still sends stayed unread, the operating system would reset the connection.

@@ -1,5 +1,6 @@
-//! The server of `motiform explore`, for one user on one machine: it listens on 127.0.0.1 only, every address contains a random token, and a page
-//! can only send the messages of the protocol: no file is read or written for it. The page is built into the program.
+//! The server of `motiform explore`, for one user on one machine: it listens on 127.0.0.1 only, every address
+//! contains a random token, and a page can only send the messages of the protocol: no file is read or written
+//! for it. The page is built into the program.
 //!
 //! Here: the port of the server, its address, and its end.
 
@@ -46,7 +47,7 @@ pub struct Options {
     pub model: Option<String>,
     /// A study file to open.
     pub file: Option<StudyFile>,
-    /// How long others may be silent.
+    /// The times for which clients may be silent.
     pub patience: Patience,
 }
 
@@ -56,11 +57,11 @@ pub struct Server {
     shared: Arc<Shared>,
     port: u16,
     stop: Arc<Stop>,
-    /// What the page opens: `preset=fig5a`, `model=my.toml`.
+    /// The subject that the page opens: `preset=fig5a`, `model=my.toml`.
     opens: Option<String>,
 }
 
-/// Whether the server is to end.
+/// The request that the server end.
 pub(crate) struct Stop {
     is_set: AtomicBool,
     address: SocketAddr,
@@ -84,7 +85,7 @@ impl Handle {
     }
 }
 
-/// What all requests share.
+/// The data that all requests share.
 pub(crate) struct Shared {
     pub(crate) token: Token,
     pub(crate) names: Names,

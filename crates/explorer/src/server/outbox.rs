@@ -1,4 +1,5 @@
-//! What waits to be sent to a page: answers of its session, and at last the reason why the connection is closed.
+//! The queue of messages to a page: answers of its session, and at last the reason why the connection is
+//! closed.
 
 use crate::Gone;
 use std::collections::VecDeque;
@@ -9,10 +10,10 @@ use tungstenite::Message;
 /// Number of messages that wait: threads that are faster than the page wait for it.
 const WAITING: usize = 64;
 
-/// Why a connection is closed: a code (RFC 6455, 7.4.1) and words.
+/// The reason why a connection is closed: a code (RFC 6455, 7.4.1) and words.
 pub(crate) type End = (u16, &'static str);
 
-/// What the writer of a page does next.
+/// The next action of the writer of a page.
 pub(crate) enum Next {
     Send(Message),
     /// Nothing came until the given time.
@@ -98,7 +99,8 @@ mod tests {
     use super::*;
     use std::time::Duration;
 
-    /// Who waits for a page that does not read is let go by its end, and the reason comes before what waits.
+    /// A thread that waits for a page that does not read is released by the end of the connection, and the
+    /// reason is sent before the queue.
     #[test]
     fn an_end_goes_first_and_frees_who_waits() {
         let outbox = Outbox::default();

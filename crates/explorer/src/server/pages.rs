@@ -16,7 +16,7 @@ type Page = (Arc<TcpStream>, Arc<Outbox>);
 #[derive(Default)]
 struct Inner {
     open: Vec<Page>,
-    /// Why there is no place for anybody any more.
+    /// The reason why no more pages are admitted, once there is one.
     dismissed: Option<End>,
 }
 
@@ -34,7 +34,7 @@ pub(crate) struct Place<'p> {
 }
 
 impl Place<'_> {
-    /// What is sent to the page.
+    /// The queue of messages to the page.
     pub(crate) fn outbox(&self) -> &Arc<Outbox> {
         &self.outbox
     }
@@ -56,7 +56,7 @@ impl Pages {
     /// A place for a page.
     ///
     /// # Errors
-    /// Why there is none.
+    /// The reason why there is none.
     pub(crate) fn enter(&self, stream: &Arc<TcpStream>) -> Result<Place<'_>, End> {
         let mut inner = self.lock();
         if let Some(end) = inner.dismissed {

@@ -1,4 +1,4 @@
-//! What is at which address, and who may have it.
+//! The addresses of the server, and the requests that each admits.
 
 use crate::server::Shared;
 use crate::server::accept::shut;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 use tungstenite::handshake::server::{Request, create_response};
 use tungstenite::http::{HeaderName, HeaderValue, StatusCode, header};
 
-/// What the page may load, and that no other page may embed it.
+/// The content security policy: what the page may load, and that no other page may embed it.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; \
                       base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -25,7 +25,7 @@ const HEADERS: [(HeaderName, &str); 6] = [
     (header::CACHE_CONTROL, "no-cache"),
 ];
 
-/// Where the page opens its WebSocket.
+/// The name of the address at which the page opens its WebSocket.
 const LIVE: &str = "live";
 
 /// The token and the name of `/TOKEN/NAME`; other addresses have nothing.
@@ -33,18 +33,19 @@ fn parts(request: &Request) -> Option<(&str, &str)> {
     request.uri().path().strip_prefix('/')?.split_once('/').filter(|(_, name)| !name.contains('/'))
 }
 
-/// Whether the reader asks for a page to stand within another one.
+/// Returns `true` if the reader asks for a page to stand within another one.
 fn is_embed(request: &Request) -> bool {
     request.uri().query().is_some_and(|query| query == "embed" || query.starts_with("embed="))
 }
 
-/// Whether this token opens the server, and the request was sent to it by its own name. The answer does not reveal which was wrong.
+/// Returns `true` if this token opens the server, and the request was sent to it by its own name. The answer
+/// does not reveal which was wrong.
 fn admits(shared: &Shared, token: &str, request: &Request) -> bool {
     let ours = shared.names.host_is_ours(request.headers());
     shared.token.is(token) && ours
 }
 
-/// Whether a request is for the WebSocket.
+/// Returns `true` if a request is for the WebSocket.
 pub(crate) fn is_live(request: &Request) -> bool {
     parts(request).is_some_and(|(_, name)| name == LIVE)
 }

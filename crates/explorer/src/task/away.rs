@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 /// A job on its way to a helper, or a report on its way back.
 ///
-/// As text: the helper's name, the number of the order, and JSON, each on a line. Without JSON an errand to a helper says that what it does is
-/// stale, and one that comes back says that the helper is free.
+/// As text: the helper's name, the number of the order, and JSON, each on a line. Without JSON an errand to a
+/// helper says that what it does is stale, and one that comes back says that the helper is free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Errand<'e> {
     /// The helper: a task, such as `naming`, and a number for those of the map, such as `map0`.
@@ -71,7 +71,7 @@ pub(crate) struct Away<T> {
     task: PhantomData<fn() -> T>,
     post: Post,
     order: Cell<u64>,
-    /// Whether the helper may have work.
+    /// `true` if the helper may have work.
     busy: Cell<bool>,
 }
 

@@ -17,9 +17,9 @@ use thread::Thread;
 
 /// A kind of computation. It knows nothing of its session: what it needs is in the job, what it finds is in the reports.
 pub(crate) trait Task: 'static {
-    /// What to compute.
+    /// The description of a computation.
     type Job: Serialize + DeserializeOwned + Send + 'static;
-    /// What was found so far.
+    /// A partial result.
     type Report: Serialize + DeserializeOwned + 'static;
 
     /// Its name, among all tasks.
@@ -35,10 +35,10 @@ pub(crate) trait Task: 'static {
     fn run(job: Self::Job, watch: &dyn Watch, tell: Tell<'_, Self::Report>) -> Result<(), Gone>;
 }
 
-/// Where the reports of a job go.
+/// The receiver of the reports of a job.
 pub(crate) type Tell<'t, R> = &'t (dyn Fn(R) -> Result<(), Gone> + Sync);
 
-/// Who does the computations of a session.
+/// The threads or helpers that do the computations of a session.
 pub(crate) enum Crew {
     /// Threads of this program.
     #[cfg(feature = "threads")]

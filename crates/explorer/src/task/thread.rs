@@ -24,7 +24,7 @@ struct Slot<J> {
     closed: bool,
 }
 
-/// Whether a job is still the latest. It is a [`Watch`], so every computation stops when it is not.
+/// The test that a job is still the latest. It is a [`Watch`], so every computation stops when it is not.
 pub(crate) struct Current<'d> {
     order: &'d AtomicU64,
     mine: u64,

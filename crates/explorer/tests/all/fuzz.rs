@@ -1,4 +1,5 @@
-//! A sample of damaged messages, sent to a server: it answers the next page as ever. Far more of them are read in the process (`session/tests/all/fuzz.rs`).
+//! A sample of damaged messages, sent to a server: it answers the next page as ever. Far more of them are
+//! read in the process (`session/tests/all/fuzz.rs`).
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 

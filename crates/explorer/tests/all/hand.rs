@@ -1,4 +1,4 @@
-//! What a reader does with the body by hand, what is computed ahead of it, and the bodies of a swarm.
+//! Requests by hand about the body, the computations ahead of it, and the bodies of a swarm.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -123,7 +123,10 @@ fn returns_come_at_once() {
     assert!(told["time"].as_f64().unwrap() > 1000.0);
     assert_eq!(page.advance(0.0).samples.len(), 1, "the body itself has not moved");
     // A motion without returns ends by itself, and a change ends it at once.
-    page.say(r#"{"do":"begin","model":"tensor","preset":"fig4","parameters":{"kappa2":0.2,"kappa3":0.1},"state":[8,1,30,0,-20,0],"position":[0,0]}"#);
+    page.say(concat!(
+        r#"{"do":"begin","model":"tensor","preset":"fig4","parameters":{"kappa2":0.2,"kappa3":0.1},"#,
+        r#""state":[8,1,30,0,-20,0],"position":[0,0]}"#
+    ));
     page.json("begun");
     page.say(r#"{"do":"returns","section":"speed","count":300}"#);
     assert_eq!(page.json("returns")["complete"], false, "it blows up");

@@ -1,4 +1,4 @@
-//! Who is let in, and what the server stands.
+//! Access to the server, and its resistance to bad requests.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -263,7 +263,7 @@ fn impatient() -> Running {
     Running::start(&Options { port: Some(free), patience, ..Options::default() })
 }
 
-/// Whether the other side closes this connection within some seconds.
+/// Returns `true` if the other side closes this connection within some seconds.
 fn ends(stream: &mut TcpStream) -> bool {
     stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
     match stream.read(&mut [0; 1024]) {

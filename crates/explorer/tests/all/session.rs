@@ -1,4 +1,4 @@
-//! What a page is told: the body, its motion, the map, the files.
+//! The messages to a page: the body, its motion, the map, the files.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -79,8 +79,11 @@ fn kick_noise_restart_and_a_state_to_begin_with() {
     let state = serde_json::to_string(&b.coordinates).unwrap();
     let [x, y] = b.position;
     page.say(&format!(
-        r#"{{"do":"begin","model":"tensor","preset":"fig2","parameters":{{"gamma":-0.05}},"state":{state},"position":[{x:?},{y:?}],"t":{:?}}}"#,
-        b.t
+        concat!(
+            r#"{{"do":"begin","model":"tensor","preset":"fig2","parameters":{{"gamma":-0.05}},"#,
+            r#""state":{},"position":[{:?},{:?}],"t":{:?}}}"#
+        ),
+        state, x, y, b.t
     ));
     assert_eq!(page.json("begun")["parameters"]["gamma"], -0.05);
     let back = page.advance(0.0);
@@ -94,9 +97,10 @@ fn kick_noise_restart_and_a_state_to_begin_with() {
 fn a_body_that_blows_up_says_so_and_can_be_restarted() {
     let server = Running::anywhere();
     let mut page = server.page();
-    page.say(
-        r#"{"do":"begin","model":"tensor","preset":"fig4","parameters":{"kappa2":0.2,"kappa3":0.1},"state":[8,1,30,0,-20,0],"position":null}"#,
-    );
+    page.say(concat!(
+        r#"{"do":"begin","model":"tensor","preset":"fig4","parameters":{"kappa2":0.2,"kappa3":0.1},"#,
+        r#""state":[8,1,30,0,-20,0],"position":null}"#
+    ));
     page.json("begun");
     page.advance_whole(5.0);
     let ended = page.json("ended");
@@ -109,7 +113,8 @@ fn a_body_that_blows_up_says_so_and_can_be_restarted() {
     assert!(page.advance(1.0).t > 0.0);
 }
 
-/// A map is what `motiform classify` says of each cell's parameters, and every cell comes: those that are shipped with the program, and those that are computed.
+/// A map is what `motiform classify` says of each cell's parameters, and every cell comes: those that are
+/// shipped with the program, and those that are computed.
 #[test]
 fn the_map_says_what_classify_says() {
     let server = Running::anywhere();

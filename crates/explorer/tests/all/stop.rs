@@ -36,7 +36,7 @@ fn a_client_that_does_not_listen() {
     silent.begin("tensor", Some("fig5a"));
     deaf.begin("tensor", Some("fig5a"));
     let mute = std::net::TcpStream::connect(server.host()).unwrap();
-    // More answers than the system keeps for who does not read them.
+    // More answers than the system keeps for a reader that does not read them.
     deaf.socket.get_mut().set_write_timeout(Some(Duration::from_millis(200))).unwrap();
     for _ in 0..1000 {
         if deaf.socket.send(tungstenite::Message::text(r#"{"do":"advance","dt":5}"#)).is_err() {

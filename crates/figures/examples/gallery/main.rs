@@ -1,4 +1,5 @@
-//! Draws every kind of figure from data of a small formula, extreme shapes included, to look at; each kind also in a column of 86 mm and on a slide.
+//! Draws every kind of figure from data of a small formula, extreme shapes included, to look at; each kind
+//! also in a column of 86 mm and on a slide.
 //!
 //! `cargo run --release -p motiform-figures --example gallery -- FOLDER`
 

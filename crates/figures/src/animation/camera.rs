@@ -25,7 +25,7 @@ const FOLLOW_FOOT: f64 = 38.0;
 pub(super) struct View {
     /// Data to pixels; for a following camera, at the moment when the body is at the origin.
     pub(super) scale: Scale,
-    /// Whether the body stays in the middle.
+    /// `true` if the body stays in the middle.
     pub(super) follow: bool,
     /// Distance of grid lines under a following camera, in data units.
     pub(super) grid: f64,

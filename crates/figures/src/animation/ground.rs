@@ -1,4 +1,4 @@
-//! What is behind the moving body: axes, or a frame with a scale bar.
+//! The background of the moving body: axes, or a frame with a scale bar.
 
 use tiny_skia::{Color, Pixmap, Transform};
 

@@ -22,7 +22,7 @@ pub struct Frame {
     pub outline: Vec<Point>,
 }
 
-/// Which part of the plane is shown.
+/// The part of the plane that is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Camera {
     /// [`Camera::Fixed`], or [`Camera::Follow`] where the body would be smaller than 1/14 of the picture.
@@ -47,7 +47,7 @@ pub struct Animation {
     pub size: u32,
     /// Frames per second, 1 to 100.
     pub fps: f64,
-    /// Which part of the plane is shown.
+    /// The part of the plane that is shown.
     pub camera: Camera,
     /// Label of the x axis.
     pub x_label: String,

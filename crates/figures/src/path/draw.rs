@@ -27,7 +27,7 @@ impl PathFigure {
         Range::of(self.outlines.iter().map(|o| o.t)).filter(|range| range.span() > 0.0)
     }
 
-    /// What the legend explains: only what is drawn.
+    /// The entries of the legend: only what is drawn.
     pub(super) fn legend(&self) -> Vec<Entry> {
         let mut entries = Vec::new();
         let count = self.points().count();

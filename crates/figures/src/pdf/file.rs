@@ -8,7 +8,7 @@ use std::io::Write as _;
 #[derive(Default)]
 pub(super) struct File {
     bytes: Vec<u8>,
-    /// Where each object begins.
+    /// The offset of each object in the file.
     places: Vec<usize>,
 }
 

@@ -25,7 +25,7 @@ impl Used {
         out.replace("><", "") + "]"
     }
 
-    /// Whether no glyph is used.
+    /// Returns `true` if no glyph is used.
     pub(super) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -60,16 +60,18 @@ impl Used {
             .map(|(glyph, one)| format!("{glyph} [{}] ", short(1000.0 * advance(face, *one))))
             .collect();
         let glyphs = file.object(&format!(
-            "<< /Type /Font /Subtype /CIDFontType2 /BaseFont /{name} /CIDSystemInfo << /Registry (Adobe) /Ordering (Identity) /Supplement 0 >> \
-             /FontDescriptor {descriptor} 0 R /CIDToGIDMap /Identity /DW 600 /W [{widths}] >>"
+            "<< /Type /Font /Subtype /CIDFontType2 /BaseFont /{name} /CIDSystemInfo << /Registry (Adobe) \
+            /Ordering (Identity) /Supplement 0 >> /FontDescriptor {descriptor} 0 R /CIDToGIDMap /Identity \
+            /DW 600 /W [{widths}] >>"
         ));
         let meanings = file.stream("", self.meanings().as_bytes());
         file.object(&format!(
-            "<< /Type /Font /Subtype /Type0 /BaseFont /{name} /Encoding /Identity-H /DescendantFonts [{glyphs} 0 R] /ToUnicode {meanings} 0 R >>"
+            "<< /Type /Font /Subtype /Type0 /BaseFont /{name} /Encoding /Identity-H /DescendantFonts \
+            [{glyphs} 0 R] /ToUnicode {meanings} 0 R >>"
         ))
     }
 
-    /// Which character each glyph is: what a reader copies and finds.
+    /// The table of the characters of the glyphs, by which a reader copies and finds text.
     fn meanings(&self) -> String {
         let mut out = String::from(
             "/CIDInit /ProcSet findresource begin\n12 dict begin\nbegincmap\n/CMapName /Letters def\n/CMapType 2 def\n\

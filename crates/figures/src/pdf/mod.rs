@@ -28,7 +28,7 @@ mod tests {
         bytes.windows(what.len()).position(|window| window == what.as_bytes())
     }
 
-    /// What the page draws: its first stream.
+    /// The drawing of the page: its first stream.
     fn content(file: &[u8]) -> String {
         let from = find(file, "stream\n").expect("a stream") + "stream\n".len();
         let mut text = String::new();

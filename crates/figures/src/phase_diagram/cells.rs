@@ -72,12 +72,12 @@ impl Cells {
         Some(self.y.find(y)? * self.x.centres.len() + self.x.find(x)?)
     }
 
-    /// What was found in a cell.
+    /// The motions found in a cell.
     pub(super) fn at(&self, column: usize, row: usize) -> Option<&Shares> {
         self.places[row * self.x.centres.len() + column].as_ref()
     }
 
-    /// Whether a regime occurs anywhere.
+    /// Returns `true` if a regime occurs anywhere.
     pub(super) fn has(&self, rank: usize) -> bool {
         self.places.iter().flatten().flatten().any(|(r, _)| *r == rank)
     }

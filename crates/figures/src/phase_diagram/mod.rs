@@ -95,7 +95,8 @@ impl PhaseDiagram {
         sheet.svg(|svg, scale| self.draw(svg, scale, &cells, look))
     }
 
-    /// Draws the cells into the frame of another figure, with their markers unless they have names ([`Self::names`]); what lies outside is cut off.
+    /// Draws the cells into the frame of another figure, with their markers unless they have names
+    /// ([`Self::names`]); what lies outside is cut off.
     pub(crate) fn draw_under(&self, svg: &mut Svg, scale: &Scale, room: Room, named: bool) -> Result<()> {
         let cells = Cells::new(&self.x, &self.y, &self.cells)?;
         let [x, y] = cells.ranges();
@@ -116,7 +117,8 @@ impl PhaseDiagram {
         drawn
     }
 
-    /// The names of wide regions for the frame of another figure whose corner is the origin, with their paths, where `clear` has nothing against a place.
+    /// The names of wide regions for the frame of another figure whose corner is the origin, with their
+    /// paths, where `clear` has nothing against a place.
     pub(crate) fn names(
         &self,
         scale: &Scale,
@@ -127,7 +129,7 @@ impl PhaseDiagram {
         Ok(names::places(scale, &cells, insets, clear))
     }
 
-    /// What the cells cover, across and upwards.
+    /// The ranges that the cells cover, across and upwards.
     pub(crate) fn ranges(&self) -> Result<[Range; 2]> {
         Ok(Cells::new(&self.x, &self.y, &self.cells)?.ranges())
     }
@@ -197,7 +199,7 @@ impl PhaseDiagram {
 
 figure!(PhaseDiagram);
 
-/// How cells are drawn.
+/// The style of the cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Look {
     /// Markers on pale tiles.

@@ -20,7 +20,7 @@ const GROUND: f64 = 0.8;
 /// Room for a marker where there is none for a name, in pixels.
 const MARKER: f64 = 18.0;
 
-/// Where a name is tried, as parts of the room that it leaves in a row.
+/// The positions at which a name is tried, as parts of the room that it leaves in a row.
 const STEPS: [f64; 7] = [0.5, 0.4, 0.6, 0.25, 0.75, 0.1, 0.9];
 
 /// Names of more motions than this are no names.
@@ -46,8 +46,8 @@ struct Name {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Names(Vec<Name>);
 
-/// Places the names of the regions that have room for them, below a name the paths of its motions, where `clear` has nothing against it; a marker
-/// where one motion has no room for its name.
+/// Places the names of the regions that have room for them, below a name the paths of its motions, where
+/// `clear` has nothing against it; a marker where one motion has no room for its name.
 pub(super) fn places(
     scale: &Scale,
     cells: &Cells,
@@ -88,7 +88,7 @@ impl Names {
         self.0.iter().map(|name| name.place)
     }
 
-    /// Whether a motion stands in the plane by its name, alone, and nowhere by its marker.
+    /// Returns `true` if a motion stands in the plane by its name, alone, and nowhere by its marker.
     pub(super) fn tell(&self, rank: usize) -> bool {
         let own = || self.0.iter().filter(|name| name.motions == [rank]);
         own().any(|name| name.label.is_some()) && own().all(|name| name.label.is_some())
@@ -167,7 +167,7 @@ fn place(
     best.map(|found| found.1)
 }
 
-/// Whether the part of a row below a name belongs to its region.
+/// Returns `true` if the part of a row below a name belongs to its region.
 fn covered(scale: &Scale, cells: &Cells, row: usize, at: &Rect, is_own: &dyn Fn([usize; 2]) -> bool) -> bool {
     let columns = cells.size().0;
     let touched = (0..columns).filter(|column| {

@@ -19,7 +19,7 @@ pub(super) fn draw_markers(svg: &mut Svg, scale: &Scale, cells: &Cells) {
     tiles(scale, cells).for_each(|(tile, shares)| draw_marker(svg, tile, shares));
 }
 
-/// What was found, with its place in pixels.
+/// The motions found in each cell, with its place in pixels.
 fn tiles<'a>(scale: &'a Scale, cells: &'a Cells) -> impl Iterator<Item = (Rect, &'a Shares)> {
     let (columns, rows) = cells.size();
     let places = (0..rows).flat_map(move |row| (0..columns).map(move |column| (column, row)));

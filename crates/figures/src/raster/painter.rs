@@ -10,7 +10,7 @@ use super::shapes::{Pen, colour, path, pen, rect};
 use crate::error::Result;
 use crate::fonts::Face;
 
-/// What a document is drawn on: pixels, or the page of a file.
+/// The surface that a document is drawn on: pixels, or the page of a file.
 pub(crate) trait Canvas {
     /// Fills a path.
     fn fill(&mut self, path: &Path, colour: Color);
@@ -39,7 +39,7 @@ pub(crate) struct Sheet {
 
 /// A line of text.
 pub(crate) struct Line {
-    /// Where its anchor stands, and how it is turned.
+    /// The place of its anchor, and its rotation.
     pub(crate) place: Transform,
     /// The share of its width that is before its place.
     pub(crate) before: f32,
@@ -55,7 +55,7 @@ pub(crate) struct Line {
 pub(crate) struct Run {
     pub(crate) face: Face,
     pub(crate) size: f32,
-    /// How far the baseline lies below that of the run before.
+    /// The displacement of the baseline below that of the run before.
     pub(crate) lower: f64,
     pub(crate) text: String,
 }

@@ -15,7 +15,7 @@ const MOST_PIXELS: f64 = 1e8;
 pub(super) struct Pixels {
     pub(super) pixmap: Pixmap,
     transform: Transform,
-    /// What is seen within the open groups.
+    /// The visible part within the open groups.
     masks: Vec<Mask>,
 }
 

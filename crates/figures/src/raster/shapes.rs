@@ -55,16 +55,16 @@ pub(super) fn colour(element: &Element, name: &str) -> Result<Option<Color>> {
     Ok(Some(colour))
 }
 
-/// How a line is drawn; its corners are round.
+/// The pen of a line; its corners are round.
 pub(crate) struct Pen {
     pub(crate) width: f32,
-    /// Whether its ends are round, too.
+    /// `true` if its ends are round, too.
     pub(crate) round: bool,
     /// Lengths of dashes and gaps in turn; empty for an unbroken line.
     pub(crate) dash: Vec<f32>,
 }
 
-/// How the line of an element is drawn.
+/// The pen of the line of an element.
 pub(super) fn pen(element: &Element) -> Result<Pen> {
     let dash = element.get("stroke-dasharray").map(|text| text.split(' ').map(number).collect());
     let dash: Option<Vec<f32>> = dash.transpose()?;

@@ -9,7 +9,7 @@ use crate::text::Label;
 
 const SIDE: usize = 100;
 
-/// How dark the pixels of a sheet are, row after row: 0 is white.
+/// The darkness of the pixels of a sheet, row after row: 0 is white.
 fn ink(draw: impl FnOnce(&mut Svg)) -> Vec<u8> {
     let mut svg = Svg::new(SIDE as f64, SIDE as f64);
     draw(&mut svg);

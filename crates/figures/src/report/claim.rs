@@ -5,19 +5,19 @@ use serde::{Deserialize, Serialize};
 /// A statement and what became of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Claim {
-    /// Whose statement it is.
+    /// The author of the statement.
     pub source: Source,
-    /// What the paper says, or what we check.
+    /// The statement of the paper, or of our check.
     pub says: String,
-    /// What we find.
+    /// The finding.
     pub finds: String,
-    /// How it was decided: quantity, tolerance.
+    /// The way of the decision: quantity, tolerance.
     pub how: String,
     /// The decision.
     pub verdict: Verdict,
 }
 
-/// Whose statement a claim is.
+/// The author of a claim.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Source {
     /// The paper's, in the sentences of these numbers (see [`super::Sentence`]).
@@ -27,7 +27,7 @@ pub enum Source {
 }
 
 impl Claim {
-    /// Whether it is a check of ours, not a claim of the paper.
+    /// Returns `true` if it is a check of ours, not a claim of the paper.
     #[must_use]
     pub fn is_ours(&self) -> bool {
         self.source == Source::Ours
@@ -42,13 +42,13 @@ impl Claim {
         }
     }
 
-    /// What it is called.
+    /// Its noun.
     pub(super) fn noun(&self) -> &'static str {
         if self.is_ours() { "Check" } else { "Claim" }
     }
 }
 
-/// Whether a claim holds.
+/// The decision on a claim.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// It does.
@@ -60,12 +60,12 @@ pub enum Verdict {
     },
     /// It does not.
     Fails {
-        /// What goes wrong.
+        /// The fault.
         explanation: String,
     },
     /// Too little was computed to say.
     Unjudged {
-        /// What is missing.
+        /// The missing part.
         explanation: String,
     },
 }
@@ -82,7 +82,7 @@ impl Verdict {
         }
     }
 
-    /// Why it does not hold; `None` if it does.
+    /// The reason why it does not hold; `None` if it does.
     #[must_use]
     pub fn explanation(&self) -> Option<&str> {
         match self {
@@ -104,7 +104,7 @@ impl Verdict {
     }
 }
 
-/// How many claims hold, differ, fail, and are not judged.
+/// The numbers of claims that hold, differ, fail, and are not judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
     /// Claims that hold.

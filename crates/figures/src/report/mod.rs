@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 pub struct Report {
     /// Heading of the page.
     pub title: String,
-    /// What the page is about.
+    /// The subject of the page.
     pub about: String,
     /// A page that this one belongs to: words, and the page relative to this one.
     pub parent: Option<(String, String)>,
@@ -43,7 +43,7 @@ pub struct Section {
     pub number: Option<usize>,
     /// Heading.
     pub title: String,
-    /// What is shown and asked.
+    /// The subject of the section: what is shown and asked.
     pub about: String,
     /// Names and values of what was set.
     pub parameters: Vec<(String, String)>,
@@ -58,7 +58,8 @@ pub struct Section {
 }
 
 impl Section {
-    /// What the figures, then the small ones, are called in the section of this number: those of a paper `3(b)`, others `3.1`, `3.2`, ...
+    /// The names of the figures, then of the small ones, in the section of this number: those of a paper
+    /// `3(b)`, others `3.1`, `3.2`, ...
     #[must_use]
     pub fn figure_names(&self, number: usize) -> Vec<String> {
         let mut further = 0;
@@ -76,7 +77,8 @@ impl Section {
 /// A picture and the words below it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReportFigure {
-    /// Which figure of a paper it is, such as `3(b)`; `None`: a further one, which is counted within its section.
+    /// The figure of a paper that it is, such as `3(b)`; `None`: a further one, which is counted within its
+    /// section.
     pub of_paper: Option<String>,
     /// Words below the picture; they also stand for it where it cannot be seen.
     pub caption: String,
@@ -142,7 +144,8 @@ impl Report {
         self.sections.iter().flat_map(|section| &section.claims)
     }
 
-    /// Whether no claim and no check fails. One that differs for a known reason or is not judged is no failure; a report without claims has none.
+    /// Returns `true` if no claim and no check fails. One that differs for a known reason or is not judged is
+    /// no failure; a report without claims has none.
     #[must_use]
     pub fn all_hold(&self) -> bool {
         self.counts().fail + self.checks().fail == 0

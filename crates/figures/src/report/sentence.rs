@@ -9,14 +9,14 @@ pub struct Sentence {
     pub numbers: (u16, u16),
     /// The part of the paper.
     pub part: String,
-    /// How it begins, or what the group says (markup).
+    /// Its beginning, or the statement of the group (markup).
     pub words: String,
-    /// Why it is not checked; `None` if claims check it.
+    /// The reason why it is not checked; `None` if claims check it.
     pub unchecked: Option<String>,
 }
 
 impl Sentence {
-    /// Whether a claim is about it.
+    /// Returns `true` if a claim is about it.
     fn covers(&self, claim: &Claim) -> bool {
         claim.sentences().iter().any(|number| (self.numbers.0..=self.numbers.1).contains(number))
     }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// A table.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Table {
-    /// What it shows (markup).
+    /// The caption (markup).
     pub caption: String,
     /// Heads of the columns (markup); those that are defined are links.
     pub head: Vec<String>,
@@ -23,7 +23,7 @@ pub struct Cell {
     pub text: String,
     /// A page that it leads to, relative to this one.
     pub link: Option<String>,
-    /// Whether it is a number, which stands at the right.
+    /// `true` if it is a number, which stands at the right.
     pub number: bool,
 }
 

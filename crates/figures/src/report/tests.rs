@@ -1,4 +1,4 @@
-//! What holds for every report.
+//! The properties of every report.
 
 use crate::report::*;
 use crate::{Chart, png};

@@ -1,6 +1,7 @@
 //! Every kind of figure looks like its reference picture, in a column of a journal and on a slide.
 //!
-//! `MOTIFORM_UPDATE=1 cargo test --release -p motiform-figures --test all references` draws the pictures again; look at them before they go in.
+//! `MOTIFORM_UPDATE=1 cargo test --release -p motiform-figures --test all references` draws the pictures
+//! again; look at them before they go in.
 
 use crate::kinds::kinds;
 use motiform_figures::{Animation, Camera, Drawn, Figure, Frame, Medium, Style, Width, png};
@@ -71,7 +72,7 @@ impl Grey {
         out
     }
 
-    /// Where the block with the largest mean difference lies, and this difference; none for pictures of other sizes.
+    /// The block with the largest mean difference, and this difference; none for pictures of other sizes.
     fn difference(&self, other: &Self) -> Option<([usize; 2], f64)> {
         let height = self.pixels.len() / self.width;
         if self.width != other.width || self.pixels.len() != other.pixels.len() {

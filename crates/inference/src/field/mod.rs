@@ -17,7 +17,7 @@ const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 pub(crate) struct Part {
     /// The term.
     pub(crate) term: usize,
-    /// Whether it is the imaginary part.
+    /// `true` if it is the imaginary part.
     pub(crate) imaginary: bool,
 }
 

@@ -9,7 +9,8 @@ use motiform_dynamics::Complex;
 const LONGEST_TURN: f64 = 1.0;
 /// Most parts of a step for the rates, and as many again for the covariance of the first frame.
 const MOST_PARTS: usize = 16;
-/// Largest ratio of two variances for which steps of [`LONGEST_TURN`] do: the first frame, whose velocity is hardly known, has up to 1e5, later ones 50 to 100.
+/// Largest ratio of two variances for which steps of [`LONGEST_TURN`] do: the first frame, whose velocity is
+/// hardly known, has up to 1e5, later ones 50 to 100.
 const CONDITION: f64 = 1e3;
 
 /// Mean and covariance of the state.
@@ -19,7 +20,7 @@ pub(crate) struct State<const STATE: usize> {
     pub(crate) p: [[f64; STATE]; STATE],
 }
 
-/// What is observed in a frame.
+/// The observation in a frame.
 pub(crate) struct Seen<const SHAPE: usize> {
     t: f64,
     y: [f64; SHAPE],
@@ -33,7 +34,7 @@ impl<const SHAPE: usize> Seen<SHAPE> {
     }
 }
 
-/// What errors of observation are beside the stated covariances.
+/// The errors of observation beside the stated covariances.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ErrorsOfFrames {
     /// `s^2`, which multiplies them.
@@ -87,11 +88,11 @@ pub(crate) struct Law<'a, const SHAPE: usize, const STATE: usize> {
     pub(crate) field: &'a Field,
     pub(crate) c: &'a [Complex<f64>],
     pub(crate) q: [f64; STATE],
-    /// Whether the stages need second derivatives.
+    /// `true` if the stages need second derivatives.
     pub(crate) second: bool,
 }
 
-/// Where the filter begins: the first frame, and a velocity from the first two with generous errors.
+/// The initial state of the filter: the first frame, and a velocity from the first two with generous errors.
 ///
 /// The covariance of the observed entries is `s^2 R`, that of the centre with its own noise.
 pub(crate) fn start<const SHAPE: usize, const STATE: usize>(
@@ -165,8 +166,9 @@ impl<const SHAPE: usize, const STATE: usize> Law<'_, SHAPE, STATE> {
         rate
     }
 
-    /// In how many parts a step must be made: a power of two, so that the fastest rate is resolved. Where it is not, the covariance is no longer
-    /// positive definite, and the likelihood has maxima that are errors of the integration. `values` becomes the field at `state`.
+    /// The number of parts in which a step must be made: a power of two, so that the fastest rate is resolved. Where it
+    /// is not, the covariance is no longer positive definite, and the likelihood has maxima that are errors
+    /// of the integration. `values` becomes the field at `state`.
     #[inline(always)]
     pub(crate) fn parts(&self, state: &State<STATE>, h: f64, values: &mut Values<SHAPE>) -> usize {
         self.field(state, values);
@@ -219,9 +221,10 @@ impl<const STATE: usize> State<STATE> {
         sum
     }
 
-    /// In how many times as many parts steps after the first frame must be made, so that errors of its large variances stay below the small ones: the square
-    /// root of the ratio of variances over [`CONDITION`], as a power of two. Otherwise the covariance may lose its positive definiteness there, and the search
-    /// for the maximum ends between points where the filter breaks down.
+    /// The factor on the number of parts in which steps after the first frame must be made, so that errors of its large
+    /// variances stay below the small ones: the square root of the ratio of variances over [`CONDITION`], as
+    /// a power of two. Otherwise the covariance may lose its positive definiteness there, and the search for
+    /// the maximum ends between points where the filter breaks down.
     #[inline(always)]
     pub(crate) fn refinement(&self) -> usize {
         let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
@@ -236,7 +239,7 @@ impl<const STATE: usize> State<STATE> {
         parts
     }
 
-    /// Whether the filter can continue from it: finite, and not far beyond natural units.
+    /// Returns `true` if the filter can continue from it: finite, and not far beyond natural units.
     #[inline(always)]
     pub(crate) fn is_sound(&self) -> bool {
         let mut sound = true;
@@ -247,7 +250,7 @@ impl<const STATE: usize> State<STATE> {
     }
 }
 
-/// What a frame says, and what became of the state.
+/// The information in a frame, and the corrected state.
 #[derive(Clone, Debug)]
 pub(crate) struct Correction<const SHAPE: usize, const STATE: usize> {
     /// `L^-1`, with `L L^T = S`.

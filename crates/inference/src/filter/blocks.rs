@@ -87,7 +87,8 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> 
         }
     }
 
-    /// How many marks of each block are not 0: where covariances are taken as fixed, those of the mean alone.
+    /// The numbers of marks of each block that are not 0: where covariances are taken as fixed, those of the
+    /// mean alone.
     pub(crate) fn counts(&self, want: Want) -> Vec<usize> {
         let fixed = |block| want != Want::Exact && block < self.first_noise;
         (0..self.len()).map(|block| if fixed(block) { SHAPE } else { marks_of(SHAPE) }).collect()
@@ -170,7 +171,7 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> 
         }
     }
 
-    /// Where each parameter is among the padded ones.
+    /// The places of the parameters among the padded ones.
     pub(crate) fn places(&self) -> Vec<usize> {
         let noise = self.first_noise * B::LANES;
         let noises = if self.len() == 0 { 0 } else { NOISES };

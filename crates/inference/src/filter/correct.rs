@@ -15,7 +15,8 @@ use super::tangent::Tangent;
 use motiform_dynamics::Bundle;
 use motiform_dynamics::simd::Kernel;
 
-/// What a frame says about a block of parameters: the score, and marks, whose products with those of another parameter are the information.
+/// The information in a frame on a block of parameters: the score, and marks, whose products with those of
+/// another parameter are the information.
 pub(crate) struct Marks<B, const SHAPE: usize> {
     pub(crate) score: B,
     /// `e`.

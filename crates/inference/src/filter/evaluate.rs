@@ -9,7 +9,7 @@ use motiform_dynamics::simd::{self, LaneKernel, run_lanes};
 use motiform_dynamics::{Bundle, Complex};
 use nalgebra::{DMatrix, DVector};
 
-/// How much is computed.
+/// The quantities that an evaluation computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Want {
     /// The likelihood alone.

@@ -13,10 +13,11 @@
 //!
 //! Both are integrated by the classical Runge-Kutta method, so that the gradient is exact for the numbers computed: the derivatives of `m`
 //! and `P` by every parameter are carried through the same steps ([`tangent`], [`correct`]), several parameters at a time in vector
-//! registers. Where frames are missing the filter goes on; after a longer gap ([`LONGEST_GAP`], [`LONGEST_STRIDE`]) it starts again from the next frame.
+//! registers. Where frames are missing the filter goes on; after a longer gap ([`LONGEST_GAP`],
+//! [`LONGEST_STRIDE`]) it starts again from the next frame.
 //!
-//! Sizes are known when it is compiled: the amplitudes are `SHAPE` real numbers, 4, 6 or 8; as many are observed (the position instead of z1); the
-//! state has `STATE = SHAPE + 2`.
+//! Sizes are known when it is compiled: the amplitudes are `SHAPE` real numbers, 4, 6 or 8; as many are
+//! observed (the position instead of z1); the state has `STATE = SHAPE + 2`.
 //!
 //! Source: Jazwinski (1970), Stochastic Processes and Filtering Theory, ch. 8; Bucy and Joseph (1968); Gupta and Mehra (1974), IEEE Trans.
 //! Autom. Control 19, 774 (gradient and information matrix).
@@ -35,8 +36,9 @@ pub(crate) use problem::{Frame, NO_CENTRE_NOISE, NOISES, Problem, Theta};
 /// Longest step of the integration, in natural units of time. At 0.25 the factor `s` of the measurement errors came out 6 % too large
 /// (chaotic motion, process noise 0.02), at 0.125 it agrees with that of 0.05.
 pub(crate) const LONGEST_STEP: f64 = 0.125;
-/// Longest gap that the filter goes on through, in natural units of time: where it is longer, what is predicted is no longer near enough to a
-/// linear law, and fits of real cells ended at equations that blow up in gaps.
+/// Longest gap that the filter goes on through, in natural units of time: where it is longer, what is
+/// predicted is no longer near enough to a linear law, and fits of real cells ended at equations that blow up
+/// in gaps.
 pub(crate) const LONGEST_GAP: f64 = 2.0;
 /// The same in usual intervals between frames: one missing frame is gone through at any sampling.
 pub(crate) const LONGEST_STRIDE: f64 = 2.5;

@@ -1,4 +1,4 @@
-//! What the likelihood is of: frames in natural units and the parameters.
+//! The arguments of the likelihood: frames in natural units and the parameters.
 
 use super::{LONGEST_GAP, LONGEST_STRIDE};
 use crate::field::{Field, Part};
@@ -98,7 +98,8 @@ impl Problem {
 
     /// Variance of a coordinate's error that all outlines of a frame may have beside that of the contour, and its derivative by `l`:
     ///
-    /// `c (exp(2 l) - exp(2 l0))` with the stated variance `c` and the least `l0`, where it is 0: cells without such noise are fitted as if it were not there.
+    /// `c (exp(2 l) - exp(2 l0))` with the stated variance `c` and the least `l0`, where it is 0: cells
+    /// without such noise are fitted as if it were not there.
     pub(crate) fn own_noise(&self, theta: &Theta) -> [f64; 2] {
         let square = libm::exp(2.0 * theta.logs[3]);
         let least = libm::exp(2.0 * NO_CENTRE_NOISE);

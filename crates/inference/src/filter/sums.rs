@@ -13,7 +13,7 @@ pub(crate) struct Sums<B> {
     information: Vec<B>,
     /// Marks of the frame: parameter within blocks.
     marks: Vec<f64>,
-    /// How many marks of each block are not 0.
+    /// Number of marks of each block that are not 0.
     counts: Vec<usize>,
 }
 

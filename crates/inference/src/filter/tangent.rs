@@ -86,7 +86,7 @@ impl<B: Bundle, const STATE: usize> Scratch<B, STATE> {
 /// `A dP + dA P`, rows of the shape.
 type Products<B, const SHAPE: usize, const STATE: usize> = [[B; STATE]; SHAPE];
 
-/// How much of the derivatives is carried.
+/// The depth of the derivatives that are carried.
 pub(crate) mod depth {
     /// The mean alone: covariances are taken as fixed.
     pub(crate) const MEAN: u8 = 0;
@@ -96,7 +96,7 @@ pub(crate) mod depth {
     pub(crate) const ALL: u8 = 2;
 }
 
-/// What forces the derivatives of a block at a stage.
+/// The forcing of the derivatives of a block at a stage.
 #[derive(Clone, Copy)]
 pub(crate) struct Forcing<'f> {
     /// [`forcing_of`] bundles: `df/dc`, then the rows of `dA/dc`.

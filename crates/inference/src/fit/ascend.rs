@@ -1,8 +1,9 @@
 //! To the maximum by exact gradients: a quadratic model within a trusted radius.
 //!
-//! The curvature is the expected information plus a correction `A` that is learned from the gradients on the way: where the noise is not as the
-//! model has it (real cells), the expected information is not the curvature, and steps made with it alone go to and fro. After a step `s` from the
-//! point 0 to the point 1 with gradients `g_0, g_1`,
+//! The curvature is the expected information plus a correction `A` that is learned from the gradients on the
+//! way: where the noise is not as the model has it (real cells), the expected information is not the
+//! curvature, and steps made with it alone go to and fro. After a step `s` from the point 0 to the point 1
+//! with gradients `g_0, g_1`,
 //!
 //! ```text
 //! r = (g_0 - g_1) - I_1 s - A s,      A <- A + r r^T/(r . s)       (symmetric rank one)
@@ -10,8 +11,8 @@
 //!
 //! Lengths of steps are those of the coefficients in natural units and of the logarithms of the noise, all of order 1.
 //!
-//! Source: Dennis, Gay and Welsch (1981), ACM Trans. Math. Softw. 7, 348 (a correction beside the expected part); Nocedal and Wright (2006),
-//! Numerical Optimization, ch. 4 and 6.2 (radius, symmetric rank one).
+//! Source: Dennis, Gay and Welsch (1981), ACM Trans. Math. Softw. 7, 348 (a correction beside the expected
+//! part); Nocedal and Wright (2006), Numerical Optimization, ch. 4 and 6.2 (radius, symmetric rank one).
 
 use super::optimise::{Ending, Point, held, moved, objective};
 use super::trust::Model;
@@ -23,8 +24,9 @@ use nalgebra::{DMatrix, DVector};
 const CONVERGED: f64 = 2e-4;
 /// Most evaluations.
 const MOST: usize = 200;
-/// Most steps of the integration in all of them, or so many for each frame if that is more. Cells that follow the equations need 2 to 100 for each frame and real
-/// ones up to 1700; equations that blow up between frames, which have no maximum, take 16 times the steps of others.
+/// Most steps of the integration in all of them, or so many for each frame if that is more. Cells that follow
+/// the equations need 2 to 100 for each frame and real ones up to 1700; equations that blow up between
+/// frames, which have no maximum, take 16 times the steps of others.
 const MOST_STEPS: [usize; 2] = [1_000_000, 1_000];
 /// First radius and the largest one.
 const RADII: [f64; 2] = [2.0, 8.0];
@@ -37,7 +39,7 @@ const VAGUE: f64 = 25.0;
 /// Steps with a smaller part of `r` along `s` teach nothing.
 const LEAST_ANGLE: f64 = 1e-8;
 
-/// What is known of the curvature beyond the expected information.
+/// The estimate of the curvature beyond the expected information.
 struct Correction(DMatrix<f64>);
 
 impl Correction {
@@ -65,7 +67,7 @@ impl Correction {
         self.0.fill(0.0);
     }
 
-    /// What a step gains by the model.
+    /// The gain of a step according to the model.
     fn gain(&self, at: &Evaluation, step: &DVector<f64>) -> f64 {
         at.gradient.dot(step) - 0.5 * step.dot(&(&at.information * step + &self.0 * step))
     }
@@ -126,7 +128,8 @@ impl Climb<'_> {
         }
     }
 
-    /// Whether the point is a maximum: the model promises nothing more, nor does the expected information alone.
+    /// Returns `true` if the point is a maximum: the model promises nothing more, nor does the expected
+    /// information alone.
     fn arrived(&self, model: &Model, free: &[usize]) -> bool {
         let expected = Correction(DMatrix::zeros(self.at.gradient.len(), self.at.gradient.len()));
         let promise = |model: Option<f64>| model.is_some_and(|gain| gain < CONVERGED);
@@ -183,7 +186,8 @@ impl Climb<'_> {
         Ending::Stopped { reason: self.why("no step improves the likelihood") }
     }
 
-    /// The reason of a search without end. Where a frame is hardly predicted at all, the likelihood rises up to equations that blow up before it.
+    /// The reason of a search without end. Where a frame is hardly predicted at all, the likelihood rises up
+    /// to equations that blow up before it.
     fn why(&self, what: &str) -> String {
         let (variance, t) = self.at.vaguest;
         if variance < VAGUE {
@@ -191,7 +195,8 @@ impl Climb<'_> {
         }
         let after = (1e4 * t * self.time).round() / 1e4;
         format!(
-            "the likelihood rises towards equations that blow up between frames, before {after} after the first frame of a cell: sudden jumps there, wrong outlines, or noise that is not white"
+            "the likelihood rises towards equations that blow up between frames, before {after} after the \
+            first frame of a cell: sudden jumps there, wrong outlines, or noise that is not white"
         )
     }
 }

@@ -23,12 +23,12 @@ pub(crate) use setup::{check_library, problem};
 /// From this many frames on, starts are compared on a half of them.
 const LONG: usize = 400;
 
-/// What is fitted, and how.
+/// The settings of a fit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// The terms, of two to four modes.
     pub library: Library,
-    /// Whether coefficients are complex: the motion and its mirror image may differ.
+    /// `true` if coefficients are complex: the motion and its mirror image may differ.
     pub handed: bool,
     /// Process noise (of velocity and shape, natural units) that the search begins with, from zero coefficients. Empty: 0.4 and 0.1, at
     /// sampling coarser than one natural time also 1 and 0.03.
@@ -44,11 +44,13 @@ impl Default for Settings {
 
 /// Fits one model to all tracks: maximum likelihood through an extended Kalman filter.
 ///
-/// From zero coefficients with large process noise, by Fisher scoring with damping; the best of the starts is kept (of 400 frames and more, the best on
-/// the first half of each stretch). The same
+/// From zero coefficients with large process noise, by Fisher scoring with damping; the best of the starts is
+/// kept (of 400 frames and more, the best on the first half of each stretch). The same
 /// coefficients and noise hold for all tracks: the sum of their log-likelihoods is maximised.
 ///
-/// # Errors    of the input ([`crate::Error`]); [`Error::Interrupted`] where the watch stops it. A search that does not converge is [`Ending::Stopped`] in the result
+/// # Errors
+/// Those of the input ([`crate::Error`]); [`Error::Interrupted`] where the watch stops it. A search that does not
+/// converge is [`Ending::Stopped`] in the result.
 /// # Checked by  `tests/all/fit.rs`: errors and coverage on simulated cells
 pub fn fit(tracks: &[Track], settings: &Settings, watch: &dyn Watch) -> Result<Fit> {
     let scales = setup::check(tracks, settings)?;

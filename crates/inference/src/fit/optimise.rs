@@ -19,7 +19,7 @@ const GIVEN_UP: f64 = 1e2;
 /// Share of the slope at the end of a step, downwards, from which on it went too far.
 const OVERSHOT: f64 = 0.3;
 
-/// How the search for the maximum ended.
+/// The ending of the search for the maximum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "ending")]
 pub enum Ending {
@@ -30,7 +30,7 @@ pub enum Ending {
     },
     /// Before.
     Stopped {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
@@ -105,8 +105,8 @@ pub(super) fn prior(theta: &Theta) -> f64 {
     0.5 * theta.coefficients.iter().map(|c| c * c).sum::<f64>() / (PRIOR * PRIOR)
 }
 
-/// The point after a step. Where the slope along the step has turned round (the expected information is less than the curvature), the point where
-/// the slope between is 0 is tried too: without it steps go to and fro.
+/// The point after a step. Where the slope along the step has turned round (the expected information is less
+/// than the curvature), the point where the slope between is 0 is tried too: without it steps go to and fro.
 fn advance(
     problem: &Problem,
     want: Want,

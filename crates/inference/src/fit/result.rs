@@ -1,4 +1,4 @@
-//! What a fit found, in the units of the data.
+//! The result of a fit, in the units of the data.
 
 use super::optimise::{Ending, Point, at_bounds, prior};
 use super::{Settings, covariance, likelihood};
@@ -37,7 +37,7 @@ pub struct Coefficient {
     pub name: String,
     /// The term.
     pub term: Term,
-    /// Whether this is the imaginary part of its factor.
+    /// `true` if this is the imaginary part of its factor.
     pub imaginary: bool,
     /// The estimate, in the units of the data.
     #[serde(flatten)]
@@ -53,9 +53,10 @@ pub struct Noise {
     pub eta_v: Estimate,
     /// Process noise of the shape.
     pub eta_shape: Estimate,
-    /// Standard deviation of each coordinate of the centre beside the error of its contour, such as a jitter of the images (length); 0 where none is seen.
+    /// Standard deviation of each coordinate of the centre beside the error of its contour, such as a jitter
+    /// of the images (length); 0 where none is seen.
     pub centre: Estimate,
-    /// Whether each is at a bound of the search: then only the bound is known.
+    /// `true` for each that is at a bound of the search: then only the bound is known.
     pub at_bound: [bool; NOISES],
 }
 
@@ -79,7 +80,7 @@ pub struct Natural {
 pub struct Fit {
     /// The terms.
     pub library: Library,
-    /// Whether coefficients are complex.
+    /// `true` if coefficients are complex.
     pub handed: bool,
     /// Coefficients in the units of the data; for handed models all real parts, then all imaginary parts.
     pub coefficients: Vec<Coefficient>,
@@ -89,7 +90,7 @@ pub struct Fit {
     pub log_likelihood: f64,
     /// Frames that have a likelihood.
     pub frames: usize,
-    /// How the search ended.
+    /// The ending of the search.
     pub ending: Ending,
     /// The natural units.
     pub scales: Scales,
@@ -105,13 +106,14 @@ impl Fit {
         2 * self.library.modes
     }
 
-    /// Whether the search converged.
+    /// Returns `true` if the search converged.
     #[must_use]
     pub fn converged(&self) -> bool {
         matches!(self.ending, Ending::Converged { .. })
     }
 
-    /// Whether the data bound all coefficients: none is above 10 in natural units, where they are of order 1.
+    /// Returns `true` if the data bound all coefficients: none is above 10 in natural units, where they are
+    /// of order 1.
     #[must_use]
     pub fn is_bounded(&self) -> bool {
         crate::identifiability::unbounded(self).is_empty()
@@ -157,7 +159,7 @@ impl Fit {
 }
 
 impl Noise {
-    /// Whether the centre has a noise of its own: above two of its errors.
+    /// Returns `true` if the centre has a noise of its own: above two of its errors.
     #[must_use]
     pub fn is_of_centre(&self) -> bool {
         self.centre.value > 2.0 * self.centre.error

@@ -28,7 +28,8 @@ pub(super) fn check(tracks: &[Track], settings: &Settings) -> Result<Scales> {
     }
 }
 
-/// Refuses z4 where it is not seen. Of z2 and z3 [`crate::identifiability()`] says so; where z3 is not seen, [`Library::seen`] leaves it out.
+/// Refuses z4 where it is not seen. Of z2 and z3 [`crate::identifiability()`] says so; where z3 is not seen,
+/// [`Library::seen`] leaves it out.
 pub(super) fn check_seen(scales: &Scales) -> Result<()> {
     match scales.signal.get(3) {
         Some(&signal) if signal < 1.0 => Err(Error::NotSeen { mode: "z4", signal }),

@@ -28,7 +28,7 @@ impl Model {
         self.values.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// What the step to the model's maximum gains; `None` where it has none.
+    /// The gain of the step to the model's maximum; `None` where it has none.
     pub(super) fn promise(&self) -> Option<f64> {
         let parts = self.gradient.iter().zip(&self.values).map(|(g, value)| 0.5 * g * g / value);
         (self.least() > 0.0).then(|| parts.sum())
@@ -36,8 +36,9 @@ impl Model {
 
     /// The step to the model's maximum within the radius.
     ///
-    /// `(curvature + damping) s = gradient` with the least damping that keeps the length; found by bisection of its logarithm, as the length
-    /// falls with it. Source: Moré and Sorensen (1983), SIAM J. Sci. Stat. Comput. 4, 553.
+    /// `(curvature + damping) s = gradient` with the least damping that keeps the length; found by bisection
+    /// of its logarithm, as the length falls with it. Source: Moré and Sorensen (1983), SIAM J. Sci. Stat.
+    /// Comput. 4, 553.
     pub(super) fn step(&self, radius: f64) -> DVector<f64> {
         let damped = |damping: f64| self.gradient.zip_map(&self.values, |g, value| g / (value + damping));
         let scale =

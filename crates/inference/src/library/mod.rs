@@ -32,14 +32,14 @@ impl Term {
         self.powers[amplitude].iter().map(|&power| i32::from(power)).sum()
     }
 
-    /// How it turns with the plane: `sum_m m (power of z_m - power of conj(z_m))`.
+    /// The angular index, by which it turns with the plane: `sum_m m (power of z_m - power of conj(z_m))`.
     #[must_use]
     pub fn angular_index(&self) -> i32 {
         let turns = |(m, &[z, conj]): (i32, &[u8; 2])| m * (i32::from(z) - i32::from(conj));
         (1..).zip(&self.powers).map(turns).sum()
     }
 
-    /// Whether it turns as the amplitude of its equation does.
+    /// Returns `true` if it turns as the amplitude of its equation does.
     #[must_use]
     pub fn is_covariant(&self) -> bool {
         usize::try_from(self.angular_index()) == Ok(self.equation + 1)
@@ -89,7 +89,8 @@ pub struct Library {
 impl Library {
     /// All rotation-covariant monomials of `z1 .. z_modes` of order 1 to `order`.
     ///
-    /// Two modes: 4 + 4 terms to order 3. Three modes: 8 + 7 + 7 terms to order 3 (the tensor model's), 32 + 30 + 29 to order 5. Four modes: 12, 12, 11, 10 to order 3.
+    /// Two modes: 4 + 4 terms to order 3. Three modes: 8 + 7 + 7 terms to order 3 (the tensor model's), 32 +
+    /// 30 + 29 to order 5. Four modes: 12, 12, 11, 10 to order 3.
     ///
     /// # Errors
     /// [`Error::Setting`] unless `modes` is 2 to 4 and `order` 1 to 5.
@@ -109,7 +110,8 @@ impl Library {
         Self { modes: 3, terms: enumerate::covariant(3, 3) }
     }
 
-    /// The terms that these tracks can have anything to say of: of three amplitudes those without z3, where that does not exceed its errors of observation.
+    /// The terms that these tracks can have anything to say of: of three amplitudes those without z3, where
+    /// that does not exceed its errors of observation.
     ///
     /// A mode that is not seen fixes none of its coefficients, and would leave a motion that z1 and z2 make without a name.
     #[must_use]

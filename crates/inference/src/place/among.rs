@@ -7,11 +7,13 @@ use crate::{EquationKnowledge, Fit, Knowledge, Selection, identifiability};
 /// Share of the weight of all sets that must agree.
 const AGREE: f64 = 0.9;
 
-/// Where a cell lies on a plane: the place of the best set of terms, if other sets that the data do not tell apart agree.
+/// The place of a cell on a plane: that of the best set of terms, if other sets that the data do not tell
+/// apart agree.
 ///
-/// Sets are weighted with `exp(-excess/2)` (Schwarz's criterion as a likelihood); each is placed with the estimates that remain of `whole` when
-/// its missing terms are set to 0. A set agrees if both its coordinates are within the 95 % intervals of the best one, each extended by that
-/// of the set's own scatter (a tenth of the unit). Less than 90 % of the weight is a refusal, and so is an equation with more terms than the
+/// Sets are weighted with `exp(-excess/2)` (Schwarz's criterion as a likelihood); each is placed with the
+/// estimates that remain of `whole` when its missing terms are set to 0. A set agrees if both its coordinates
+/// are within the 95 % intervals of the best one, each extended by that of the set's own scatter (a tenth of
+/// the unit). Less than 90 % of the weight is a refusal, and so is an equation with more terms than the
 /// motion fixes combinations of all coefficients.
 #[must_use]
 pub fn place_among(whole: &Fit, selection: &Selection, plane: Plane) -> Placement {

@@ -1,14 +1,16 @@
-//! Where a fitted model lies on the paper's diagrams.
+//! The place of a fitted model on the paper's diagrams.
 //!
-//! Time, speed and both modes can be measured in any units (T, V, L2, L3; the radius never enters): `c' = c T prod A_m^degree/A_n`. The units are
-//! chosen so that a point of the plane is left; what is left besides it says how far off the diagram's slice the cell is.
+//! Time, speed and both modes can be measured in any units (T, V, L2, L3; the radius never enters):
+//! `c' = c T prod A_m^degree/A_n`. The units are chosen so that a point of the plane is left; what is left
+//! besides it says how far off the diagram's slice the cell is.
 //!
 //! ```text
 //! full plane (Fig. 4)      T = 1/gamma                V^2 = gamma/|d11|       L2 = 2/(|e11| T)   L3 = L2 sqrt(3 e32/(4 e22))
 //! reduced plane (Fig. 1)   T = |d11|/(4 |e21 e11|)    V^2 = 1/(|d11| T)       L2 = 2/(|e11| T)   z3 is left out
 //! ```
 //!
-//! Modes that a plane does not have (z3 of the reduced one, z4) are left out with their equations; where they act on the others the cell has no place there.
+//! Modes that a plane does not have (z3 of the reduced one, z4) are left out with their equations; where they
+//! act on the others the cell has no place there.
 
 mod among;
 mod scaled;
@@ -52,7 +54,8 @@ impl Plane {
         }
     }
 
-    /// Whether it has no place for a term: the equation, or a factor, is of a mode that it does not have.
+    /// Returns `true` if it has no place for a term: the equation, or a factor, is of a mode that it does not
+    /// have.
     fn leaves_out(self, term: &Term) -> bool {
         term.equation >= self.modes() || (self.modes()..MOST_MODES).any(|m| term.degree(m) > 0)
     }
@@ -81,7 +84,7 @@ pub struct Place {
     pub coordinates: [Coordinate; 2],
     /// Covariance of the two.
     pub covariance: [[f64; 2]; 2],
-    /// What is not a coordinate, with its value on the slice.
+    /// The numbers that are no coordinates, with their values on the slice.
     pub others: Vec<Coordinate>,
     /// Distance off the slice: root of the sum of squares of the others' differences from it.
     pub distance: f64,
@@ -97,12 +100,13 @@ pub enum Placement {
     Placed(Box<Place>),
     /// None.
     Refused {
-        /// Why.
+        /// The reasons.
         reasons: Vec<String>,
     },
 }
 
-/// Where a fit lies on a plane, taking its terms for granted; [`place_among`] asks whether the data settle them.
+/// The place of a fit on a plane, taking its terms for granted; [`place_among`] asks whether the data settle
+/// them.
 ///
 /// # Checked by  `tests/all/place.rs`: known models in other units; refusals
 #[must_use]
@@ -119,7 +123,7 @@ pub fn place(fit: &Fit, plane: Plane) -> Placement {
     }
 }
 
-/// What stands against the units of a plane.
+/// The reasons why the units of a plane cannot be used.
 fn obstacles(fit: &Fit, plane: Plane) -> Vec<String> {
     let mut reasons = Vec::new();
     if fit.handed {
@@ -212,8 +216,8 @@ fn with_errors(fit: &Fit, plane: Plane, values: &[f64], found: &Scaled) -> Place
     }
 }
 
-/// The coordinates on a plane of the fitted model with other values of its coefficients, such as those of [`crate::draws()`]; `None` where a
-/// unit of the plane is not defined.
+/// The coordinates on a plane of the fitted model with other values of its coefficients, such as those of
+/// [`crate::draws()`]; `None` where a unit of the plane is not defined.
 #[must_use]
 pub fn coordinates(fit: &Fit, plane: Plane, values: &[f64]) -> Option<[f64; 2]> {
     let found = scaled(fit, plane, values)?.numbers();

@@ -51,8 +51,8 @@ fn slice(plane: Plane, name: &str) -> f64 {
     }
 }
 
-/// The units T, V, L2, L3; `None` where they are not defined. `L2` and `L3` have signs: `z2 -> -z2` and `z3 -> -z3` give the same motion, and
-/// the slice has e11 = 2 and e22 > 0 (full), e11 = -2 (reduced).
+/// The units T, V, L2, L3; `None` where they are not defined. `L2` and `L3` have signs: `z2 -> -z2` and
+/// `z3 -> -z3` give the same motion, and the slice has e11 = 2 and e22 > 0 (full), e11 = -2 (reduced).
 fn units(fit: &Fit, plane: Plane, values: &[f64]) -> Option<[f64; 4]> {
     let of = |name: &str| {
         let place = fit.coefficients.iter().position(|c| c.name == name && !c.imaginary)?;

@@ -20,13 +20,17 @@ pub struct Averaged {
 /// Weight, mean and standard deviation of a set's coefficient.
 type Part = [f64; 3];
 
-/// The coefficients of all terms over the sets within [`super::TIE`] of the best, each set with the weight `exp(-excess/2)`, the term itself, and the estimates and errors that these have from the fit with
-/// all terms, the others set to 0 (no set is fitted again).
+/// The coefficients of all terms over the sets within [`super::TIE`] of the best, each set with the weight
+/// `exp(-excess/2)`, the term itself, and the estimates and errors that these have from the fit with all
+/// terms, the others set to 0 (no set is fitted again).
 ///
-/// A set that is dropped by a hair still counts: errors of the best set alone leave its choice out, and are too small. That a set does without the term is no evidence that it is 0:
-/// a term of two standard errors is dropped, and may be what it is estimated to be. So its interval is what the data say of it beside the others of the set.
+/// A set that is dropped by a hair still counts: errors of the best set alone leave its choice out, and are
+/// too small. That a set does without the term is no evidence that it is 0: a term of two standard errors is
+/// dropped, and may be what it is estimated to be. So its interval is what the data say of it beside the
+/// others of the set.
 ///
-/// Source: Schwarz's criterion as a weight: Raftery (1995), Sociol. Methodol. 25, 111; Hoeting et al. (1999), Stat. Sci. 14, 382; without the part at 0: Burnham and Anderson (2002), sec. 4.2.
+/// Source: Schwarz's criterion as a weight: Raftery (1995), Sociol. Methodol. 25, 111; Hoeting et al. (1999),
+/// Stat. Sci. 14, 382; without the part at 0: Burnham and Anderson (2002), sec. 4.2.
 ///
 /// # Units   of the data
 /// # Checked by  tests/all/average.rs: one set, sets that differ, zigzags whose best set lacks a term

@@ -1,8 +1,9 @@
-//! Which terms the data ask for: best subsets, without fitting each.
+//! The terms that the data ask for: best subsets, without fitting each.
 //!
-//! Near the maximum twice the log-likelihood falls by `theta_z^T (C_zz)^-1 theta_z` where the coefficients z are set to 0 and all others are
-//! adapted; C is the covariance of all estimates. The score of a set is that plus `ln(n N)` for each coefficient kept (Schwarz), N the number of frames and n that of the
-//! numbers observed in each: 6, with z4 8.
+//! Near the maximum twice the log-likelihood falls by `theta_z^T (C_zz)^-1 theta_z` where the coefficients z
+//! are set to 0 and all others are adapted; C is the covariance of all estimates. The score of a set is that
+//! plus `ln(n N)` for each coefficient kept (Schwarz), N the number of frames and n that of the numbers
+//! observed in each: 6, with z4 8.
 //!
 //! Each equation's sets are searched with the other equations at their best sets, in turn until nothing changes; then the good sets of all
 //! equations are combined and scored jointly. Sets within [`TIE`] of the best are all kept: the data do not tell them apart.
@@ -45,7 +46,7 @@ pub struct Subsets {
     pub penalty: f64,
     /// All sets within [`TIE`] of the best, the best first.
     pub ties: Vec<Subset>,
-    /// Whether every set was considered; if not, a better one may exist.
+    /// `true` if every set was considered; if not, a better one may exist.
     pub complete: bool,
 }
 
@@ -56,7 +57,8 @@ impl Subsets {
         self.ties.first()
     }
 
-    /// How many of the sets within [`TIE`] have each coefficient that any of them has, the most frequent first.
+    /// The number of the sets within [`TIE`] that have each coefficient which any of them has, the most
+    /// frequent first.
     #[must_use]
     pub fn counts(&self) -> Vec<(String, usize)> {
         let mut counts: Vec<(String, usize)> = Vec::new();

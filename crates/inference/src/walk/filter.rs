@@ -3,7 +3,7 @@
 use super::Fix;
 use std::f64::consts::TAU;
 
-/// What the likelihood of a walk depends on.
+/// The sums that the likelihood of a walk depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Sums {
     /// Innovations: two for each step.
@@ -26,7 +26,7 @@ impl Sums {
     }
 }
 
-/// How mean and covariance move over an interval: x += g v, v *= a, and the noise.
+/// The transition of mean and covariance over an interval: x += g v, v *= a, and the noise.
 #[derive(Debug, Clone, Copy)]
 struct Transition {
     a: f64,

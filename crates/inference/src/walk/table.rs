@@ -13,10 +13,11 @@ const FINE: [usize; 2] = [21, 17];
 const ROUNDS: usize = 4;
 /// Persistence times that are looked at: from this part of the shortest interval to this multiple of the longest piece.
 const ENDS: (f64, f64) = (0.03, 30.0);
-/// Decades of the variance of an error relative to the mean square displacement of a coordinate in an interval; beside them no error at all.
+/// Decades of the variance of an error relative to the mean square displacement of a coordinate in an
+/// interval; beside them no error at all.
 const ERRORS: (f64, f64) = (-3.0, 4.0);
 
-/// What an interval is asked for.
+/// The quantity that an interval is computed for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Known {
     Persistence,
@@ -97,9 +98,11 @@ impl Table {
         [self.best.persistence, self.best.error]
     }
 
-    /// The value of highest likelihood with the ends of its interval: where the profile of the likelihood is [`drop`] below its maximum; `None` where what was looked at ends before.
+    /// The value of highest likelihood with the ends of its interval: where the profile of the likelihood is
+    /// [`drop`] below its maximum; `None` where what was looked at ends before.
     ///
-    /// The profile is the upper concave hull of the likelihoods of all walks of the grid, each at its own value and at others that other variances of its velocity give.
+    /// The profile is the upper concave hull of the likelihoods of all walks of the grid, each at its own
+    /// value and at others that other variances of its velocity give.
     pub(super) fn bounded(&self, known: Known) -> Bounded {
         let value = self.best.value(known);
         let hull = hull(self.points(known));
@@ -146,7 +149,8 @@ impl Known {
     }
 }
 
-/// How far the log-likelihood falls at the end of a 95 % interval: (n/2) ln(1 + t^2/(n - 3)) with Student's t, exact for a normal mean with three other numbers; 1.92 for large n.
+/// The fall of the log-likelihood at the end of a 95 % interval: (n/2) ln(1 + t^2/(n - 3)) with Student's t,
+/// exact for a normal mean with three other numbers; 1.92 for large n.
 fn drop(count: f64) -> f64 {
     const NORMAL: f64 = 1.959_963_984_540_054;
     let freedom = (count - 3.0).max(1.0);

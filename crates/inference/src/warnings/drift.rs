@@ -16,7 +16,7 @@ pub struct DriftPoint {
     pub every: usize,
     /// Sampling interval.
     pub interval: f64,
-    /// Whether the fit converged.
+    /// `true` if the fit converged.
     pub converged: bool,
     /// The coefficients, in the order of the fit's.
     pub estimates: Vec<Estimate>,
@@ -31,8 +31,8 @@ pub struct Drift {
     pub points: Vec<DriftPoint>,
     /// Largest change from the fit of all frames, in standard deviations of such a change.
     ///
-    /// Its variance is the difference of both variances, as the fit of all frames is efficient (Hausman 1978, Econometrica 46, 1251); at least a
-    /// quarter of the larger one.
+    /// Its variance is the difference of both variances, as the fit of all frames is efficient (Hausman 1978,
+    /// Econometrica 46, 1251); at least a quarter of the larger one.
     pub changes: Vec<f64>,
 }
 

@@ -7,7 +7,8 @@ use motiform_dynamics::Complex;
 const BLOCKS: usize = 24;
 /// Fewest frames of a block.
 const LEAST_IN_BLOCK: usize = 5;
-/// Largest order of headings: the mean outline of a cell that keeps a direction, or has legs in two of them, is elongated without a stretch.
+/// Largest order of headings: the mean outline of a cell that keeps a direction, or has legs in two of them,
+/// is elongated without a stretch.
 const MOST_ORDER: f64 = 1.0 / 3.0;
 /// Significance.
 const LEVEL: f64 = 1e-3;
@@ -16,8 +17,8 @@ const SUSPICION: f64 = 0.01;
 /// Smaller shares of the elongation are no matter.
 const LEAST_SHARE: f64 = 0.05;
 
-/// A mean elongation that does not turn with the cell: `c` in z2 = c + a exp(-2 i heading), by least squares. Equations that keep their form under rotations have
-/// `c` = 0.
+/// A mean elongation that does not turn with the cell: `c` in z2 = c + a exp(-2 i heading), by least squares.
+/// Equations that keep their form under rotations have `c` = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// `|c|` over the root mean square of `|z2|`.
@@ -26,7 +27,8 @@ pub struct Stretch {
     pub degrees: f64,
     /// Probability of such a `c`, or a larger one, without stretch: Hotelling's T^2 of 24 blocks of the record.
     pub p_value: f64,
-    /// Largest modulus of the means of exp(i k heading), k = 1 to 4: above 1/3 the mean outline may be elongated without a stretch, because the cell keeps a direction.
+    /// Largest modulus of the means of exp(i k heading), k = 1 to 4: above 1/3 the mean outline may be
+    /// elongated without a stretch, because the cell keeps a direction.
     pub order: f64,
 }
 
@@ -50,19 +52,21 @@ impl Stretch {
         Some(Self { share, degrees: -0.5 * libm::atan2(c.im, c.re).to_degrees(), p_value, order })
     }
 
-    /// Whether there is a stretch, of the only or clearest one of so many cells: significant, not negligible, and of a cell whose headings take all directions.
+    /// Returns `true` if there is a stretch, of the only or clearest one of so many cells: significant, not
+    /// negligible, and of a cell whose headings take all directions.
     #[must_use]
     pub fn is_clear(&self, cells: usize) -> bool {
         self.is_possible(cells) && self.order <= MOST_ORDER
     }
 
-    /// Whether there may be one of any size: at a significance of 1 %. A stretch too small for a warning makes a circling cell look handed.
+    /// Returns `true` if there may be one of any size: at a significance of 1 %. A stretch too small for a
+    /// warning makes a circling cell look handed.
     #[must_use]
     pub fn is_suspected(&self, cells: usize) -> bool {
         self.p_value * cells as f64 <= SUSPICION
     }
 
-    /// Whether there is one, or the directions that the cell keeps look like one.
+    /// Returns `true` if there is one, or the directions that the cell keeps look like one.
     #[must_use]
     pub fn is_possible(&self, cells: usize) -> bool {
         self.p_value * cells as f64 <= LEVEL && self.share > LEAST_SHARE
@@ -86,8 +90,9 @@ fn order(frames: &[Frame]) -> f64 {
     (1..=4).map(|k| mean(frames.iter().map(|one| power(one.0, k))).norm_sqr().sqrt()).fold(0.0, f64::max)
 }
 
-/// `c` of `z2 = c + a w` with `w = exp(-2 i heading)`, and the probability of such a value if `c = 0`: from sums over blocks of the influence of each frame on
-/// `c`, `r (1 - <w> conj(w))/(n (1 - |<w>|^2))` with the residual `r`.
+/// `c` of `z2 = c + a w` with `w = exp(-2 i heading)`, and the probability of such a value if `c = 0`: from
+/// sums over blocks of the influence of each frame on `c`, `r (1 - <w> conj(w))/(n (1 - |<w>|^2))` with the
+/// residual `r`.
 fn constant(frames: &[Frame]) -> (Complex<f64>, f64) {
     let turned: Vec<Frame> = frames.iter().map(|&(u, z)| (u.square().conj(), z)).collect();
     let w = mean(turned.iter().map(|one| one.0));
@@ -104,8 +109,8 @@ fn constant(frames: &[Frame]) -> (Complex<f64>, f64) {
     (c, hotelling(c, blocks.map(|block| sum(block.iter().map(influence)))))
 }
 
-/// Probability that a sum of two numbers is so far from 0, or farther, when its variance is known from its independent parts alone. For two numbers the
-/// distribution of T^2 has a closed form.
+/// Probability that a sum of two numbers is so far from 0, or farther, when its variance is known from its
+/// independent parts alone. For two numbers the distribution of T^2 has a closed form.
 fn hotelling(c: Complex<f64>, parts: impl Iterator<Item = Complex<f64>>) -> f64 {
     let free = BLOCKS as f64 - 1.0;
     let scale = BLOCKS as f64 / free;

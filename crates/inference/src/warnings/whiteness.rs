@@ -1,4 +1,4 @@
-//! Whether innovations are white.
+//! The whiteness of innovations.
 
 use crate::Fit;
 use crate::chi_square::chi_square_tail;
@@ -11,7 +11,8 @@ const LAGS: usize = 10;
 /// Standardised innovations of one observed number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Channel {
-    /// What is observed; its innovations are what it adds to those of the numbers before it (x, y, Re z2, ..).
+    /// The observed number (x, y, Re z2, ..); its innovations are what it adds to those of the numbers before
+    /// it.
     pub name: String,
     /// Variance: 1 if the model is right.
     pub variance: f64,
@@ -43,7 +44,8 @@ fn test(fit: &Fit, channel: usize) -> Channel {
     }
 }
 
-/// Autocorrelation at 1, 2, .. of series of mean 0, up to 10 lags and a quarter of their samples, and the probability of as large ones in white noise.
+/// Autocorrelation at 1, 2, .. of series of mean 0, up to 10 lags and a quarter of their samples, and the
+/// probability of as large ones in white noise.
 pub(crate) fn ljung_box(series: &[Vec<f64>]) -> (Vec<f64>, f64) {
     let n: usize = series.iter().map(Vec::len).sum();
     let lagged = |lag: usize| -> f64 {

@@ -3,7 +3,8 @@
 use crate::common::{Experiment, full, vertex_noise};
 use motiform_inference::{Settings, Subset, Subsets, averaged, fit, subsets};
 
-/// kappa3 = 0.1 in zigzags of 250 frames, whose best set may lack a term (or kappa3 itself): intervals over all tied sets hold it as often as those of the best set, or more.
+/// kappa3 = 0.1 in zigzags of 250 frames, whose best set may lack a term (or kappa3 itself): intervals over
+/// all tied sets hold it as often as those of the best set, or more.
 #[test]
 fn intervals_over_tied_sets_hold_the_truth() {
     let (mut alone, mut over, runs) = (0, 0, 10);
@@ -30,7 +31,8 @@ fn intervals_over_tied_sets_hold_the_truth() {
     assert!(over >= alone && over >= 8, "{alone} {over}");
 }
 
-/// Of one set the interval is 1.96 of its errors; of two that differ by a term the weight of the term is that of its set, and its interval is the same.
+/// Of one set the interval is 1.96 of its errors; of two that differ by a term the weight of the term is that
+/// of its set, and its interval is the same.
 #[test]
 fn mixtures_are_those_of_their_sets() {
     let experiment = Experiment { frames: 150, ..Experiment::new(full(0.5, 0.1), 0.02, 4) };

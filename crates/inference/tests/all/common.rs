@@ -128,7 +128,8 @@ pub(crate) struct Experiment {
 /// 1 % of the radius 2 on each of 48 vertices.
 pub(crate) const VERTEX_NOISE: [f64; 2] = vertex_noise(2.0);
 
-/// Errors of the centre and of the parts of the modes for noise of 1 % of the radius on each of 48 vertices: `sigma sqrt(2/48)` and `sigma/sqrt(2 48)`.
+/// Errors of the centre and of the parts of the modes for noise of 1 % of the radius on each of 48 vertices:
+/// `sigma sqrt(2/48)` and `sigma/sqrt(2 48)`.
 pub(crate) const fn vertex_noise(radius: f64) -> [f64; 2] {
     [0.01 * radius * 0.204_124_145, 0.01 * radius * 0.102_062_073]
 }

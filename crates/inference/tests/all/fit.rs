@@ -5,7 +5,7 @@
 use crate::common::{Equations, Experiment, FULL, full};
 use motiform_inference::{Fit, Library, Settings, Track, fit, fit_from, select};
 
-/// What became of one cell.
+/// The result for one cell.
 struct Outcome {
     /// Error of each true coefficient relative to the mean size of true coefficients' values, fitted with the true terms.
     errors: Vec<f64>,

@@ -38,7 +38,8 @@ fn far(found: &Fit, equations: &Equations) -> Vec<String> {
     equations.iter().filter_map(off).collect()
 }
 
-/// How often the 14 terms are found among 45, and how often coefficients are within their 95 % intervals.
+/// The frequency with which the 14 terms are found among 45, and with which coefficients are within their 95
+/// % intervals.
 #[test]
 #[ignore = "a measurement of minutes; MOTIFORM_RUNS=N sets the number of runs"]
 fn figures() {
@@ -97,7 +98,8 @@ fn a_cell_with_a_fourth_mode() {
     assert_eq!(reasons, ["the full plane has no z4, the cell has z2: z2* z4, z3: z1* z4"]);
 }
 
-/// Where z4 follows the others and does not act on them, the cell has the place of its first three modes.
+/// A z4 that follows the others and does not act on them leaves the cell at the place of its first three
+/// modes.
 #[test]
 fn a_fourth_mode_that_only_follows() {
     let mut equations = full(0.5, 0.1);
@@ -121,7 +123,7 @@ fn a_fourth_mode_that_only_follows() {
     }
 }
 
-/// Where z4 is nothing but errors there is no fit with it.
+/// A z4 that is nothing but errors allows no fit with it.
 #[test]
 fn a_fourth_mode_that_is_not_seen() {
     let mut equations = full(0.5, 0.1);

@@ -56,8 +56,8 @@ fn turning_is_not_handedness() {
     assert_eq!(found.symmetry, Symmetry::Undecided);
 }
 
-/// Symmetry is said where it could have been refuted: of long chaotic records, whose imaginary parts are known to a few per cent, and not of short ones. What is excluded
-/// falls as the record grows.
+/// Symmetry is said where it could have been refuted: of long chaotic records, whose imaginary parts are
+/// known to a few per cent, and not of short ones. What is excluded falls as the record grows.
 #[test]
 fn symmetry_needs_power() {
     let excluded = |frames: usize| {
@@ -94,7 +94,8 @@ fn symmetric_cases() -> Vec<Case> {
     ]
 }
 
-/// How often mirror-symmetric cells are called handed, motion by motion; MOTIFORM_RUNS sets the number of cells, MOTIFORM_CASE picks a motion.
+/// The frequency with which mirror-symmetric cells are called handed, motion by motion; MOTIFORM_RUNS sets
+/// the number of cells, MOTIFORM_CASE picks a motion.
 #[test]
 #[ignore = "a measurement of many minutes: figures in docs/inference.md"]
 fn rates_of_false_alarms() {

@@ -17,7 +17,8 @@ fn cell(equations: Equations, frames: usize, seed: u64) -> Track {
     Experiment { frames, ..Experiment::new(equations, 0.02, seed) }.track()
 }
 
-/// A velocity of 2 % of the speed is found within its errors, whatever the motion, and subtracting it gives the coefficients of the still stage.
+/// A velocity of 2 % of the speed is found within its errors, whatever the motion, and subtracting it gives
+/// the coefficients of the still stage.
 #[test]
 fn a_velocity_that_was_added_is_found() {
     for (kappa3, seed) in [(0.1, 3), (0.3, 5)] {
@@ -47,7 +48,8 @@ fn a_velocity_that_was_added_is_found() {
 fn a_velocity_is_named_from_half_a_percent_of_the_speed_on() {
     let still = Experiment { frames: 600, ..Experiment::new(full(0.5, 0.3), 0.001, 9) }.track();
     let speed = fitted(&still).scales.amplitudes[0];
-    // errors are some 3e-4 of the speed: four of them on both sides of the threshold; one step from 0 falls short of large velocities, but stays above it
+    // errors are some 3e-4 of the speed: four of them on both sides of the threshold; one step from 0 falls
+    // short of large velocities, but stays above it
     let all =
         [(0.0035, false), (0.0065, true), (0.02, true), (0.05, true), (0.2, true), (0.5, true), (1.0, true)];
     for (part, is_named) in all {
@@ -77,7 +79,8 @@ fn p_values_without_a_velocity_are_uniform() {
     assert!(below(0.05) <= 6 && (10..=30).contains(&below(0.5)), "{p:?}");
 }
 
-/// A circle on a stage that drifts by 4 % of its speed is called handed by its likelihood, and not beside a velocity of the stage; a cell that is handed stays so.
+/// A circle on a stage that drifts by 4 % of its speed is called handed by its likelihood, and not beside a
+/// velocity of the stage; a cell that is handed stays so.
 #[test]
 fn a_drift_is_no_handedness() {
     let circle = Experiment { frames: 600, ..Experiment::new(full(0.5, 0.3), 0.005, 9) }.track();

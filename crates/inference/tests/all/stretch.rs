@@ -59,7 +59,8 @@ fn a_stretch_has_its_size_and_direction() {
     assert!((other.p_value / found.p_value - 1.0).abs() < 1e-6 && (other.share - found.share).abs() < 1e-12);
 }
 
-/// Bodies whose equations keep their form under rotations have none, although their frames are far from independent. Legs in two directions are told from them.
+/// Bodies whose equations keep their form under rotations have none, although their frames are far from
+/// independent. Legs in two directions are told from them.
 #[test]
 fn turning_bodies_have_none() {
     let (mut all_directions, mut smallest) = (0, 1.0_f64);

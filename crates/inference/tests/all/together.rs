@@ -1,4 +1,5 @@
-//! Joint fits: errors from the differences between cells, against fits with each cell left out and against the scatter of repeated experiments.
+//! Joint fits: errors from the differences between cells, against fits with each cell left out and against
+//! the scatter of repeated experiments.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -45,8 +46,8 @@ fn shifts_are_those_of_fits_without_the_cell() {
     assert!(between_cells(&tracks[..1], &whole).unwrap_err().to_string().contains("two cells"));
 }
 
-/// Twelve experiments of eight cells that differ: the scatter of their estimates is what the errors between cells say, and several times what
-/// the errors of one law say.
+/// Twelve experiments of eight cells that differ: the scatter of their estimates is what the errors between
+/// cells say, and several times what the errors of one law say.
 #[test]
 fn errors_between_cells_are_the_scatter_of_joint_fits() {
     let (mut values, mut between, mut expected) = (Vec::new(), 0.0, 0.0);
@@ -67,7 +68,8 @@ fn errors_between_cells_are_the_scatter_of_joint_fits() {
         between.sqrt(),
         expected.sqrt()
     );
-    // the ratio of a variance with 11 degrees of freedom to its expectation is within 0.2 and 2.7 in 99.8 %; that of the errors scatters too
+    // the ratio of a variance with 11 degrees of freedom to its expectation is within 0.2 and 2.7 in 99.8 %;
+    // that of the errors scatters too
     assert!((0.2..3.0).contains(&(scatter / between)), "{scatter} against {between}");
     assert!(between > 4.0 * expected, "{between} against {expected}");
 }

@@ -41,7 +41,8 @@ fn modes_that_are_seen_stay() {
     assert_eq!(Library::tensor().seen(&tracks), Library::tensor());
 }
 
-/// Outlines of each frame displaced together by 0.5 % of R0 = 2: the noise of the centre is that, and is 0 without it, where the fit is that of a centre without noise.
+/// Outlines of each frame displaced together by 0.5 % of R0 = 2: the noise of the centre is that, and is 0
+/// without it, where the fit is that of a centre without noise.
 #[test]
 fn a_jitter_is_the_noise_of_the_centre() {
     let settings =

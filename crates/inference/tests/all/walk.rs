@@ -5,8 +5,8 @@ use motiform_inference::{Fix, PersistentWalk, persistent_walk, walk_likelihood};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
-/// A walk of persistence time P and speed S at times `k dt`, by the exact transition in steps of `dt`; each place is seen with an error, and with the probability
-/// `seen`.
+/// A walk of persistence time P and speed S at times `k dt`, by the exact transition in steps of `dt`; each
+/// place is seen with an error, and with the probability `seen`.
 fn walk([persistence, speed, error]: [f64; 3], (dt, frames): (f64, u32), seen: f64, seed: u64) -> Vec<Fix> {
     let mut normal = Normal::new(seed, 0);
     let a = libm::exp(-dt / persistence);
@@ -72,7 +72,7 @@ fn the_likelihood_is_that_of_a_normal_vector() {
     }
 }
 
-/// How many of these walks have each true value in its interval, and how many are described.
+/// The numbers of these walks that have each true value in its interval, and of those that are described.
 fn held(truth: [f64; 3], (dt, frames): (f64, u32), seen: f64, runs: u64) -> ([u64; 4], u64) {
     let values = [truth[0], truth[1], 0.5 * truth[1] * truth[1] * truth[0], truth[2]];
     let (mut held, mut described) = ([0; 4], 0);
@@ -90,7 +90,8 @@ fn held(truth: [f64; 3], (dt, frames): (f64, u32), seen: f64, runs: u64) -> ([u6
     (held, described)
 }
 
-/// 95 % intervals of walks of 50 persistence times, a fifth of the frames missing, errors half as large as a step; of short records; of small errors; sampled finely and coarsely.
+/// 95 % intervals of walks of 50 persistence times, a fifth of the frames missing, errors half as large as a
+/// step; of short records; of small errors; sampled finely and coarsely.
 #[test]
 fn intervals_hold_the_truth() {
     let runs = 150;

@@ -14,7 +14,7 @@ pub(super) struct Body<'d> {
     pub(super) info: &'static ModelInfo,
     pub(super) model: Box<dyn Model>,
     rows: Range<usize>,
-    /// Whether the last rows before a blow-up are left out.
+    /// `true` if the last rows before a blow-up are left out.
     cut: bool,
     /// Physical units, if the study has them.
     units: Shown,
@@ -30,7 +30,7 @@ const TARGET: f64 = 0.032;
 /// A shape this many times as large as usual leaves the scale of the figures of a run that blows up.
 const LARGE: f64 = 10.0;
 
-/// If R0 is chosen automatically, the deformation is at most about this fraction of the radius.
+/// The largest deformation, as a fraction of the radius, if R0 is chosen automatically.
 const DEFORMATION: f64 = 0.45;
 
 impl<'d> Body<'d> {
@@ -73,7 +73,7 @@ impl<'d> Body<'d> {
         self.rows.end = end;
     }
 
-    /// Whether the last rows before a blow-up are left out.
+    /// Returns `true` if the last rows before a blow-up are left out.
     pub(super) fn cut(&self) -> bool {
         self.cut
     }

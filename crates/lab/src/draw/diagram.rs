@@ -17,8 +17,9 @@ const EXPONENT: &str = "lambda_1";
 /// Points of an analytic line.
 const POINTS: usize = 600;
 
-/// The figures of a scan in these units: `_diagram`, and with one axis `_exponent` if exponents are known. Because of the underscore, readers of all parts
-/// as one table ignore them. A scan without any computed cell has none.
+/// The figures of a scan in these units: `_diagram`, and with one axis `_exponent` if exponents are known.
+/// Because of the underscore, readers of all parts as one table ignore them. A scan without any computed cell
+/// has none.
 ///
 /// # Errors
 /// [`Error::Store`], an unknown model, or numbers that do not fit on an axis.

@@ -13,7 +13,7 @@ const OUTLINE_POINTS: usize = 64;
 /// The body's radius R0 relative to the longer side of the path: large enough to show the shape in a small picture.
 const TARGET: f64 = 0.045;
 
-/// If the body would have to be drawn larger than this, the camera follows it instead.
+/// The size of the body on the sheet above which the camera follows it instead.
 const LARGEST: f64 = 4.0;
 
 /// Equal steps of time, so that the film shows the speed of the motion.

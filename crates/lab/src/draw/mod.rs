@@ -50,7 +50,7 @@ pub struct Picture {
     pub bytes: Vec<u8>,
 }
 
-/// How figures become files.
+/// The formats of figures: files, style and units.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct FigureFormat {
     /// Also PDF.
@@ -141,8 +141,8 @@ fn figures(body: &Body<'_>) -> Figures {
 /// Figures with their names, which are those of their files.
 pub type Figures = Vec<(&'static str, Box<dyn Figure>)>;
 
-/// Draws figures as SVG and PNG, and as PDF if requested; with `numbers` what they show as CSV, too. A style that leaves out captions leaves
-/// them as text.
+/// Draws figures as SVG and PNG, and as PDF if requested; with `numbers` what they show as CSV, too. A style
+/// that leaves out captions leaves them as text.
 ///
 /// # Errors
 /// [`Error::Figure`]: numbers that do not fit on an axis.

@@ -45,7 +45,7 @@ pub fn named_in(info: &ModelInfo, values: &Named, (varied, ties): (&[&str], &Tie
     format!("{} model{}: {}{others}.", capital(info.name), units.caption(), set.join(", "))
 }
 
-/// What of a run is not seen: its noise, its transient, and how it ended if it did not complete.
+/// The part of a run that is not seen: its noise, its transient, and its end if it did not complete.
 pub(super) fn method(body: &Body<'_>) -> String {
     let manifest = &body.dataset.manifest;
     let c = &manifest.plan.computation;
@@ -95,7 +95,7 @@ fn noise(noise: NoiseSettings, velocities: usize, seed: u64) -> String {
     format!(" White noise of amplitude {of}, seed {seed}.")
 }
 
-/// Where the figures of a run that blows up end.
+/// A sentence on the end of the figures of a run that blows up.
 fn before_blow_up(body: &Body<'_>) -> String {
     match body.cut() {
         true => format!(

@@ -34,9 +34,10 @@ pub struct Equilibrium {
     pub residual: f64,
     /// The fraction of the random starts that converged to it.
     pub share: f64,
-    /// What led to it first.
+    /// The method that led to it first.
     pub found_by: FoundBy,
-    /// Dimension of the family of equilibria that it stands for (rotated copies not counted); 0 where it is alone. So many eigenvalues are 0.
+    /// Dimension of the family of equilibria that it stands for (rotated copies not counted); 0 where it is
+    /// alone. So many eigenvalues are 0.
     #[serde(skip_serializing_if = "is_zero")]
     pub family: usize,
 }
@@ -47,7 +48,7 @@ const fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
-/// What led to an equilibrium first.
+/// The method that led to an equilibrium first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FoundBy {
@@ -88,7 +89,8 @@ pub fn equilibria(plan: &Plan, starts: usize, watch: &dyn Watch) -> Result<Optio
     Ok(Some(found.map(|found| describe(model.as_ref(), found, starts)).collect()))
 }
 
-/// How many deflated searches in turn may find nothing. In random equations of 5 and 6 unknowns up to 428 found nothing before one that did (of 24 lists).
+/// The number of deflated searches in turn that may find nothing. In random equations of 5 and 6 unknowns up
+/// to 428 found nothing before one that did (of 24 lists).
 fn patience(starts: usize, dim: usize) -> usize {
     let dim = dim.max(1) as f64;
     let many = (60.0 / dim).max(1.5) * (48.0 / dim).powi(2).min(1.0);

@@ -1,4 +1,4 @@
-//! Where equilibria are looked for: random starts, and deflation from sizes that follow from the equations.
+//! The search for equilibria: random starts, and deflation from sizes that follow from the equations.
 
 use super::FoundBy;
 use super::families::Families;
@@ -29,7 +29,7 @@ const RAY_COUNT: u64 = 8;
 /// Deflated searches begin with sizes from this factor below the smallest balance of terms to this factor above the largest.
 const BEYOND: f64 = 10.0;
 
-/// How far deflation reaches in successive sixteens of searches, in units of the size of the start.
+/// The reach of deflation in successive sixteens of searches, in units of the size of the start.
 const REACHES: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 
 /// Deflation ends when so many equilibria are known: there may be infinitely many.
@@ -60,7 +60,7 @@ impl<'m> Search<'m> {
         Self { info, model, seed, known, families, found: Vec::new() }
     }
 
-    /// What was found, the most stable first.
+    /// The equilibria found, the most stable first.
     pub(super) fn finish(mut self) -> Vec<Found> {
         self.found.sort_by(|a, b| a.equilibrium.growth().total_cmp(&b.equilibrium.growth()));
         self.found
@@ -161,9 +161,9 @@ impl<'m> Search<'m> {
         Random::Sizes { min, max }.shape(self.info, self.model, self.seed, stream)
     }
 
-    /// The start of a deflated search: a random shape, every other one with decaying modes as small as the others make them, and every fourth
-    /// between two known equilibria. In every other one of the former the coordinates have sizes of their own, over two decades; of four, two are
-    /// symmetric.
+    /// The start of a deflated search: a random shape, every other one with decaying modes as small as the
+    /// others make them, and every fourth between two known equilibria. In every other one of the former the
+    /// coordinates have sizes of their own, over two decades; of four, two are symmetric.
     fn guess(&self, place: u64, low: f64, high: f64) -> Vec<f64> {
         let mut random = Uniform::new(self.seed, UNEVEN + place);
         if place / 4 % 4 == 2 && self.found.len() > 1 {
@@ -193,8 +193,9 @@ impl<'m> Search<'m> {
     }
 }
 
-/// Divides each coordinate by `1 + |lambda|/growth`, with its rate and the largest one: what decays faster than anything grows follows the others,
-/// and is small in equilibria. Nothing changes where the linear part lets nothing grow.
+/// Divides each coordinate by `1 + |lambda|/growth`, with its rate and the largest one: what decays faster
+/// than anything grows follows the others, and is small in equilibria. Nothing changes where the linear part
+/// lets nothing grow.
 fn slaved(model: &dyn Model, shape: &mut [f64]) {
     let mut rates = vec![0.0; shape.len()];
     Semilinear::<f64>::linear(model, &mut rates);

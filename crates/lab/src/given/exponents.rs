@@ -7,8 +7,8 @@ use motiform_study::Error;
 use motiform_study::plan::{LONGEST, check};
 
 /// The `count` largest exponents of the orbit from `start`, averaged over `t_end` after `transient`, by the tangent flow: exact with a
-/// Jacobian, otherwise with differences of an error of about 1e-12. The number of neutral exponents is that of the flow's direction; rotations
-/// of the plane are not known.
+/// Jacobian, otherwise with differences of an error of about 1e-12. The number of neutral exponents is that
+/// of the flow's direction; rotations of the plane are not known.
 ///
 /// # Errors
 /// A count that there is not, times or a start out of range, a function that depends on the time (at the start or at the end of the orbit).

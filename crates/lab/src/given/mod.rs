@@ -66,7 +66,7 @@ impl VectorField<f64> for Flow<'_> {
     }
 }
 
-/// How orbits of a given function are computed.
+/// The settings of orbits of a given function.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// An explicit method.

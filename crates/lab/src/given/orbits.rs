@@ -40,7 +40,7 @@ impl Span {
 pub struct Recording {
     /// Rows and crossings; empty if it ended during the transient.
     pub trajectory: Trajectory,
-    /// How it ended.
+    /// The end of the run.
     pub ending: Ending,
     /// The last state.
     pub last: Vec<f64>,

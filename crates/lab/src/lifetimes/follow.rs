@@ -23,7 +23,7 @@ const SLOW: f64 = 1e-2;
 /// Looks for which the motion at the end may be examined: a transient that lasts for longer is not taken for a regular motion.
 const LAST_LOOKS: f64 = 4.0;
 
-/// Why an orbit was not followed any further.
+/// The reason why an orbit was not followed any further.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum End {
     /// It blew up.

@@ -16,10 +16,10 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
 
-/// The longest time of an orbit if the plan has no budget, in looks of the model.
+/// The longest time of an orbit if the plan has no budget, in looks of the model ([`motiform_models::ModelInfo::look`]).
 const LOOKS: f64 = 100.0;
 
-/// What a killed run loses at most, beside the orbits under way.
+/// The time between savings: a killed run loses at most this, beside the orbits under way.
 const KEPT_EVERY: Duration = Duration::from_secs(5);
 
 /// Mean lives of chaos along a parameter, and their law.
@@ -38,7 +38,7 @@ pub struct Lifetimes {
 /// The dimension of a life.
 pub const LIFE: Dimension = TIME;
 
-/// What became of the starts at one value of the parameter.
+/// The fates of the starts at one value of the parameter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LifeAt {
     /// Value of the parameter.
@@ -61,8 +61,9 @@ pub struct LifeAt {
     pub life: MeanLife,
 }
 
-/// How long chaos lives along the only axis of a plan, from its random starts, each followed to `plan`'s budget (0 for 100 looks of the
-/// model), in whole looks. A life ends by a blow-up, or when the orbit has come close to a stable steady motion; both count alike.
+/// The lifetimes of chaos along the only axis of a plan, from its random starts, each followed to `plan`'s
+/// budget (0 for 100 looks of the model), in whole looks. A life ends by a blow-up, or when the orbit has
+/// come close to a stable steady motion; both count alike.
 ///
 /// Lives count from `delay` on, which has to cover the way onto the chaotic set. If it is not given: one look, and if
 /// orbits are captured, twice the time that the slowest eigenvalue takes to bring an orbit as near as that is noticed, which a start that
@@ -130,7 +131,7 @@ pub fn follow_lives_kept(
     Ok(Lives::of(plan, orbits))
 }
 
-/// The longest time of an orbit, in whole looks of the model.
+/// The longest time of an orbit, in whole looks of the model ([`motiform_models::ModelInfo::look`]).
 fn looks(plan: &ScanPlan) -> Result<f64, Error> {
     let (look, budget) = (plan.info()?.look, plan.computation.budget);
     Ok((if budget > 0.0 { budget / look } else { LOOKS }).ceil())
@@ -158,7 +159,7 @@ impl Lives {
         }
     }
 
-    /// Whether every orbit was followed to its end.
+    /// Returns `true` if every orbit was followed to its end.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.orbits.iter().all(Option::is_some)
@@ -229,7 +230,7 @@ fn summarise(value: f64, all: &[Followed], delay: Option<f64>, look: f64) -> Res
 }
 
 impl Lifetimes {
-    /// What the numbers do not tell by themselves: one line each.
+    /// Remarks that the numbers do not tell by themselves: one line each.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let sum = |of: fn(&LifeAt) -> usize| self.values.iter().map(of).sum::<usize>();

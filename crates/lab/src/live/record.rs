@@ -54,7 +54,7 @@ impl Record {
         (self.numbers.len() / self.width()).min(self.most)
     }
 
-    /// Whether it is empty.
+    /// Returns `true` if it is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.numbers.is_empty()

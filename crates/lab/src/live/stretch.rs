@@ -125,7 +125,7 @@ impl<'b> Stretch<'b> {
         &self.state
     }
 
-    /// How the motion ended, if it did: it does not continue.
+    /// The end of the motion, if it has ended: it does not continue.
     #[must_use]
     pub fn outcome(&self) -> Option<Outcome> {
         self.outcome

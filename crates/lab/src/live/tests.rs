@@ -40,7 +40,7 @@ fn watched(plan: &RunPlan, look: f64) -> (Record, Box<dyn Model>, Option<Outcome
     (record, model, outcome, end)
 }
 
-/// What is seen is what `simulate` records, and how often one looks changes no bit.
+/// The display shows what `simulate` records, and the frequency of looking changes no bit.
 #[test]
 fn looking_does_not_change_the_motion() {
     for (model, preset, t_end) in [("tensor", "fig5b", 30.0), ("cell", "fig6a", 100.0)] {

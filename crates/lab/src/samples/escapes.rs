@@ -1,4 +1,4 @@
-//! How many of many starts blow up, when, and their rate of escape from chaos.
+//! The number of starts that blow up, the times when they do, and their rate of escape from chaos.
 
 use super::Samples;
 use super::population::Population;
@@ -22,7 +22,7 @@ pub struct Escapes {
     pub at_once: usize,
     /// Chaotic starts that were followed further.
     pub followed: usize,
-    /// How many of these blew up.
+    /// Number of these that blew up.
     pub lost: usize,
     /// Chaotic starts that were not followed.
     pub left_out: usize,
@@ -135,13 +135,14 @@ impl Escapes {
         self.at_once + self.lost
     }
 
-    /// Whether chaos was observed to end: then it is transient, at least for some starts.
+    /// Returns `true` if chaos was observed to end: then it is transient, at least for some starts.
     #[must_use]
     pub fn chaos_ends(&self) -> bool {
         self.lost > 0
     }
 
-    /// How many of `of` starts blew up, by when, and what follows for the chaos: one line each.
+    /// The number of starts, out of `of`, that blew up, by when, and what follows for the chaos: one line
+    /// each.
     #[must_use]
     pub fn words(&self, of: usize) -> Vec<String> {
         let mut lines = vec![match (self.first, self.median, self.last) {
@@ -207,7 +208,7 @@ fn rate(gone: &[f64], stays: &[Stay], look: f64) -> Option<EscapeLimits> {
     Some(EscapeLimits { value: escapes as f64 / watched, lower, upper, escapes, watched })
 }
 
-/// How long the members of the population remain, up to `until`; `None` if the watch stopped it.
+/// The time for which each member of the population remains, up to `until`; `None` if the watch stopped it.
 fn follow(plan: &RunPlan, population: &Population<'_>, until: f64) -> Result<Option<Vec<Stay>>, Error> {
     let (method, c) = (plan.method()?, &plan.computation);
     let model = population.model.as_ref();

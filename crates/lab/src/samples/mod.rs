@@ -21,11 +21,11 @@ use std::collections::BTreeMap;
 /// The initial states: that of the plan, then random ones.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples {
-    /// How many.
+    /// Their number.
     pub count: usize,
     /// The distribution of the random ones: that of the plan's own, unless that one was given.
     pub random: Random,
-    /// Whether the plan's own initial state was given and not drawn.
+    /// `true` if the plan's own initial state was given and not drawn.
     pub given: bool,
     /// Threads.
     pub threads: usize,
@@ -86,8 +86,8 @@ pub struct Exponents {
     /// The means over the orbits that lasted, largest first; empty if none did. The error is the larger of those from the
     /// orbits' own errors and from their spread.
     pub means: Vec<Estimate>,
-    /// Whether the largest exponents of all orbits that lasted agree: if not, there are several attractors, and the means
-    /// are not meaningful.
+    /// `true` if the largest exponents of all orbits that lasted agree: if not, there are several attractors,
+    /// and the means are not meaningful.
     pub agree: bool,
 }
 
@@ -119,7 +119,7 @@ pub fn lyapunov(
 }
 
 impl Exponents {
-    /// Why the means have no error; `None` if they have one, or there are none.
+    /// The reason why the means have no error; `None` if they have one, or there are none.
     #[must_use]
     pub fn without_error(&self) -> Option<String> {
         self.orbits.iter().find_map(Lyapunov::without_error)
@@ -191,7 +191,7 @@ impl std::fmt::Display for Named {
     }
 }
 
-/// How many samples lead to each motion, the most frequent first.
+/// The number of samples that lead to each motion, the most frequent first.
 #[must_use]
 pub fn motions(verdicts: &[Verdict]) -> Vec<(Named, usize)> {
     let mut counts: BTreeMap<_, (Named, usize)> = BTreeMap::new();

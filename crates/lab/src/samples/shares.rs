@@ -17,9 +17,9 @@ pub struct Basins {
 /// Random starts: how many, and of which distribution.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Starts {
-    /// How many were drawn.
+    /// Number of starts drawn.
     pub count: usize,
-    /// Whether there is an additional given one, which is not part of any share.
+    /// `true` if there is an additional given one, which is not part of any share.
     pub given: bool,
     /// Their distribution.
     pub random: Random,

@@ -24,7 +24,7 @@ impl ScanFolder {
         Ok(Self { path: path.to_owned(), manifest: ScanManifest::read(path)? })
     }
 
-    /// Where it is.
+    /// The path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path

@@ -17,7 +17,7 @@ pub struct Merged {
     pub missing: usize,
     /// Damaged parts, each with a description; they were omitted.
     pub damaged: Vec<String>,
-    /// What was found at the destination, in sentences: leftovers of killed merges, files that stay.
+    /// Remarks on the destination, in sentences: leftovers of killed merges, files that stay.
     pub notes: Vec<String>,
 }
 

@@ -32,7 +32,8 @@ pub const NUMBERS: [(&str, &str, Dimension); 15] = [
     ("time", "model time that the decision took", TIME),
     (
         "resolution",
-        "largest relative change of speed, turning rate and period (of chaos: speed and largest exponent) with half as many modes more, where the model has a number of modes",
+        "largest relative change of speed, turning rate and period (of chaos: speed and largest exponent) \
+        with half as many modes more, where the model has a number of modes",
         [0, 0],
     ),
 ];
@@ -54,7 +55,8 @@ pub struct Row {
     pub regime: Regime,
     /// The kind of reduced attractor.
     pub attractor: Attractor,
-    /// Which of several motions of this name, where the model tells them apart: left or right, along or across a field.
+    /// The direction, which tells several motions of this name apart where the model does: left or right,
+    /// along or across a field.
     pub course: Option<Course>,
     /// As in [`NUMBERS`]; NaN if it is not defined (null in files).
     pub numbers: [f64; NUMBERS.len()],
@@ -126,7 +128,7 @@ pub(super) fn same_rows(a: &[Row], b: &[Row]) -> bool {
 }
 
 impl Row {
-    /// Whether two rows are the same to the last bit.
+    /// Returns `true` if two rows are the same to the last bit.
     #[must_use]
     pub fn is_same(&self, other: &Self) -> bool {
         self.numbers.map(f64::to_bits) == other.numbers.map(f64::to_bits)

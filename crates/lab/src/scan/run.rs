@@ -17,7 +17,8 @@ use std::path::Path;
 pub struct Scan {
     folder: ScanFolder,
     shard: Shard,
-    /// Whether each part exists and is undamaged: only this memory, one byte per part, grows with the cells.
+    /// `true` for each part that exists and is undamaged: only this memory, one byte per part, grows with the
+    /// cells.
     whole: Vec<bool>,
     damaged: Vec<String>,
     /// Its files, locked.
@@ -131,7 +132,8 @@ impl Scan {
         (0..self.whole.len()).filter(|&part| self.shard.holds(part) && parts.check(part).is_err()).count()
     }
 
-    /// What a person should know, in sentences, each once: leftovers of killed runs that were removed, files that stay.
+    /// Remarks for the user, in sentences, each once: leftovers of killed runs that were removed, files that
+    /// stay.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         self.files.notes()

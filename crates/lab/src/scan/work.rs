@@ -21,10 +21,10 @@ pub trait Store: Sync {
     fn put(&self, part: usize, rows: Vec<Row>) -> Result<(), Error>;
 }
 
-/// How a successful computation ended.
+/// The end of a successful computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ended {
-    /// Whether everything of the shard is computed; if not, the watch stopped it.
+    /// `true` if everything of the shard is computed; if not, the watch stopped it.
     pub complete: bool,
     /// Cells computed and written.
     pub cells: usize,
@@ -118,7 +118,8 @@ pub fn rows_of(
     rows.into_iter().collect::<Option<Vec<_>>>().filter(|_| whole)
 }
 
-/// The rows of some cells (rising numbers), cell by cell, on `threads` threads; `None` if the watch stopped it. The same rows as those of the whole scan.
+/// The rows of some cells (rising numbers), cell by cell, on `threads` threads; `None` if the watch stopped
+/// it. The same rows as those of the whole scan.
 ///
 /// # Errors
 /// None of its own: what the numerics reject is in the rows.
@@ -141,7 +142,7 @@ pub fn rows_at(
     })
 }
 
-/// What the threads share.
+/// The data that the threads share.
 struct Work<'w> {
     plan: &'w ScanPlan,
     store: &'w dyn Store,
@@ -195,7 +196,7 @@ impl Work<'_> {
     }
 }
 
-/// What stops an evaluation: the caller's watch, or a failure in another thread.
+/// Stops an evaluation: by the caller's watch, or after a failure in another thread.
 impl Watch for Work<'_> {
     fn stopped(&self) -> bool {
         self.failed.load(Ordering::Relaxed) || self.watch.stopped()

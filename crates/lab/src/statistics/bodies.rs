@@ -20,10 +20,12 @@ pub const MOST: usize = 100_000;
 /// Bodies that are computed together in lanes: what an interruption loses at most.
 const TOGETHER: usize = 64;
 
-/// Statistics of `count` bodies: body k is the run of the study with the seed `seed + k`, its transient left out. They are computed on `threads`
-/// threads; those that do not complete (a blow-up, too many steps) are left out and counted. If the watch stops the work, the bodies that are finished are measured.
+/// Statistics of `count` bodies: body k is the run of the study with the seed `seed + k`, its transient left
+/// out. They are computed on `threads` threads; those that do not complete (a blow-up, too many steps) are
+/// left out and counted. If the watch stops the work, the bodies that are finished are measured.
 ///
-/// Tensor models and amplitude equations of at most four modes run in the lanes of vector registers (see [`tracks`] and [`noisy_tracks`]). The result does not depend on `threads`.
+/// Tensor models and amplitude equations of at most four modes run in the lanes of vector registers (see
+/// [`tracks`] and [`noisy_tracks`]). The result does not depend on `threads`.
 ///
 /// # Errors
 /// Input that a run rejects; bodies that would all be the same (a given start and no noise); [`Error::Interrupted`] if no body was
@@ -112,7 +114,7 @@ fn plans(study: &Study, count: usize) -> Result<Vec<RunPlan>> {
     Ok((0..count).map(plan).collect::<std::result::Result<_, _>>()?)
 }
 
-/// How a body ended, and its track; `None` if it was stopped.
+/// The outcome of a body, and its track; `None` if it was stopped.
 pub(crate) type Body = Option<(Outcome, Track)>;
 
 /// Runs of their own, with noise, of models without lanes.

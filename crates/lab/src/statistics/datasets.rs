@@ -14,8 +14,9 @@ use std::path::{Path, PathBuf};
 /// A row of another time than the grid's, in sampling intervals.
 const OFF_GRID: f64 = 1e-6;
 
-/// Statistics of the bodies in dataset folders, one each, of one model with one set of parameters and one noise, at one sampling interval; what
-/// was recorded before `transient` is left out. Seeds, starts, methods and lengths may differ. Runs that ended early count as far as they go.
+/// Statistics of the bodies in dataset folders, one each, of one model with one set of parameters and one
+/// noise, at one sampling interval; what was recorded before `transient` is left out. Seeds, starts, methods
+/// and lengths may differ. Runs that ended early count as far as they go.
 ///
 /// # Errors
 /// Folders that are no datasets, of different models, parameters, noise or intervals, or with rows that are not evenly spaced.
@@ -75,7 +76,8 @@ fn check(folder: &Path, dataset: &Dataset, first: Option<&Dataset>) -> Result<()
     }
 }
 
-/// Why these are runs of different bodies, whose mean is that of no body: another model, parameter or noise.
+/// The reason why these are runs of different bodies, whose mean is that of no body: another model, parameter
+/// or noise.
 fn other_body(first: &Computation, c: &Computation) -> Option<String> {
     if first.model != c.model {
         return Some(format!(

@@ -18,13 +18,13 @@ pub struct Measurement {
     pub title: String,
     /// The plan of the first body.
     pub plan: Plan,
-    /// What was measured: the plan and the number of bodies, or the folders.
+    /// The source of the tracks: the plan and the number of bodies, or the folders.
     pub source: Value,
     /// The seeds of simulated bodies, in their order.
     pub seeds: Vec<u64>,
-    /// What a user should know of the bodies, in sentences.
+    /// Remarks on the bodies for the user, in sentences.
     pub notes: Vec<String>,
-    /// Whether all bodies that were asked for were computed.
+    /// `true` if all bodies that were asked for were computed.
     pub complete: bool,
     /// The numbers.
     pub statistics: Statistics,

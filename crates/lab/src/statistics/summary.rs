@@ -21,7 +21,14 @@ pub fn summary(measurement: &Measurement) -> Value {
     let turning: Vec<Value> = found
         .turning
         .iter()
-        .map(|entry| json!({ "lag": entry.lag, "pairs": entry.angles.samples, "independent": entry.angles.independent, "at_rest": entry.at_rest }))
+        .map(|entry| {
+            json!({
+                "lag": entry.lag,
+                "pairs": entry.angles.samples,
+                "independent": entry.angles.independent,
+                "at_rest": entry.at_rest,
+            })
+        })
         .collect();
     json!({
         "title": measurement.title,

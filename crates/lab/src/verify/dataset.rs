@@ -14,8 +14,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Rows of a trajectory that are computed again, if not all are.
 const ROWS: usize = 1000;
 
-/// Integrates the plan of a dataset again, from its beginning, and compares every number of the rows; all of them with `all`, otherwise the first
-/// thousand. The memory it takes does not grow with the trajectory. `None` if the watch stopped it.
+/// Integrates the plan of a dataset again, from its beginning, and compares every number of the rows; all of
+/// them with `all`, otherwise the first thousand. The memory it takes does not grow with the trajectory.
+/// `None` if the watch stopped it.
 ///
 /// # Errors
 /// A folder that cannot be read; a plan whose hash is another; input that only the numerics can reject.
@@ -48,12 +49,13 @@ pub fn verify_dataset(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Opt
     })
 }
 
-/// Whether nobody interrupted it: what an interrupted run has is compared, and what it lacks is no difference.
+/// Returns `true` if nobody interrupted it: the rows of an interrupted run are compared, and those that it
+/// lacks are no difference.
 fn is_whole(dataset: &Dataset) -> bool {
     !matches!(dataset.manifest.outcome.outcome, Outcome::Interrupted { .. })
 }
 
-/// What was found, with the number of rows of a run that was not interrupted.
+/// The result of the comparison, with the number of rows of a run that was not interrupted.
 fn judged(mut rows: Compared<'_>, whole: bool, most: usize, enough: &AtomicBool) -> Result<Repeated, Error> {
     let is_longer = rows.finish()?;
     let count = rows.rows;

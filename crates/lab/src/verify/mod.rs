@@ -7,11 +7,11 @@ mod scan;
 pub use dataset::verify_dataset;
 pub use scan::verify_scan;
 
-/// What was computed again.
+/// The result of a repeated computation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Repeated {
     /// Rows that were compared.
     pub rows: usize,
-    /// What is not the same, in sentences.
+    /// The differences, in sentences.
     pub different: Vec<String>,
 }

@@ -71,7 +71,7 @@ impl<'c> Compared<'c> {
         self.different.into_values().collect()
     }
 
-    /// Whether the file has a row that is not compared yet.
+    /// Returns `true` if the file has a row that is not compared yet.
     fn more(&mut self) -> Result<bool, Error> {
         while self.at == self.there.rows() {
             let Ok(group) = self.groups.recv() else { return Ok(false) };

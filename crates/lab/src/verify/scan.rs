@@ -9,8 +9,8 @@ use std::path::Path;
 /// Parts of a scan that are computed again, if not all are.
 const PARTS: usize = 3;
 
-/// Computes parts of a scan again and compares every row; all of them with `all`, otherwise the first, a middle and the last one. `None` if the watch
-/// stopped it.
+/// Computes parts of a scan again and compares every row; all of them with `all`, otherwise the first, a
+/// middle and the last one. `None` if the watch stopped it.
 ///
 /// # Errors
 /// A folder that cannot be read.

@@ -80,7 +80,8 @@ fn a_handed_body_and_its_mirror_image() {
 /// A constant rate of turning alone: a circle at -omega (`z1 = v1 - i v2`).
 #[test]
 fn a_circle_swimmer_turns_at_its_rate() {
-    let text = "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.parameters]\nomega = 0.3\n[model.amplitudes.equations]\nz1 = \"(1 + i*omega - |z1|^2)*z1\"";
+    let text = "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.parameters]\nomega = \
+        0.3\n[model.amplitudes.equations]\nz1 = \"(1 + i*omega - |z1|^2)*z1\"";
     let verdict = verdict(&Study::parse(text, "text", "circle").unwrap());
     assert_eq!(verdict.regime.name(), "circular");
     assert!((verdict.turning_rate.unwrap() + 0.3).abs() < 1e-9, "{:?}", verdict.turning_rate);
@@ -163,7 +164,8 @@ fn a_body_falls_along_a_force() {
 fn errors_are_shown_at_their_place_in_the_file() {
     let file = |equation: &str| {
         format!(
-            "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.parameters]\nkappa = 0.5\n[model.amplitudes.equations]\nz1 = \"{equation}\"\nz2 = '''\n-kappa*z2'''"
+            "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.parameters]\nkappa = \
+            0.5\n[model.amplitudes.equations]\nz1 = \"{equation}\"\nz2 = '''\n-kappa*z2'''"
         )
     };
     let refusal = |text: &str| Study::parse(text, "my.toml", "my").unwrap_err().to_string();
@@ -181,8 +183,8 @@ fn errors_are_shown_at_their_place_in_the_file() {
     );
 }
 
-/// Multipliers of strongly contracting directions are lost in the matrix of a period: their exponents are measured along the orbit. The mean
-/// divergence is their sum, and the mirror image has the same.
+/// Multipliers of strongly contracting directions are lost in the matrix of a period: their exponents are
+/// measured along the orbit. The mean divergence is their sum, and the mirror image has the same.
 #[test]
 fn exponents_of_contracting_orbits() {
     let text = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\n\

@@ -59,7 +59,8 @@ fn a_parameter_may_be_on_the_other_axis() {
     }
 }
 
-/// What the axes do not give is the given start, or 0 but for the perturbation; further samples are random, but on the axes too.
+/// Coordinates that are no axis are those of the given start, or 0 but for the perturbation; further samples
+/// are random, but on the axes too.
 #[test]
 fn starts_have_the_values_of_their_cell() {
     let study = "preset = \"fig4\"\n[initial]\nu111 = 0.5\n[scan]\nsamples = 3\naxes = [\"s11=-1:1:5\", \"v2=0.25,0.75\"]\n";

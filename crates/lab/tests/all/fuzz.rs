@@ -91,7 +91,7 @@ fn damage(folder: &Path, file: &str, seed: u64, usual: usize, read: impl Fn(&Pat
     assert!(read(folder), "{file} is as it was");
 }
 
-/// Whatever an inventory says, no file outside its folder is listed.
+/// No file outside its folder is listed, whatever an inventory says.
 #[test]
 fn inventories() {
     let place = in_memory();

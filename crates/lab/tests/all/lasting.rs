@@ -1,8 +1,9 @@
 //! A stable periodic orbit inside an unstable torus, beside a chaotic transient: names that no seed may change.
 //!
-//! The model (models/w63.toml: random coefficients, 5 modes) has a subcritical torus bifurcation at c1 = 1.130844. Above it the periodic orbit is
-//! stable; outside the torus orbits are thrown about and come back, and in the end shrink onto the orbit, at a rate of 8e-5 (runs of 200,000 with an
-//! independent Runge-Kutta code).
+//! The model (models/w63.toml: random coefficients, 5 modes) has a subcritical torus bifurcation at c1 =
+//! 1.130844. Above it the periodic orbit is stable; outside the torus orbits are thrown about and come back,
+//! and in the end shrink onto the orbit, at a rate of 8e-5 (runs of 200,000 with an independent Runge-Kutta
+//! code).
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

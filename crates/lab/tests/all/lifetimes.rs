@@ -12,7 +12,8 @@ use motiform_study::{ScanPlan, Study};
 /// The plan of a scan of the full model along kappa2 at this kappa3.
 fn plan(kappa3: f64, kappa2: &str, samples: usize, budget: f64) -> ScanPlan {
     let text = format!(
-        "preset = \"fig4\"\n[model.tensor]\nkappa3 = {kappa3}\n[scan]\naxes = [\"kappa2={kappa2}\"]\nsamples = {samples}\nbudget = {budget}\n"
+        "preset = \"fig4\"\n[model.tensor]\nkappa3 = {kappa3}\n[scan]\naxes = \
+        [\"kappa2={kappa2}\"]\nsamples = {samples}\nbudget = {budget}\n"
     );
     ScanPlan::new(&Study::parse(&text, "text", "test").unwrap()).unwrap()
 }

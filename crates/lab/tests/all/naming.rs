@@ -1,5 +1,5 @@
-//! What a motion and its figures are called: by a short look, by the parameters, never by another motion's preset. And how
-//! a run that does not survive its transient says so.
+//! The names of a motion and of its figures: by a short look, by the parameters, never by another motion's
+//! preset. And the report of a run that does not survive its transient.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

@@ -111,7 +111,7 @@ fn the_same_plan_gives_the_same_bits_and_another_seed_others() {
     assert_ne!(one.manifest.plan_hash, other.manifest.plan_hash);
 }
 
-/// What is shown does not change what is computed; what is written more often is not computed otherwise.
+/// Settings of the display do not change the computation, nor does the interval of the output.
 #[test]
 fn rows_do_not_move_the_orbit() {
     let study = |dt_out| {

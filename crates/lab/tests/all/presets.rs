@@ -36,8 +36,8 @@ fn lowest_headings(dataset: &Dataset) -> Vec<f64> {
     rises.map(|i| t[i - 1] + (t[i] - t[i - 1]) * rate[i - 1] / (rate[i - 1] - rate[i])).collect()
 }
 
-/// The path that the README shows is that of every machine: a start that is its own mirror image to round-off gives either of two, which depended
-/// on the tolerance.
+/// The path that the README shows is that of every machine: a start that is its own mirror image to round-off
+/// gives either of two, which depended on the tolerance.
 #[test]
 fn the_path_of_fig5a_does_not_depend_on_rounding() {
     let end = |rtol: f64, shift: f64| {

@@ -203,7 +203,7 @@ fn the_reader_accepts_every_key_of_the_schema() {
     assert_eq!((study.parameters.len(), study.run.seed, study.random), (21, 3, Some(0.5.into())));
 }
 
-/// What the reader calls known in its complaints stands in the schema.
+/// The keys that the reader names in its messages stand in the schema.
 #[test]
 fn the_schema_has_every_key_that_the_reader_knows() {
     for info in MODELS {
@@ -236,9 +236,14 @@ fn keys_that_the_reader_knows(info: &ModelInfo) -> BTreeSet<String> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Whatever is typed into a study file, the answer is a study or a complaint about a line that exists.
+    /// The answer to any text in a study file is a study, or an error at a line that exists.
     #[test]
-    fn no_text_is_too_strange(which in 0..PRESETS.len(), at in 0.0..1.0, drop in 0_usize..40, insert in "\\PC{0,8}|[\\[\\]\"'=.\\r\\n\\t#]{1,5}") {
+    fn no_text_is_too_strange(
+        which in 0..PRESETS.len(),
+        at in 0.0..1.0,
+        drop in 0_usize..40,
+        insert in "\\PC{0,8}|[\\[\\]\"'=.\\r\\n\\t#]{1,5}",
+    ) {
         let text: Vec<char> = PRESETS[which].text.chars().collect();
         let at = (at * text.len() as f64) as usize;
         let end = (at + drop).min(text.len());

@@ -1,6 +1,7 @@
 //! Coefficients of amplitude equations: complex expressions of the parameters, as a list of operations.
 
-/// What is known of a coefficient's value whatever the parameters are. It decides whether equations are mirror symmetric.
+/// The kind of a coefficient's value, for all values of the parameters. It decides whether equations are
+/// mirror symmetric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A real number.
@@ -90,7 +91,7 @@ const MOST: usize = 20_000;
 pub(super) type Value = [f64; 2];
 
 impl Tape {
-    /// What is known of a coefficient.
+    /// The kind of a coefficient.
     #[must_use]
     pub(super) fn kind(&self, place: Place) -> Kind {
         self.0[place as usize].1
@@ -106,7 +107,7 @@ impl Tape {
         }
     }
 
-    /// Whether the list is too long to go on.
+    /// Returns `true` if the list has reached the largest allowed length.
     pub(super) fn is_full(&self) -> bool {
         self.0.len() >= MOST
     }
@@ -183,7 +184,8 @@ impl Tape {
         Some(self.push(Operation::Apply(function, a), kind))
     }
 
-    /// All coefficients for these values of the parameters. What has no value (a division by 0, the root of a negative number) is not finite.
+    /// All coefficients for these values of the parameters. What has no value (a division by 0, the root of a
+    /// negative number) is not finite.
     #[must_use]
     pub(super) fn evaluate(&self, parameters: &[f64]) -> Vec<Value> {
         let mut values: Vec<Value> = Vec::with_capacity(self.0.len());

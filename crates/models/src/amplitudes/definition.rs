@@ -19,8 +19,8 @@ pub struct Definition {
     pub parameters: Vec<ParameterDefinition>,
     /// The right-hand side of `dz_n/dt`, in the order of `modes`.
     pub equations: Vec<String>,
-    /// The strength of complex white noise on some amplitudes, by angular index: `dz_n = .. dt + g_n o dW_n` (Stratonovich), with independent
-    /// real and imaginary parts of `W_n`, each of variance t.
+    /// The strength of complex white noise on some amplitudes, by angular index: `dz_n = .. dt + g_n o dW_n`
+    /// (Stratonovich), with independent real and imaginary parts of `W_n`, each of variance t.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty", with = "by_name")]
     pub noise: BTreeMap<u32, String>,
 }

@@ -25,11 +25,11 @@ pub struct Equations {
     rates: Vec<Polynomial>,
     velocity: Polynomial,
     pub(super) symmetry: Symmetry,
-    /// Whether a turn by half a circle, `z_n -> (-1)^n z_n`, is a symmetry.
+    /// `true` if a turn by half a circle, `z_n -> (-1)^n z_n`, is a symmetry.
     pub(super) half_turn: bool,
     /// `z_n` is multiplied by `exp(-i n angle)` where this is -1, by `exp(i n angle)` where it is 1.
     pub(super) sense: i8,
-    /// Whether the velocity is `conj(z1)` or `z1`, and the place of `z1`.
+    /// The place of `z1`, if the velocity is `conj(z1)` or `z1`.
     pub(super) velocity_mode: Option<usize>,
     pub(super) program: Program,
     pub(super) velocity_program: Program,
@@ -89,7 +89,7 @@ impl Equations {
         })
     }
 
-    /// What was read.
+    /// The definition that was read.
     #[must_use]
     pub fn definition(&self) -> &Definition {
         &self.definition
@@ -261,7 +261,7 @@ impl Found<'_> {
         if index > 0 { 1 } else { -1 }
     }
 
-    /// Whether all terms change sign with their amplitudes under a turn by half a circle.
+    /// Returns `true` if all terms change sign with their amplitudes under a turn by half a circle.
     fn half_turn(&self) -> bool {
         let modes = &self.definition.modes;
         let even = |polynomial: &Polynomial, index: i64| {

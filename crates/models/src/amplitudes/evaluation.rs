@@ -5,7 +5,8 @@ use super::program::{Group, List, Operand, Program, REGISTERS};
 use motiform_dynamics::simd::Kernel;
 use motiform_dynamics::{Complex, Scalar};
 
-/// Whether the paper's terms have an evaluation of their own. In the module of a page, which integrates one body at a time, it would gain little.
+/// `true` if the paper's terms have an evaluation of their own. In the module of a page, which integrates one
+/// body at a time, it would gain little.
 const KNOWN: bool = !cfg!(target_family = "wasm");
 
 /// Registers of the largest programs: amplitudes, 1 and products.

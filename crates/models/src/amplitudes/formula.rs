@@ -17,7 +17,7 @@ impl Formula {
     /// Reads an expression of the parameters with these names.
     ///
     /// # Errors
-    /// What is wrong with the text: an unknown name (with the nearest one), a malformed expression, a result that is not real.
+    /// The fault of the text: an unknown name (with the nearest one), a malformed expression, a result that is not real.
     pub fn parse(text: &str, parameters: &[String]) -> Result<Self, String> {
         let words = tokens(text).map_err(|error| error.problem)?;
         let names: Vec<&str> = words

@@ -75,7 +75,7 @@ impl Amplitudes {
         Self { known, rates, nonlinear, linear, velocity, noise }
     }
 
-    /// What was read.
+    /// The equations that were read.
     #[must_use]
     pub fn equations(&self) -> &'static Equations {
         &self.known.equations
@@ -163,7 +163,8 @@ impl Equivariant for Amplitudes {
         self.modes().iter().copied().max().unwrap_or(0) as usize
     }
 
-    /// What rounding (1e-13) and amplitudes known to `atol` leave of a velocity that vanishes by cancellation.
+    /// The residue of a velocity that vanishes by cancellation: from rounding (1e-13) and from amplitudes
+    /// known to `atol`.
     fn speed_resolution(&self, shape: &[f64], atol: f64) -> f64 {
         if self.known.equations.velocity_mode.is_some() {
             return 0.0;

@@ -1,4 +1,5 @@
-//! What front ends show of amplitude equations: parameters, coordinates, observables, texts; kept once per definition.
+//! The names and texts that front ends show of amplitude equations: parameters, coordinates, observables;
+//! kept once per definition.
 
 use super::{Amplitudes, Definition, DefinitionError, Equations, Monomial, ParameterDefinition};
 use crate::registry::{Display, ModelInfo, Source};

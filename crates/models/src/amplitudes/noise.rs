@@ -16,7 +16,8 @@ pub(super) struct NoiseTerms {
 }
 
 impl NoiseTerms {
-    /// Reads the noise of a definition. Under rotations all terms of a strength must turn alike: then its size, and with it the law, is the same.
+    /// Reads the noise of a definition. Under rotations all terms of a strength must turn alike: then its
+    /// size, and with it the law, is the same.
     pub(super) fn new(
         definition: &Definition,
         names: Names<'_>,

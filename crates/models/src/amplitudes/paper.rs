@@ -1,7 +1,8 @@
 //! The list of products of the paper's terms, known when the program is compiled.
 //!
-//! Equations with exactly these terms and real coefficients, whatever their names and values, are evaluated by it: the same operations in the same order, without a
-//! list that is read (docs/records/lanes.md has what it gains).
+//! Equations with exactly these terms and real coefficients, whatever their names and values, are evaluated
+//! by it: the same operations in the same order, without a list that is read (docs/records/lanes.md has what
+//! it gains).
 
 use super::program::{Group, List, Operand, Program, Sum};
 use std::ops::Range;
@@ -10,7 +11,7 @@ use std::ops::Range;
 pub(super) struct Paper;
 
 impl Paper {
-    /// Whether a list is this one.
+    /// Returns `true` if a program is this list.
     pub(super) fn is(program: &Program) -> bool {
         let norms: Vec<Option<u16>> = program.factors.iter().map(|factor| factor.norm).collect();
         program.one == Self.one()
@@ -126,7 +127,8 @@ mod tests {
         Equations::new(&definition).unwrap().program
     }
 
-    /// Texts with these terms, in any order and with any coefficients, are this list; with one more term, one less, or one that is not real they are not.
+    /// Texts with these terms, in any order and with any coefficients, are this list; with one more term, one
+    /// less, or one that is not real they are not.
     #[test]
     fn texts_with_the_papers_terms_are_recognised() {
         assert!(program(TEXTS).paper);

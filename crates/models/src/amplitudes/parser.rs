@@ -22,7 +22,7 @@ const DEEPEST: usize = 64;
 /// Largest exponent of a coefficient.
 const LARGEST_EXPONENT: i32 = 64;
 
-/// What the names in an equation mean.
+/// The names with a meaning in an equation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Names<'n> {
     /// The angular index of each amplitude: `z2` has 2.
@@ -68,7 +68,7 @@ impl Parser<'_> {
         })
     }
 
-    /// Where the next word is, or the end of the text.
+    /// The span of the next word, or the end of the text.
     fn here(&self) -> Range<usize> {
         self.tokens.get(self.next).map_or(self.end..self.end, |(_, span)| span.clone())
     }
@@ -247,7 +247,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What stands in a parenthesis that is open.
+    /// Reads the contents of a parenthesis that is open.
     fn parenthesis(&mut self) -> Result<Polynomial, TextError> {
         self.depth += 1;
         if self.depth > DEEPEST {
@@ -313,7 +313,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What a name that means nothing may have been meant for.
+    /// A suggestion of what an unknown name was meant to be.
     fn unknown(&self, name: &str) -> String {
         let modes = self.names.modes;
         if let Some(index) = name.strip_prefix('z').filter(|rest| rest.parse::<u32>().is_ok()) {
@@ -330,7 +330,7 @@ impl Parser<'_> {
     }
 }
 
-/// Whether all coefficients of a polynomial are real whatever the parameters are.
+/// Returns `true` if all coefficients of a polynomial are real for all values of the parameters.
 pub(super) fn is_real(polynomial: &Polynomial, tape: &Tape) -> bool {
     polynomial.0.values().all(|&place| tape.kind(place) == Kind::Real)
 }

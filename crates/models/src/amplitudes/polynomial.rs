@@ -29,7 +29,7 @@ impl Monomial {
         self.0.iter().flatten().map(|&power| u32::from(power)).sum()
     }
 
-    /// How it turns with the plane: `sum_n n (power of z_n - power of conj(z_n))`.
+    /// The angular index, by which it turns with the plane: `sum_n n (power of z_n - power of conj(z_n))`.
     #[must_use]
     pub fn angular_index(&self, modes: &[u32]) -> i64 {
         let terms = modes.iter().zip(&self.0);
@@ -78,7 +78,7 @@ impl Monomial {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Polynomial(pub(super) BTreeMap<Monomial, Place>);
 
-/// Why an operation on polynomials is refused.
+/// The reason why an operation on polynomials is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refusal {
     /// An order above [`MOST_ORDER`].

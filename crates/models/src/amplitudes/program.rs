@@ -43,7 +43,8 @@ pub(super) struct Sum {
 
 /// A list of products as the evaluation reads it: one that is made when the program runs, or one that is known when it is compiled.
 pub(super) trait List {
-    /// Numbers of coefficients, unknowns and rates, which are `given`: lengths that are known when the program is compiled take loops apart.
+    /// Numbers of coefficients, unknowns and rates, which are `given`: lengths that are known when the
+    /// program is compiled take loops apart.
     fn lengths(&self, given: [usize; 3]) -> [usize; 3];
     /// [`Program::one`].
     fn one(&self) -> bool;
@@ -106,7 +107,8 @@ impl List for Program {
 /// Several polynomials, ready to be evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Program {
-    /// Whether register `modes` is 1: some polynomial has a term without amplitudes. (A register less may be a smaller form of the evaluation.)
+    /// `true` if register `modes` is 1: some polynomial has a term without amplitudes. (A register less may
+    /// be a smaller form of the evaluation.)
     pub(super) one: bool,
     /// The next registers are products of these two.
     pub(super) products: Vec<[Operand; 2]>,
@@ -117,7 +119,7 @@ pub(super) struct Program {
     pub(super) factors: Vec<Factor>,
     pub(super) groups: Vec<Group>,
     pub(super) sums: Vec<Sum>,
-    /// Whether it is the list of [`Paper`].
+    /// `true` if it is the list of [`Paper`].
     pub(super) paper: bool,
 }
 
@@ -171,7 +173,7 @@ impl Program {
     }
 }
 
-/// What is known while a program is made.
+/// The state of a program under construction.
 #[derive(Default)]
 struct Builder {
     modes: usize,

@@ -76,7 +76,7 @@ const SETTINGS: [&str; 15] = [
     "escape_norm",
 ];
 
-/// What a name means already; `None` if a parameter can have it.
+/// The meaning that a name already has; `None` if a parameter can have it.
 #[must_use]
 pub fn meaning(name: &str) -> Option<&'static str> {
     let is = |list: &[&str]| list.contains(&name);

@@ -1,4 +1,4 @@
-//! What equations mean, and where they are refused.
+//! Tests of texts: the meaning of equations, and the places where they are refused.
 
 use super::coefficient::Tape;
 use super::parser::{Names, parse};

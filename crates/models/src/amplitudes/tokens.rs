@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// What is wrong with a text, and where.
+/// A fault in a text, and its place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{problem}")]
 pub(super) struct TextError {

@@ -18,7 +18,7 @@ pub(super) struct Circle {
     across_sines: Vec<[f64; MOMENTS]>,
 }
 
-/// How many moments are taken at once: as many as the matrix of the closure needs.
+/// The number of moments that are computed at once: as many as the matrix of the closure needs.
 pub(super) const MOMENTS: usize = MAX_UNKNOWNS;
 
 impl Circle {

@@ -131,8 +131,8 @@ impl<T: Scalar, const N: usize> Workspace<T, N> {
 /// Real and imaginary parts of a block of sums.
 type Sums<T, const N: usize> = [<<T as Scalar>::Row<N> as Row<T>>::Block; 2];
 
-/// `sum_{p < q, p+q=n} a_p a_q + sum_p a_{n+p} a_{-p}` for `n = first + 1 ..= first + ROW_BLOCK`, in the order of p: at each p first the product
-/// of the first kind.
+/// `sum_{p < q, p+q=n} a_p a_q + sum_p a_{n+p} a_{-p}` for `n = first + 1 ..= first + ROW_BLOCK`, in the
+/// order of p: at each p first the product of the first kind.
 #[inline(always)]
 fn convolve_block<T: Scalar, const N: usize>(
     [a, conjugate, halves]: [&Rows<T, N>; 3],

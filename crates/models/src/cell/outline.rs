@@ -94,7 +94,8 @@ impl Curve {
         self.at((0..points).map(|j| TAU * j as f64 / points as f64), |_| 1.0)
     }
 
-    /// `sum_m factor(m) X_m exp(i m angle)` at each of the angles. They advance together from mode to mode: a sum never waits for another one.
+    /// `sum_m factor(m) X_m exp(i m angle)` at each of the angles. They advance together from mode to mode: a
+    /// sum never waits for another one.
     fn at(&self, angles: impl Iterator<Item = f64>, factor: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
         let mut waves: Vec<Wave> = angles.map(|angle| Wave::new(angle, self.half)).collect();
         for (i, &[x, y]) in self.modes.iter().enumerate() {

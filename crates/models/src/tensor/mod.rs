@@ -46,7 +46,7 @@ pub struct Tensor {
     terms: Terms,
 }
 
-/// How the rates are computed: by the smallest set of terms that the parameters need.
+/// The terms by which the rates are computed: the smallest set that the parameters need.
 #[derive(Clone, Debug)]
 enum Terms {
     /// [`fourier::terms::REDUCED`]

@@ -16,7 +16,7 @@ pub struct Rossler {
     pub a: f64,
     /// Source of z.
     pub b: f64,
-    /// Where x turns on z.
+    /// The value of x above which z grows.
     pub c: f64,
 }
 

@@ -70,7 +70,11 @@ proptest! {
         angle in -3.0_f64..3.0,
         omega in -1.0_f64..1.0,
     ) {
-        let handed = ["(1 + i*omega - |z1|^2)*z1 + exp(i*omega)*conj(z2)*z3", "-z2 + i*z1^2*|z3|^4", "-z3 + z1*z2 + conj(z2)^2*z1^5*conj(z1)^0*conj(z2)^0*|z1|^0"];
+        let handed = [
+            "(1 + i*omega - |z1|^2)*z1 + exp(i*omega)*conj(z2)*z3",
+            "-z2 + i*z1^2*|z3|^4",
+            "-z3 + z1*z2 + conj(z2)^2*z1^5*conj(z1)^0*conj(z2)^0*|z1|^0",
+        ];
         let mut even = handed.map(|text| text.replace("i*omega", "omega").replace("i*z1", "z1"));
         even[2] = "-z3 + z1*z2 + |z2|^6*z3".to_owned();
         let with = |texts: &[&str]| info(&definition(&[1, 2, 3], texts, &[("omega", 0.0)])).unwrap().build(&[omega]).unwrap();

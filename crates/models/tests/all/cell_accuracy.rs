@@ -74,7 +74,9 @@ fn saturated_amplitudes() {
 /// Steps of `dt` and `dt/2` agree, and 21 modes (64 points) agree with 42 (128 points).
 ///
 /// The shortest waves have `h k^6 >> 1`, so the orders are the stiff ones, between 2 and 3 (Hochbruck and Ostermann 2005,
-/// SIAM J. Numer. Anal. 43, 1069; hochbruck4 too: the nonlinearity has five derivatives of the six, docs/records/convolution.md), and not the 4 of `dynamics/tests/all/exponential.rs`; the errors are small all the same.
+/// SIAM J. Numer. Anal. 43, 1069; hochbruck4 too: the nonlinearity has five derivatives of the six,
+/// docs/records/convolution.md), and not the 4 of `dynamics/tests/all/exponential.rs`; the errors are small
+/// all the same.
 #[test]
 fn orbits_converge_in_time_and_space() {
     let fine = cell(21.6, 42.0);
@@ -119,7 +121,8 @@ fn nothing_grows_behind_the_scenes() {
     assert!(distance(&early, &late) < 1e-9, "{:e}", distance(&early, &late));
 }
 
-/// The position by quadrature is as accurate as the shape allows (order 2.3 to 3, see above), and agrees with the velocity integrated by the stages of the method.
+/// The position by quadrature is as accurate as the shape allows (order 2.3 to 3, see above), and agrees with
+/// the velocity integrated by the stages of the method.
 #[test]
 fn position_by_quadrature_agrees_with_position_by_stages() {
     let cell = cell(21.6, 21.0);
@@ -251,7 +254,7 @@ fn reduced_rates(length: f64) -> [f64; 2] {
     [mean + c.e11 * r, mean - c.e11 * r]
 }
 
-/// Where a function of the length changes sign, by bisection.
+/// The zero of a function of the length, by bisection.
 fn edge(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     assert!(f(low) * f(high) < 0.0, "{} {}", f(low), f(high));
     for _ in 0..12 {

@@ -1,4 +1,4 @@
-//! Why the error function is not fed back into phi: what happens when it is.
+//! The reason why the error function is not fed back into phi: the motions with feedback.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
@@ -54,9 +54,10 @@ fn every_step_ends_closed() {
     }
 }
 
-/// Why feedback is off: no cell of these lengths moves with it, and all of them do without. (Measured from two starts
-/// each: at 7 and 10 it becomes the circle, from 13 to 16 an ellipse at rest, whose modes 2, 4, .. are closed by
-/// themselves; at 17 and 18 it swims, though at 17 not with steps of 0.5; at 21.6 it is a triangle at rest.)
+/// Shows why feedback is off: no cell of these lengths moves with it, and all of them do without. (Measured
+/// from two starts each: at 7 and 10 it becomes the circle, from 13 to 16 an ellipse at rest, whose modes 2,
+/// 4, .. are closed by themselves; at 17 and 18 it swims, though at 17 not with steps of 0.5; at 21.6 it is a
+/// triangle at rest.)
 #[test]
 fn with_feedback_nothing_moves() {
     for length in [7.0, 10.0, 13.0] {

@@ -27,7 +27,8 @@ fn the_law_of_the_noise_commutes_with_rotations() {
     }
 }
 
-/// What people see has the amplitude that they give: without a flow every coordinate of the shape has the variance eta^2 t.
+/// The amplitudes of the noise are those of the coordinates that users see: without a flow every coordinate
+/// of the shape has the variance eta^2 t.
 #[test]
 fn every_coordinate_has_its_amplitude() {
     for info in MODELS {

@@ -46,7 +46,7 @@ fn crossings<F: VectorField<f64>>(
     trajectory
 }
 
-/// What every field must pass: purity, lanes, derivatives, the split into parts.
+/// Asserts the properties of every field: purity, lanes, derivatives, the split into parts.
 fn conforms<F>(field: &F)
 where
     F: Semilinear<f64> + Semilinear<Lanes<4>> + VectorField<Dual<f64, 1>>,

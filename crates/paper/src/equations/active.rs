@@ -120,7 +120,7 @@ struct Ran {
 }
 
 impl Ran {
-    /// Whether the potential never grows (beyond the accuracy of the run).
+    /// Returns `true` if the potential never grows (beyond the accuracy of the run).
     fn descends(&self) -> bool {
         self.potential.windows(2).all(|pair| pair[1] <= pair[0] + 1e-6 * self.top)
     }
@@ -198,8 +198,8 @@ fn unbounded(free: &[Ran], bounded: &[Ran]) -> Claim {
             words.collect::<Vec<_>>().join("; "),
             bounded.len()
         ),
-        "random small starts with *g*_4 = 1, *g*_5 = 0; without the quartic potential at least one run leaves every bound, with it none, and \
-         the potential stays below 100",
+        "random small starts with *g*_4 = 1, *g*_5 = 0; without the quartic potential at least one run \
+        leaves every bound, with it none, and the potential stays below 100",
         escaped > 0
             && bounded.iter().all(|ran| ran.outcome.is_complete() && ran.top < 100.0 && ran.top > 1e-6),
     )
@@ -214,8 +214,8 @@ fn simple(bounded: &[Ran], active: &[Ran]) -> Claim {
         &[58],
         "Therefore this nonlinearity does not cause any asymptotic complex dynamics such as domain oscillation.",
         format!(
-            "with *g*_4 = 1 and the quartic potential the potential falls all the time and the shape comes to rest: largest rate of change of \
-             a mode at the end {}; with *g*_5 = -1 instead {}",
+            "with *g*_4 = 1 and the quartic potential the potential falls all the time and the shape comes \
+            to rest: largest rate of change of a mode at the end {}; with *g*_5 = -1 instead {}",
             words(bounded),
             words(active)
         ),

@@ -88,8 +88,9 @@ fn possible(fits: &[Fit]) -> Claim {
         &[36, 37],
         "The equations of *v*, *S* and *U* are derived by considering the possible couplings, up to the third order of these variables.",
         format!(
-            "of {} monomials of degree 1 to 3 rotations and the mirror allow {count}, and the equations hold {}: in the rate of *z*_1 {}; of \
-             *z*_2 {}; of *z*_3 {}. With 21 parameters and the fixed −*v*^2*v* nothing is missing",
+            "of {} monomials of degree 1 to 3 rotations and the mirror allow {count}, and the equations \
+            hold {}: in the rate of *z*_1 {}; of *z*_2 {}; of *z*_3 {}. With 21 parameters and the fixed \
+            −*v*^2*v* nothing is missing",
             3 * Monomial::all().len(),
             if same { "exactly these" } else { "others" },
             words(0),
@@ -169,8 +170,8 @@ fn table(fits: &[Fit]) -> Claim {
         &[159, 160, 161, 162],
         "In Fourier components the equations are (Z1), (Z2), (Z3); all the coefficients are real and are given by the table.",
         format!(
-            "all 19 coefficients of the table agree to {worst:.0e}; imaginary parts are below {unreal:.0e}, and no other term is there (see \
-             above)"
+            "all 19 coefficients of the table agree to {worst:.0e}; imaginary parts are below {unreal:.0e}, \
+            and no other term is there (see above)"
         ),
         "coefficients of the fit above, which knows only the equations with indices, against the printed table, for three sets of random \
          parameters; to 10^{-9}",

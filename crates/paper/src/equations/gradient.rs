@@ -1,4 +1,4 @@
-//! Which terms of the active cell's equation derive from a potential.
+//! The terms of the active cell's equation that derive from a potential.
 
 use super::super::claims::claim;
 use super::super::context::Context;
@@ -32,12 +32,13 @@ fn variational(turning: &[f64; 5]) -> Claim {
         &[56],
         "The nonlinear term with the coefficient *g*_4 can be written in a variational form *δ*∫ d*s* (∂_s*φ*)^3/*δφ*.",
         format!(
-            "the derivative of the term is symmetric to {:.0e} (the linear terms to {:.0e}), and the variation of the integral is {ratio:.9} \
-             times the term",
+            "the derivative of the term is symmetric to {:.0e} (the linear terms to {:.0e}), and the \
+            variation of the integral is {ratio:.9} times the term",
             turning[3],
             turning[..3].iter().copied().fold(0.0, f64::max)
         ),
-        "⟨*u*, *Jw*⟩ − ⟨*w*, *Ju*⟩ over the sum of their sizes for random functions of ten modes, below 10^{-8}; the factor is −6 to 10^{-9}",
+        "⟨*u*, *Jw*⟩ − ⟨*w*, *Ju*⟩ over the sum of their sizes for random functions of ten modes, below \
+        10^{-8}; the factor is −6 to 10^{-9}",
         turning[..4].iter().all(|x| *x < NOTHING) && (ratio + 6.0).abs() < 1e-9,
     )
 }

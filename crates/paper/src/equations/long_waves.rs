@@ -50,10 +50,11 @@ fn circle(context: &Context<'_>) -> Result<Claim, Error> {
     let growing = |rates: &[f64]| rates.iter().filter(|rate| **rate > 0.0).count();
     Ok(claim(
         &[54],
-        "To make the circular shape unstable we impose that *g*_2 is positive, and *g*_3 is also positive to recover the stability at short \
-         waves.",
+        "To make the circular shape unstable we impose that *g*_2 is positive, and *g*_3 is also positive \
+        to recover the stability at short waves.",
         format!(
-            "at *L* = {LENGTH} with *g*_2 = *g*_3 = 1 modes 1 to {} grow and the shorter ones up to 8 decay; with *g*_2 = -1 {} of them grow",
+            "at *L* = {LENGTH} with *g*_2 = *g*_3 = 1 modes 1 to {} grow and the shorter ones up to 8 \
+            decay; with *g*_2 = -1 {} of them grow",
             growing(&with),
             growing(&without)
         ),
@@ -85,8 +86,8 @@ fn irrelevant(context: &Context<'_>) -> Result<Claim, Error> {
             100.0 * (stretch - 1.0),
             words.collect::<Vec<_>>().join(", ")
         ),
-        "random starts at lengths stretched as the onsets of the modes are; small *g*_1 (from *g*_1 = 1/4 on no mode grows); all but one the \
-         same, as the windows may shift against each other",
+        "random starts at lengths stretched as the onsets of the modes are; small *g*_1 (from *g*_1 = 1/4 \
+        on no mode grows); all but one the same, as the windows may shift against each other",
         same + 1 >= places.len(),
     ))
 }

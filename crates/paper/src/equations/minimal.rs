@@ -39,11 +39,11 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
     let worst = context.number(worst);
     Ok(claim(
         &[60, 61, 62],
-        "The minimal equation: coefficients are eliminated by redefining *t*, *s* and *φ*; the sign of the last term is chosen without loss of \
-         generality; only *L* is left.",
+        "The minimal equation: coefficients are eliminated by redefining *t*, *s* and *φ*; the sign of the \
+        last term is chosen without loss of generality; only *L* is left.",
         format!(
-            "with *g*_2 = {g2}, *g*_3 = {g3}, *g*_5 = +{g5} and *s*, *t*, *φ* in units of {l:.3}, {tau:.4}, {a:.3} the shape after {time} time \
-             units is the same to {worst:.0e}"
+            "with *g*_2 = {g2}, *g*_3 = {g3}, *g*_5 = +{g5} and *s*, *t*, *φ* in units of {l:.3}, {tau:.4}, \
+            {a:.3} the shape after {time} time units is the same to {worst:.0e}"
         ),
         "two runs from the same shape in their own units, *L* = 21.6; below 10^{-6} of the largest mode, which has grown tenfold by then",
         worst < 1e-6 && size > 1.0,

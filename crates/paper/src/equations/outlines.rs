@@ -64,8 +64,8 @@ fn contracted(context: &Context<'_>) -> Claim {
         &[34, 35],
         "*S*_{11} = *z*_2 + *z*_{-2}, *S*_{12} = *i*(*z*_2 − *z*_{-2}); *U*_{111} = *z*_3 + *z*_{-3}, *U*_{222} = −*i*(*z*_3 − *z*_{-3}).",
         format!(
-            "with these tensors *δR* = *S*_{{ij}}*n*_i*n*_j + *U*_{{ijk}}*n*_i*n*_j*n*_k is the sum over the modes, to {worst:.0e}; they are \
-             symmetric and traceless to {defect:.0e}"
+            "with these tensors *δR* = *S*_{{ij}}*n*_i*n*_j + *U*_{{ijk}}*n*_i*n*_j*n*_k is the sum over \
+            the modes, to {worst:.0e}; they are symmetric and traceless to {defect:.0e}"
         ),
         "1000 random states and directions; below 10^{-13}",
         worst < 1e-13 && defect < 1e-13,

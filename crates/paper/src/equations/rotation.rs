@@ -57,7 +57,8 @@ fn isotropy(context: &Context<'_>) -> Claim {
         &[164],
         "This invariance arises from the isotropy of space.",
         format!(
-            "a rotation of the plane by *α*, applied to each index of *v*, *S* and *U*, is this transformation with *θ* = −*α*, to {worst:.0e}"
+            "a rotation of the plane by *α*, applied to each index of *v*, *S* and *U*, is this \
+            transformation with *θ* = −*α*, to {worst:.0e}"
         ),
         "1000 random states and angles; below 10^{-13}",
         worst < 1e-13,

@@ -81,9 +81,9 @@ fn general(context: &Context<'_>) -> Claim {
         finds,
         how,
         &format!(
-            "all terms of the paper are among them, but the symmetries also allow {}, of the same order as the term with *g*_5. Alone it is \
-             not variational either (the check of the last term, below, gives {:.2}). The paper leaves it out without a word: its equation is \
-             one of a family",
+            "all terms of the paper are among them, but the symmetries also allow {}, of the same order as \
+            the term with *g*_5. Alone it is not variational either (the check of the last term, below, \
+            gives {:.2}). The paper leaves it out without a word: its equation is one of a family",
             words(&others),
             Term::Bilinear(1, 4).turning()
         ),

@@ -1,4 +1,5 @@
-//! What makes a body of the tensor model move: its own velocity, or its deformation; and what may be omitted.
+//! The cause of the motion of a body of the tensor model: its own velocity, or its deformation; and what may
+//! be omitted.
 
 use super::super::claims::{claim, differs};
 use super::super::context::Context;
@@ -73,13 +74,14 @@ fn deformed_by_motion(context: &Context<'_>) -> Result<Claim, Error> {
         &[24, 42, 43],
         "The domain is deformed as the velocity is increased, even when *κ*_2 and *κ*_3 are positive: a motion-induced deformation.",
         words.collect::<Vec<_>>().join("; "),
-        "the couplings of Fig. 4 with *κ*_2 = *κ*_3 = 2: at rest (*γ* < 0) no deformation; with growing *γ* speed, |*S*| and |*U*| all grow",
+        "the couplings of Fig. 4 with *κ*_2 = *κ*_3 = 2: at rest (*γ* < 0) no deformation; with growing *γ* \
+        speed, |*S*| and |*U*| all grow",
         rising && found[0].iter().all(|x| *x < 1e-9) && found[1][1..].iter().all(|x| *x > 1e-6),
     ))
 }
 
-/// Where a run has settled: speed, |S|, |U|. At rest ellipse and triangle have no way to align, so the shape has a neutral
-/// direction of its own; a run decides, not eigenvalues.
+/// The numbers of a settled run: speed, |S|, |U|. At rest ellipse and triangle have no way to align, so the
+/// shape has a neutral direction of its own; a run decides, not eigenvalues.
 fn settled(context: &Context<'_>, parameters: &[(&str, f64)]) -> Result<[f64; 3], Error> {
     let mut study = body(parameters)?;
     (study.run.transient, study.run.t_end, study.run.dt_out) = (2000.0, 1.0, 1.0);
@@ -146,7 +148,8 @@ fn fast_triangle(context: &Context<'_>) -> Result<Claim, Error> {
         &[79],
         "To ignore *U* is justified when its relaxation is sufficiently rapid, i.e., *κ*_3 is large enough.",
         format!("the turning rate of the circular motion ({without:.5}) is changed by {}", words.join(", ")),
-        "*κ*_2 = -0.1, *γ* = 0.1 of Fig. 1 with the couplings of the triangle of Fig. 4: the difference falls like 1/*κ*_3 (by 5 to 20 for ten)",
+        "*κ*_2 = -0.1, *γ* = 0.1 of Fig. 1 with the couplings of the triangle of Fig. 4: the difference \
+        falls like 1/*κ*_3 (by 5 to 20 for ten)",
         falls && off[2] < 1e-2,
     ))
 }
@@ -177,8 +180,8 @@ fn saturation(context: &Context<'_>) -> Result<Claim, Error> {
         format!(
             "with *b*_3 = 9 and 0.25 and the ellipse in other units the speeds over 300 time units are the same to {worst:.0e}"
         ),
-        "*S* → *S*/*c* with *a*_1 → *c a*_1, *b*_1 → *b*_1/*c*, *b*_3 → *c*^2*b*_3 for *c* = 3 and 0.5, from the same body; below 10^{-8} of the \
-         largest speed",
+        "*S* → *S*/*c* with *a*_1 → *c a*_1, *b*_1 → *b*_1/*c*, *b*_3 → *c*^2*b*_3 for *c* = 3 and 0.5, \
+        from the same body; below 10^{-8} of the largest speed",
         one.len() > 100 && worst < 1e-8,
     ))
 }

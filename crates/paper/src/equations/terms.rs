@@ -86,7 +86,7 @@ impl Term {
         (one - other).abs() / (one.abs() + other.abs())
     }
 
-    /// Whether the three symmetries allow it.
+    /// Returns `true` if the three symmetries allow it.
     pub(super) fn is_allowed(self) -> bool {
         self.defects().iter().all(|defect| *defect < 1e-8)
     }

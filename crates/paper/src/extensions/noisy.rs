@@ -30,8 +30,8 @@ pub(super) fn claims(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
     let expected = NOISE * NOISE / gamma;
     let says = "Under noise on the velocity the heading diffuses at the rate *η*^2/2*γ*.";
     let finds = format!(
-        "mean square of the turn in a time of 1: {mean:.4e} ± {error:.1e}; expected 2 · *η*^2/2*γ* = {expected:.4e}, and a part of *η*^2/*γ* more, \
-         which is left out"
+        "mean square of the turn in a time of 1: {mean:.4e} ± {error:.1e}; expected 2 · *η*^2/2*γ* = \
+        {expected:.4e}, and a part of *η*^2/*γ* more, which is left out"
     );
     let how = "*η* = 0.05, *γ* = 1, one long run; within 3 standard errors and *η*^2/*γ* of the value";
     let close = (mean - expected).abs() < 3.0 * error + expected * expected;

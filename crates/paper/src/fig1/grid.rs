@@ -10,7 +10,7 @@ use motiform_study::ScanPlan;
 /// Points of a line that cells are compared with.
 const POINTS: usize = 4000;
 
-/// How far from a line the scan must show both of its motions, in cells.
+/// The distance from a line within which the scan must show both of its motions, in cells.
 const NEAR: f64 = 1.5;
 
 /// A cell: its place, what was found, what is expected.
@@ -43,7 +43,8 @@ pub(super) struct Grid {
     lines: Vec<(Line, Vec<[f64; 2]>)>,
 }
 
-/// How many cells agree, of how many, and how many are undetermined (far from and near to the lines).
+/// The numbers of cells that agree, of all, far from and near to the lines, and of those that are
+/// undetermined.
 pub(super) struct Agreement {
     pub(super) far: (usize, usize),
     pub(super) near: (usize, usize),
@@ -137,8 +138,8 @@ impl Grid {
     }
 }
 
-/// Whether the scan changes from one of the two motions to the other within a cell of a line, wherever no other line is
-/// near.
+/// The claim that the scan changes from one of the two motions to the other within a cell of a line,
+/// wherever no other line is near.
 pub(super) fn found_line(
     grid: &Grid,
     lines: &[Line],

@@ -11,13 +11,13 @@ use motiform_study::{Error, Study};
 const RIGHT: [f64; 3] = [-0.02, -0.035, -0.05];
 const LEFT: [f64; 2] = [-0.1, -0.14];
 
-/// How far beyond the line (in gamma) runs are made at the right: a step, and four times that.
+/// The distances beyond the line (in gamma) at which runs are made at the right: a step, and four times that.
 const BEYOND: [f64; 2] = [1e-4, 4e-4];
 
 /// The same at the left, where the orbit does not return.
 const FAR: f64 = 3e-3;
 
-/// How far before the line both motions are looked for, at the left.
+/// The distance before the line at which both motions are looked for, at the left.
 const BEFORE: f64 = 1e-3;
 
 /// Time in which the oscillation beside the line settles: its amplitude does so at rates of some 1e-4.
@@ -27,7 +27,7 @@ pub(super) fn claims(context: &Context<'_>, grid: &Grid) -> Result<[Claim; 2], E
     Ok([limit(grid), kind(context)?])
 }
 
-/// Whether the stability of straight motion ends there.
+/// The claim that the stability of straight motion ends there.
 fn limit(grid: &Grid) -> Claim {
     let (before, beyond) = grid.beside_hopf();
     let straight =
@@ -64,7 +64,7 @@ fn beside(context: &Context<'_>, kappa2: f64, beyond: f64, off: f64) -> Result<S
     })
 }
 
-/// What straight motion becomes beyond the line, at the right.
+/// The motion that straight motion becomes beyond the line, at the right.
 struct Crossed {
     kappa2: f64,
     /// Smallest and largest speed, at each distance.
@@ -99,7 +99,8 @@ impl Crossed {
     fn words(&self) -> String {
         let [low, high] = self.speeds[1];
         format!(
-            "{} at *κ*_2 = {} (period {:.1}, speed {low:.4} to {high:.4}, net rotation {:.0e}; its swing is {:.2} times that at a quarter of the distance)",
+            "{} at *κ*_2 = {} (period {:.1}, speed {low:.4} to {high:.4}, net rotation {:.0e}; its swing is \
+            {:.2} times that at a quarter of the distance)",
             self.verdict.regime,
             self.kappa2,
             self.verdict.period.unwrap_or(f64::NAN),
@@ -145,8 +146,8 @@ impl Bistable {
 
     fn words(&self) -> String {
         format!(
-            "at *κ*_2 = {}, {BEFORE} before the line, {} from near the straight motion and {} from near the ellipse at rest; {FAR} beyond it \
-             {} from near the straight motion",
+            "at *κ*_2 = {}, {BEFORE} before the line, {} from near the straight motion and {} from near the \
+            ellipse at rest; {FAR} beyond it {} from near the straight motion",
             self.kappa2, self.straight, self.ellipse, self.beyond
         )
     }

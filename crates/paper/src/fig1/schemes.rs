@@ -19,7 +19,7 @@ const PLACES: [(f64, f64); 10] = [
     (-0.15, -0.05),
 ];
 
-/// What a body does: the name of its motion, and mean and extremes of the speed.
+/// The motion of a body: its name, and mean and extremes of the speed.
 struct Seen {
     regime: Regime,
     speed: [f64; 3],
@@ -50,9 +50,10 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<Claim, Error> {
         off[0],
         off[1]
     );
-    let how = "the same initial state, named by the classifier where Euler's scheme with steps 10^{-3} and 10^{-4} takes it, and where dop853 \
-               with relative tolerance 10^{-10} does: the same motion, one that the formulas give; speeds within 1 % but for the rectangular \
-               motion, whose rests depend on round-off (quick: the smaller step at steady motions only)";
+    let how = "the same initial state, named by the classifier where Euler's scheme with steps 10^{-3} and \
+        10^{-4} takes it, and where dop853 with relative tolerance 10^{-10} does: the same motion, one that \
+        the formulas give; speeds within 1 % but for the rectangular motion, whose rests depend on \
+        round-off (quick: the smaller step at steady motions only)";
     let says = "The simple Euler scheme has been employed with the time increment Δ*t* = 10^{-3}. We have checked the numerical \
                 accuracy by using Δ*t* = 10^{-4}.";
     Ok(claim(&[88, 89], says, finds, how, agree == all && off.iter().all(|&off| off < 0.01)))

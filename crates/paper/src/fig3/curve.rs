@@ -1,9 +1,10 @@
-//! Whether points of the plane lie on curves, and whether these are closed.
+//! The test that points of the plane lie on curves, and that these are closed.
 //!
 //! The shortest tree that joins the points of a curve is a path along it: its longest path meets nearly all of them, while it meets few of
 //! points that fill an area. If the curve is closed, the two ends of that path are neighbours like any others.
 
-/// Where the tree is cut: neighbours further apart than this part of the extent belong to different pieces.
+/// The length at which the tree is cut: neighbours further apart than this part of the extent belong to
+/// different pieces.
 const CUT: f64 = 0.1;
 
 /// Ends of a closed curve are at most this many times as far apart as the furthest neighbours along it.
@@ -25,12 +26,12 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// Whether nearly all of its points lie in a row.
+    /// Returns `true` if nearly all of its points lie in a row.
     pub(super) fn is_curve(&self) -> bool {
         self.points >= LEAST && self.along as f64 >= 0.9 * self.points as f64
     }
 
-    /// Whether the row returns to where it began.
+    /// Returns `true` if the row returns to its start.
     pub(super) fn is_closed(&self) -> bool {
         self.is_curve() && self.ends <= CLOSED * self.widest
     }

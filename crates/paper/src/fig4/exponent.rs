@@ -32,7 +32,7 @@ struct Run {
     /// `None`: it escaped.
     largest: Option<Estimate>,
     zeros: Vec<Estimate>,
-    /// Whether neighbouring orbits separate exponentially.
+    /// `true` if neighbouring orbits separate exponentially.
     chaotic: bool,
 }
 
@@ -145,8 +145,9 @@ fn chaos_ends(runs: &[Run], saddles: &[Left]) -> Claim {
         &[114, 115, 157],
         "λ_1 becomes positive for κ_2 < 0.8 (at κ_3 = 0.1).",
         finds,
-        "going up from the smallest κ_2: λ_1 above three times its 95 % error, and growth beyond a power of time; the edge must lie between 0.65 and 0.8. In steps of \
-         0.1 the paper's 'below 0.8' means positive at 0.7, zero at 0.8",
+        "going up from the smallest κ_2: λ_1 above three times its 95 % error, and growth beyond a power of \
+        time; the edge must lie between 0.65 and 0.8. In steps of 0.1 the paper's 'below 0.8' means \
+        positive at 0.7, zero at 0.8",
         below.is_some_and(|k| *k >= 0.65) && above.is_some_and(|k| *k <= 0.8),
     )
 }

@@ -15,7 +15,7 @@ pub(super) fn places(plan: &ScanPlan, cells: &[CellSummary]) -> Vec<Place> {
     cells.iter().map(place).collect()
 }
 
-/// Where a motion occurs, in words, and in how many cells.
+/// The extent of a motion in the plane, and the number of its cells.
 pub(super) struct Extent {
     pub(super) cells: usize,
     pub(super) kappa2: (f64, f64),
@@ -65,7 +65,7 @@ const MEASURED: [(f64, &str); 6] = [
     (0.1, "BBxx***zzzzccccc"),
 ];
 
-/// How a scan agrees with the measured motions.
+/// The agreement of a scan with the measured motions.
 pub(super) struct Agreement {
     pub(super) compared: usize,
     pub(super) found: usize,

@@ -75,7 +75,7 @@ impl Atlas {
         words.into_iter().map(figure).collect()
     }
 
-    /// What follows from it; which motions coexist is seen in the whole range alone.
+    /// The claims that follow from it; the coexistence of motions is seen in the whole range alone.
     pub(super) fn claims(&self, context: &Context<'_>) -> Vec<Claim> {
         let mut all = vec![self.known(context), self.multiples(context)];
         if self.end == RANGE.1 {
@@ -142,7 +142,7 @@ impl Atlas {
         context.resting_on(all.len(), "multiples", claim)
     }
 
-    /// Which motions are stable where, and that steady ones coexist.
+    /// The claim on the ranges of stable motions, and on the coexistence of steady ones.
     fn stable(&self, context: &Context<'_>) -> Claim {
         let found = &self.found;
         let ranges = found.branches.iter().flat_map(|followed| {
@@ -166,5 +166,6 @@ impl Atlas {
     }
 }
 
-const HOW: &str = "the circle is followed from *L* = 6 by pseudo-arclength, through folds and whether or not it is stable; special points are \
-solved for, and every steady motion that begins there is followed too";
+const HOW: &str = "the circle is followed from *L* = 6 by pseudo-arclength, through folds and whether or \
+    not it is stable; special points are solved for, and every steady motion that begins there is followed \
+    too";

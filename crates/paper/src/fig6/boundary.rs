@@ -11,7 +11,7 @@ use motiform_study::Error;
 /// Points of the polygons whose lengths are measured; the error falls with their square.
 const POINTS: usize = 400;
 
-/// What is measured along a run.
+/// Errors of the boundary along a run.
 #[derive(Clone, Copy)]
 pub(super) struct Boundary {
     /// Largest `|int n ds|/L` of the solution as it is, without the error function.
@@ -109,8 +109,8 @@ pub(super) fn claims(tracks: &[Track]) -> [Claim; 4] {
             &[127, 128, 129, 130],
             "By optimizing the logarithmic likelihood, we determine *ε*(*s*) to enclose the domain boundary.",
             format!(
-                "the violation goes from {bare:.2} to {closed:.0e} at most, with an *ε* of eight modes and a smooth prior (width *n*^{{-4}}); the \
-                 estimate failed in none of the runs"
+                "the violation goes from {bare:.2} to {closed:.0e} at most, with an *ε* of eight modes and \
+                a smooth prior (width *n*^{{-4}}); the estimate failed in none of the runs"
             ),
             "the same times; below 10^{-10} with the most likely error function; a failure would end the run",
             closed < 1e-10 && closed < 1e-6 * bare && complete,

@@ -10,7 +10,7 @@ use motiform_lab::draw::sheet;
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_study::Error;
 
-/// How far, as a part of the length, such a point may lie from its window to be near it.
+/// The distance, as a part of the length, within which such a point is near its window.
 const NEAR: f64 = 0.06;
 
 /// A point of the plane (L, g1) at which modes `n` and `n + 1` are neutral.
@@ -37,7 +37,8 @@ fn neutral(length: f64, n: usize) -> f64 {
     without / (without - with)
 }
 
-/// Where the neutral curves of two neighbouring modes cross, beyond the onset of the second, by bisection.
+/// The crossing of the neutral curves of two neighbouring modes, beyond the onset of the second, by
+/// bisection.
 fn crossing(n: usize) -> Point {
     let apart = |length: f64| neutral(length, n) - neutral(length, n + 1);
     let first = std::f64::consts::TAU * (n as f64 + 1.0);

@@ -41,7 +41,8 @@ fn circular(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim {
 fn quasi_periodic(context: &Context<'_>, edges: &Edges, quasi: &Search) -> Claim {
     let (cycle, circular) = (number(edges.cycle), number(edges.circular));
     let says = "Quasi-periodic motion emerges in *W*_1, between circular and rectangular motion.";
-    let how = "Random starts at lengths through the edge between circular and rectangular motion, each named by the classifier; eigenvalues of the circular motion and of the saddles of the cycle.";
+    let how = "Random starts at lengths through the edge between circular and rectangular motion, each \
+        named by the classifier; eigenvalues of the circular motion and of the saddles of the cycle.";
     if quasi.found > 0 {
         return claim(&[138], says, quasi.words(), how, true);
     }
@@ -51,7 +52,10 @@ fn quasi_periodic(context: &Context<'_>, edges: &Edges, quasi: &Search) -> Claim
         quasi.words(),
         how,
         &format!(
-            "the cycle of the rectangular motion attracts from *L* = {cycle:.4} on, before the circular motion loses its stability at {circular:.4}: the two coexist in between, and no length is left that needs a third motion. At *L* = 12.95 an oscillation about the circular motion (period {:.0}) decays at {:.1e} only: for {:.0} time units and more the transient looks quasi-periodic.",
+            "the cycle of the rectangular motion attracts from *L* = {cycle:.4} on, before the circular \
+            motion loses its stability at {circular:.4}: the two coexist in between, and no length is left \
+            that needs a third motion. At *L* = 12.95 an oscillation about the circular motion (period \
+            {:.0}) decays at {:.1e} only: for {:.0} time units and more the transient looks quasi-periodic.",
             TAU / edges.circular_slow.1.abs(),
             -edges.circular_slow.0,
             1.0 / edges.circular_slow.0.abs()
@@ -78,7 +82,8 @@ fn rectangular(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim
         &[138],
         "Rectangular motion emerges in *W*_1.",
         format!(
-            "a heteroclinic cycle between two-fold shapes exists and attracts from *L* = {from:.3} to {to:.3}; {:.0} % of the starts at {} lengths between (up to 14.4) follow it",
+            "a heteroclinic cycle between two-fold shapes exists and attracts from *L* = {from:.3} to \
+            {to:.3}; {:.0} % of the starts at {} lengths between (up to 14.4) follow it",
             100.0 * share,
             inside.len()
         ),
@@ -96,7 +101,8 @@ fn end(edges: &Edges) -> Claim {
         format!("the two-fold shape becomes stable at *L* = {to:.3}"),
         "*λ*_+ of the two-fold shape, followed in length, changes sign.",
         &format!(
-            "at *L* = 14.4 the shape is still left at *λ*_+ = {:.4}, and slower for longer *L*: approached to 10^{{-7}}, a rest lasts {:.0} time units there, and a run looks motionless.",
+            "at *L* = 14.4 the shape is still left at *λ*_+ = {:.4}, and slower for longer *L*: approached \
+            to 10^{{-7}}, a rest lasts {:.0} time units there, and a run looks motionless.",
             edges.leaving,
             7.0 * std::f64::consts::LN_10 / edges.leaving
         ),

@@ -77,7 +77,7 @@ impl Lengths {
         self.0.iter().filter(move |point| point.0 > from && point.0 < to)
     }
 
-    /// Whether every start inside a range leads to this motion, and how many lengths that are.
+    /// Returns `true` if every start inside a range leads to this motion, and the number of lengths there.
     pub(super) fn only(&self, regime: Regime, from: f64, to: f64) -> (bool, usize) {
         let alone = |point: &(f64, CellSummary)| point.1.motions.iter().all(|motion| motion.regime == regime);
         (self.inside(from, to).all(alone), self.inside(from, to).count())

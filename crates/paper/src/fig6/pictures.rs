@@ -15,7 +15,7 @@ use motiform_study::Error;
 const WINDOWS: [(f64, f64, LineStyle); 3] =
     [(12.0, 14.4, LineStyle::Solid), (21.0, 21.9, LineStyle::Dashed), (29.0, 29.9, LineStyle::Dotted)];
 
-/// What moves: the regimes that have a speed.
+/// The regimes that have a speed.
 const MOVING: [Regime; 7] = [
     Regime::Straight,
     Regime::PulsatingStraight,
@@ -43,7 +43,7 @@ pub(super) fn all(
     Ok(figures)
 }
 
-/// What is drawn over the length.
+/// The figures over the length.
 fn over_lengths(lengths: &Lengths, exponents: &Exponents) -> Result<Vec<ReportFigure>, Error> {
     Ok(vec![
         ReportFigure::new(

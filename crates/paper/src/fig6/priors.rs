@@ -1,4 +1,5 @@
-//! How speeds and turns depend on the a priori distribution of the error function, which the paper does not give.
+//! The dependence of speeds and turns on the a priori distribution of the error function, which the paper
+//! does not give.
 //!
 //! The error function is not fed back into the shape, so the shapes are the same for every prior: what is computed again is the velocity.
 
@@ -22,7 +23,7 @@ const FURTHER: [f64; 2] = [9.0, 13.4];
 /// Turns within this many degrees are of one kind.
 const ALIKE: f64 = 8.0;
 
-/// How far turns may differ between priors (degrees).
+/// The largest difference of turns between priors (degrees).
 const SAME: f64 = 6.0;
 
 /// Recorded shapes of a length.
@@ -32,7 +33,7 @@ pub(super) struct Shapes {
     pub(super) shapes: Vec<Vec<f64>>,
 }
 
-/// What a prior makes of shapes.
+/// The speed and the turns that a prior gives to shapes.
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
     /// Mean speed over the shapes that could be closed.
@@ -111,9 +112,9 @@ impl Priors {
             row
         };
         Table {
-            caption: "Mean speed and turns of the same shapes with other priors of the error function (width *n*^{-*p*} of its mode *n*; \
-                      *p* = 4 is used everywhere else). Not closed: shapes for which no most likely error function was found; turns are given \
-                      where all were closed."
+            caption: "Mean speed and turns of the same shapes with other priors of the error function \
+                (width *n*^{-*p*} of its mode *n*; *p* = 4 is used everywhere else). Not closed: shapes for \
+                which no most likely error function was found; turns are given where all were closed."
                 .to_owned(),
             head,
             rows: self.priors.iter().zip(&self.found).map(row).collect(),
@@ -131,7 +132,7 @@ impl Priors {
         speeds().fold(0.0, f64::max) / speeds().fold(f64::INFINITY, f64::min)
     }
 
-    /// How far turns lie from those of the prior that is used; infinite where others are found.
+    /// The distance of turns from those of the prior that is used; infinite where others are found.
     fn apart(&self, place: usize) -> f64 {
         let used = &self.used()[place].turns;
         let of = |row: &Vec<Seen>| {
@@ -163,13 +164,15 @@ impl Priors {
         check(
             "Turns and speeds hardly depend on the prior of the error function, which the paper does not give.",
             format!(
-                "between priors *n*^{{-2}} and *n*^{{-6}} the turns at {} lengths change by up to {apart:.1} degrees; the mean speeds by a factor of {}",
+                "between priors *n*^{{-2}} and *n*^{{-6}} the turns at {} lengths change by up to \
+                {apart:.1} degrees; the mean speeds by a factor of {}",
                 self.turning.len(),
                 ratios.join(", ")
             ),
-            "the same recorded shapes, closed with each prior; changes of the heading from the top speed of a leg to that of the next one, kinds within 8 degrees \
-             taken together; within 6 degrees of those with *n*^{-4}, which are those that the classifier finds for (c) and (d), and 90 at *L* = 13.4; the \
-             speeds within a factor of 1.25.",
+            "the same recorded shapes, closed with each prior; changes of the heading from the top speed of \
+            a leg to that of the next one, kinds within 8 degrees taken together; within 6 degrees of those \
+            with *n*^{-4}, which are those that the classifier finds for (c) and (d), and 90 at *L* = 13.4; \
+            the speeds within a factor of 1.25.",
             self.turning.len() >= 3
                 && apart < SAME
                 && named
@@ -221,8 +224,9 @@ pub(super) fn seen(shapes: &Shapes, prior: f64) -> Result<Seen, Error> {
     Ok(Seen { speed: speeds.iter().sum::<f64>() / speeds.len() as f64, turns, failed })
 }
 
-/// The kinds of turns (degrees) between the speed maxima of consecutive legs: means of those that are alike. Between two legs the speed falls
-/// below half of either maximum; maxima below a tenth of the top speed are none.
+/// The kinds of turns (degrees) between the speed maxima of consecutive legs: means of those that are alike.
+/// Between two legs the speed falls below half of either maximum; maxima below a tenth of the top speed are
+/// none.
 fn kinds(velocities: &[[f64; 2]]) -> Vec<f64> {
     let speed = |i: usize| libm::hypot(velocities[i][0], velocities[i][1]);
     let top = (0..velocities.len()).map(speed).fold(0.0, f64::max);

@@ -43,18 +43,20 @@ pub(super) fn claim_of(context: &Context<'_>, tracks: &[Track]) -> Result<Claim,
         &[124],
         "We use the spectral method with the 4th order Runge-Kutta algorithm with the total number of wave modes *N* = 128.",
         format!(
-            "with 128 wave modes (*n* up to ±{MODES}) the classical method is stable for Δ*t* < {largest:.1e} only; with the linear part taken out by an integrating \
-             factor (ifrk4) it runs with Δ*t* = {STEP}. From shapes of Fig. 6(a) to (d) it ends {off:.0e} apart (of the size of *φ*) from the \
-             method used here, with at most {} modes, after {short} time units{drawn}. The classical method itself, at *L* = {} with {} modes \
-             and Δ*t* = {}, ends {explicit:.0e} apart",
+            "with 128 wave modes (*n* up to ±{MODES}) the classical method is stable for Δ*t* < \
+            {largest:.1e} only; with the linear part taken out by an integrating factor (ifrk4) it runs \
+            with Δ*t* = {STEP}. From shapes of Fig. 6(a) to (d) it ends {off:.0e} apart (of the size of \
+            *φ*) from the method used here, with at most {} modes, after {short} time units{drawn}. The \
+            classical method itself, at *L* = {} with {} modes and Δ*t* = {}, ends {explicit:.0e} apart",
             modes_for(29.6),
             EXPLICIT.0,
             EXPLICIT.1,
             EXPLICIT.2
         ),
-        "the same shapes, integrated by ifrk4 with modes up to ±64 and by krogstad4 with error control (relative tolerance 10^{-10}); below 10^{-5}; in \
-         the full version (a) to (d) are run by ifrk4 for 600 time units: turns within 6 degrees of ours and, for (a) and (b), mean speeds \
-         within 20 %. The paper says neither how it treats the stiff linear part nor its step",
+        "the same shapes, integrated by ifrk4 with modes up to ±64 and by krogstad4 with error control \
+        (relative tolerance 10^{-10}); below 10^{-5}; in the full version (a) to (d) are run by ifrk4 for \
+        600 time units: turns within 6 degrees of ours and, for (a) and (b), mean speeds within 20 %. The \
+        paper says neither how it treats the stiff linear part nor its step",
         off < CLOSE && explicit < CLOSE && largest < 1e-7 && same,
     ))
 }
@@ -66,8 +68,8 @@ fn last(track: &Track, modes: usize) -> Result<Vec<f64>, Error> {
     Ok(shape)
 }
 
-/// The shapes that follow the end of a run, from it on: their times are multiples of `every`. The path, which takes most of the time of a run,
-/// is not needed.
+/// The shapes that follow the end of a run, from it on: their times are multiples of `every`. The path, which
+/// takes most of the time of a run, is not needed.
 fn onwards(
     context: &Context<'_>,
     track: &Track,

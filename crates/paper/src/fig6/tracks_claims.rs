@@ -1,4 +1,4 @@
-//! What the paper says about Fig. 6(a) to (d).
+//! The statements of the paper about Fig. 6(a) to (d).
 
 use super::super::claims::{claim, differs};
 use super::super::context::Context;
@@ -46,7 +46,8 @@ fn broad(context: &Context<'_>, a: &Track, b: &Track) -> Claim {
         format!(
             "flatness {here:.3}, against {there:.3} for the lines of the quasi-periodic motion at *L* = 21.8"
         ),
-        "Geometric over arithmetic mean of the power of 2|*φ_n*|, *n* = 2 to 4, below frequency 0.05 (one Hann window over the recording); broad: over twice that of the line spectrum.",
+        "Geometric over arithmetic mean of the power of 2|*φ_n*|, *n* = 2 to 4, below frequency 0.05 (one \
+        Hann window over the recording); broad: over twice that of the line spectrum.",
         here > 2.0 * there,
     )
 }
@@ -79,7 +80,7 @@ fn listed(track: &Track) -> String {
     )
 }
 
-/// Whether the turns are exactly these.
+/// Returns `true` if the turns are exactly these.
 fn turns_are(track: &Track, wanted: &[f64]) -> bool {
     let turns = track.turns();
     turns.len() == wanted.len() && turns.iter().zip(wanted).all(|(a, b)| (a - b).abs() < ANGLE)
@@ -101,11 +102,13 @@ fn reversing(c: &Track) -> Claim {
         &[149, 150, 180],
         "Fig. 6(c), *L* = 29.2: the orderly turns have almost 180° ± 45°; thus this is a kind of zigzag.",
         format!("{}; two consecutive turns together: {} degrees", listed(c), nets.join(", ")),
-        "Change of heading at top speed from leg to leg (the body stops in between). 180° ± 45° of one turn would be 135 degrees to either side; \
-         found must be turns of 180 and of 45 degrees, each within 6 degrees, as read off a figure, and 135 for two together, within twice that",
+        "Change of heading at top speed from leg to leg (the body stops in between). 180° ± 45° of one turn \
+        would be 135 degrees to either side; found must be turns of 180 and of 45 degrees, each within 6 \
+        degrees, as read off a figure, and 135 for two together, within twice that",
         &format!(
-            "it is a zigzag, but no single turn is 180° ± 45°: turns of {back:.0}° alternate with turns of {aside:.0}° to the left or to the right. \
-             If the sentence means the sum of two consecutive turns, it holds: {back:.0}° ± {aside:.0}°"
+            "it is a zigzag, but no single turn is 180° ± 45°: turns of {back:.0}° alternate with turns of \
+            {aside:.0}° to the left or to the right. If the sentence means the sum of two consecutive \
+            turns, it holds: {back:.0}° ± {aside:.0}°"
         ),
         c.verdict.regime == Regime::Zigzag
             && turns_are(c, &[45.0, 180.0])

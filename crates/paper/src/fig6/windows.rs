@@ -1,4 +1,5 @@
-//! What the paper says about the windows of length, against edges computed from eigenvalues and scans from random starts.
+//! The statements of the paper about the windows of length, against edges computed from eigenvalues and scans
+//! from random starts.
 
 use super::super::claims::{check, claim, differs};
 use super::super::context::Context;
@@ -9,7 +10,8 @@ use super::zigzags::Zigzags;
 use motiform_analysis::Regime;
 use motiform_figures::report::Claim;
 
-/// How far an edge may lie from the paper's, which has three digits and was found by looking: the spacing of the scan.
+/// The largest distance of an edge from the paper's, which has three digits and was found by looking: the
+/// spacing of the scan.
 const NEAR: f64 = 0.1;
 
 pub(super) fn claims(
@@ -44,7 +46,7 @@ pub(super) fn number(edge: Option<f64>) -> f64 {
     edge.unwrap_or(f64::NAN)
 }
 
-/// How many lengths, all of them, in words.
+/// The number of lengths, all of them, in words.
 pub(super) fn places(count: usize) -> String {
     match count {
         1 => "the one length scanned".to_owned(),
@@ -89,7 +91,9 @@ fn straight(context: &Context<'_>, edges: &Edges, onsets: &Onsets, lengths: &Len
         format!("straight at {} between 2π and *L* = {end:.3}, where it loses its stability", places(count)),
         "Edge: the leading eigenvalue of the straight shape, followed in length, changes sign. Runs from random starts between.",
         &format!(
-            "at *L* = 12.0 the leading eigenvalue of the straight motion is still {:.3} (stable); computed with twice as many modes the edge moves by less than {:.0e}. The paper's limit is that of its scan.",
+            "at *L* = 12.0 the leading eigenvalue of the straight motion is still {:.3} (stable); computed \
+            with twice as many modes the edge moves by less than {:.0e}. The paper's limit is that of its \
+            scan.",
             edges.straight_growth,
             same.max(1e-5)
         ),
@@ -122,7 +126,8 @@ fn second_start(edges: &Edges) -> Claim {
         format!("the two-fold shape loses its stability at *L* = {from:.3}"),
         "Leading eigenvalue of the two-fold shape, followed in length.",
         &format!(
-            "up to *L* = 21.0 its growth rate is at most {:.4}: what starts near it rests for thousands of time units and looks motionless.",
+            "up to *L* = 21.0 its growth rate is at most {:.4}: what starts near it rests for thousands of \
+            time units and looks motionless.",
             edges.second_leaving
         ),
         from > 20.5 && from < 21.0 && edges.second_leaving > 0.0 && edges.second_leaving < 0.01,
@@ -154,7 +159,8 @@ fn three_fold(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim 
         &[137],
         "Between *W*_2 and *W*_3 there is no intricate motion.",
         format!(
-            "a motionless three-fold shape, stable from *L* = {} to {}; motionless at {} up to *W*_3; but circular motion at {} between *W*_2 and the three-fold shape",
+            "a motionless three-fold shape, stable from *L* = {} to {}; motionless at {} up to *W*_3; but \
+            circular motion at {} between *W*_2 and the three-fold shape",
             words(from),
             words(to),
             places(count),
@@ -162,7 +168,8 @@ fn three_fold(context: &Context<'_>, edges: &Edges, lengths: &Lengths) -> Claim 
         ),
         "Leading eigenvalues of the shapes, followed in length; number of folds from their modes; runs from random starts.",
         &format!(
-            "the three-fold shape is stable only from *L* = {} on; from {circular:.3} to there the stable motion is circular, which the paper does not mention.",
+            "the three-fold shape is stable only from *L* = {} on; from {circular:.3} to there the stable \
+            motion is circular, which the paper does not mention.",
             words(from)
         ),
         all && count > 0 && edges.folds[1] == 3 && turning && turned > 0,

@@ -27,7 +27,7 @@ const WINDOW: (f64, f64) = (28.8, 30.4);
 /// The lengths inside which the zigzag may have lost its mirror symmetry (measured: 29.4 and 29.45).
 const GAP: (f64, f64) = (29.25, 29.55);
 
-/// How far an edge may be from that of the paper.
+/// The largest distance of an edge from that of the paper.
 const EDGE: f64 = 0.21;
 
 /// The continuation of the zigzag at a length.
@@ -108,12 +108,13 @@ impl Zigzags {
         let says =
             "The zigzag motion with *n* = ±3 as in Fig. 5(a) has not been found in the active cell model.";
         let finds = format!(
-            "zigzags at {there} of the lengths in and about *W*_3, where *L*/2π is close to 4; at the {count} lengths below and above it that were \
-             looked at, from 6 to 31: {words}"
+            "zigzags at {there} of the lengths in and about *W*_3, where *L*/2π is close to 4; at the \
+            {count} lengths below and above it that were looked at, from 6 to 31: {words}"
         );
-        let how = "the motions of random starts at the lengths of the scan, and the zigzag of (c) followed in length; no zigzag outside \
-                   28.8 < *L* < 30.4. The turns of those inside, at the two lengths of the paper, stand in the chapter on both models. A search with few \
-                   starts does not exclude a small basin";
+        let how = "the motions of random starts at the lengths of the scan, and the zigzag of (c) followed \
+            in length; no zigzag outside 28.8 < *L* < 30.4. The turns of those inside, at the two lengths \
+            of the paper, stand in the chapter on both models. A search with few starts does not exclude a \
+            small basin";
         context.resting_on(count, "lengths", claim(&[153], says, finds, how, found.is_empty() && there > 0))
     }
 
@@ -124,9 +125,11 @@ impl Zigzags {
         let inside = || self.0.iter().filter(|kept| (first..=end).contains(&kept.length));
         let others: Vec<&Kept> = inside().filter(|kept| kept.regime != Regime::Zigzag).collect();
         let says = "Zigzag motions emerge in *W*_3 = [29.0, 29.9].";
-        let how = "the motion of Fig. 6(c), started at each of these lengths and named again; every length between the first and the last \
-                   zigzag, as far as the paper's window goes, counts; the paper's lower edge to within the spacing, 0.1 to 0.2. Where two motions are stable the start decides, so the \
-                   upper edge is compared, within the same, with the length at which the four-fold shape at rest becomes stable";
+        let how = "the motion of Fig. 6(c), started at each of these lengths and named again; every length \
+            between the first and the last zigzag, as far as the paper's window goes, counts; the paper's \
+            lower edge to within the spacing, 0.1 to 0.2. Where two motions are stable the start decides, \
+            so the upper edge is compared, within the same, with the length at which the four-fold shape at \
+            rest becomes stable";
         let list: Vec<String> = others.iter().map(|kept| kept.words()).collect();
         let finds = format!(
             "a zigzag at {} of {} lengths from *L* = {first} (not at {before}) to {last} ({}); {}. The three-fold shape is stable \
@@ -165,21 +168,23 @@ impl Zigzags {
     }
 }
 
-/// Why the window differs from the paper's: a gap inside of it, unless there is `none`, and a zigzag `beyond` its end.
+/// The reason why the window differs from the paper's: a gap inside of it, unless there is `none`, and a
+/// zigzag `beyond` its end.
 fn why(none: bool, beyond: bool) -> &'static str {
     match (none, beyond) {
         (true, _) => {
-            "the zigzag is stable beyond the paper's upper edge, beside a motionless four-fold shape that becomes stable there: most starts lead \
-             to that"
+            "the zigzag is stable beyond the paper's upper edge, beside a motionless four-fold shape that \
+            becomes stable there: most starts lead to that"
         }
         (false, false) => {
             "inside the window lies a gap in which the zigzag has lost its mirror symmetry: it rotates slowly (quasi-periodic), and at one \
              end of the gap it is weakly chaotic; on a picture this looks like a zigzag"
         }
         (false, true) => {
-            "inside the window lies a gap in which the zigzag has lost its mirror symmetry: it rotates slowly (quasi-periodic), and at one \
-             end of the gap it is weakly chaotic; on a picture this looks like a zigzag. It is also stable beyond the paper's upper edge, beside a \
-             motionless four-fold shape that becomes stable there: most starts lead to that"
+            "inside the window lies a gap in which the zigzag has lost its mirror symmetry: it rotates \
+            slowly (quasi-periodic), and at one end of the gap it is weakly chaotic; on a picture this \
+            looks like a zigzag. It is also stable beyond the paper's upper edge, beside a motionless \
+            four-fold shape that becomes stable there: most starts lead to that"
         }
     }
 }

@@ -85,7 +85,7 @@ const TERMS: [Term; 5] = [
     },
 ];
 
-/// Where the modulated wave and the rectangular motion are run: (kappa2, gamma), length.
+/// The parameters of the modulated wave and of the rectangular motion: (kappa2, gamma), length.
 const MODULATED: ((f64, f64), f64) = ((-0.14, 0.05), 21.8);
 const RECTANGULAR: ((f64, f64), f64) = ((-0.1, -0.04), 13.2);
 

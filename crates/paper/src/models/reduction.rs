@@ -40,7 +40,8 @@ pub(super) fn exact(context: &Context<'_>) -> Claim {
         format!(
             "they are the same: with coefficients given by *L* alone the two fields differ by at most {worst:.0e} of their size"
         ),
-        "Cell field with three modes against the tensor model's field in *w_n* = *i*^{1-n} *φ_n*, at 1000 random states for each of four lengths (7 to 29.2).",
+        "Cell field with three modes against the tensor model's field in *w_n* = *i*^{1-n} *φ_n*, at 1000 \
+        random states for each of four lengths (7 to 29.2).",
         worst < 1e-14,
     )
 }
@@ -70,10 +71,12 @@ pub(super) fn edges(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
         &[173],
         "If the modes higher than *n* = 3 relax rapidly, the modes 1, 2 and 3 may be retained alone.",
         format!(
-            "the heteroclinic cycle attracts for *L* = {start:.2} to {end:.2} in the whole model, {:.2} to {:.2} with modes 1 to 3 (mode 4 slaved), {:.2} to {:.2} with modes 1 and 2 (3 and 4 slaved)",
+            "the heteroclinic cycle attracts for *L* = {start:.2} to {end:.2} in the whole model, {:.2} to \
+            {:.2} with modes 1 to 3 (mode 4 slaved), {:.2} to {:.2} with modes 1 and 2 (3 and 4 slaved)",
             three.0, three.1, two.0, two.1
         ),
-        "*λ*_+ + *λ*_− < 0 < *λ*_+ at the two-fold shape. Slaved modes follow the others to quadratic order. The window exists in all three, its lower edge within 0.5.",
+        "*λ*_+ + *λ*_− < 0 < *λ*_+ at the two-fold shape. Slaved modes follow the others to quadratic \
+        order. The window exists in all three, its lower edge within 0.5.",
         [two, three].iter().all(|(from, to)| from < to && (from - start).abs() < 0.5),
     )])
 }

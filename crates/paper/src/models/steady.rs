@@ -7,14 +7,14 @@ use motiform_analysis::{Estimate, RelativeEquilibrium, SteadyMotion};
 use motiform_dynamics::Model;
 use motiform_study::{Error, RunPlan, Study};
 
-/// What is known of a steady shape.
+/// The properties of a steady shape.
 #[derive(Clone)]
 pub(super) struct Steady {
-    /// Whether it moves and turns, and its symmetry.
+    /// Its motion (translation, rotation), and its symmetry.
     pub(super) motion: SteadyMotion,
     /// Size of the deformation (norm of the state).
     pub(super) size: f64,
-    /// How far the shape is from its mirror image, against its size.
+    /// The distance of the shape from its mirror image, against its size.
     pub(super) asymmetry: f64,
     /// Leading eigenvalue.
     pub(super) growth: Estimate,
@@ -40,7 +40,7 @@ impl Steady {
         Ok(found.map(change))
     }
 
-    /// Whether every deviation decays, beyond the error of the leading eigenvalue.
+    /// Returns `true` if every deviation decays, beyond the error of the leading eigenvalue.
     pub(super) fn is_stable(&self) -> bool {
         self.growth.value < -self.growth.error
     }

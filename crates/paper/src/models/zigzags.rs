@@ -61,11 +61,13 @@ impl Zigzags {
             &[195],
             "In the active cell model more complicated zigzags with angles of about 135 and 45 degrees appear in Fig. 6(c) and (d).",
             format!(
-                "turns of {} degrees at *L* = 29.2, (c), and of {} degrees at 29.6, (d): besides reversals, about 45 in (c) and about 135 in (d)",
+                "turns of {} degrees at *L* = 29.2, (c), and of {} degrees at 29.6, (d): besides reversals, \
+                about 45 in (c) and about 135 in (d)",
                 found[0], found[1]
             ),
-            "Change of heading at top speed from leg to leg; 45 in (c) and 135 in (d) within 6 degrees, none within 15 of 60. These two lengths \
-             are those of the paper; others are in the chapter on Fig. 6.",
+            "Change of heading at top speed from leg to leg; 45 in (c) and 135 in (d) within 6 degrees, \
+            none within 15 of 60. These two lengths are those of the paper; others are in the chapter on \
+            Fig. 6.",
             near == 0
                 && has(0, 45.0)
                 && has(1, 135.0)
@@ -86,7 +88,9 @@ impl Zigzags {
         let figure =
             Chart { x_label: "mode *n*".to_owned(), y_label: "mean |*φ_n*|".to_owned(), ..Chart::default() }
                 .with(self.cells.iter().map(series));
-        let caption = "Which modes of the boundary carry the zigzags of the active cell: time average of |*φ_n*|. Mode 1 is no deformation of its own: it follows from the others where the boundary is nearly closed.";
+        let caption = "Which modes of the boundary carry the zigzags of the active cell: time average of \
+            |*φ_n*|. Mode 1 is no deformation of its own: it follows from the others where the boundary is \
+            nearly closed.";
         Ok(ReportFigure::new(sheet(&figure)?, caption))
     }
 }

@@ -1,8 +1,8 @@
 //! Claims that can lose: each claim of the report fails under at least one fault in what it is judged by.
 //!
-//! `mutants.txt` is the registry: a line for each claim, with faults that make it fail: few for a chapter, so that few have to be tried. A claim
-//! without a line, a line without a claim, and a claim that does not fail under a fault of its line are errors. `MOTIFORM_UPDATE=1` tries all
-//! faults and writes it again.
+//! `mutants.txt` is the registry: a line for each claim, with faults that make it fail: few for a chapter, so
+//! that few have to be tried. A claim without a line, a line without a claim, and a claim that does not fail
+//! under a fault of its line are errors. `MOTIFORM_UPDATE=1` tries all faults and writes it again.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 

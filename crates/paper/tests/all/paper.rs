@@ -1,4 +1,4 @@
-//! What every chapter's report must fulfil.
+//! Tests that every chapter's report must pass.
 
 use motiform_figures::report::{Report, Verdict};
 use motiform_paper::{Keeping, Kept, Options, checked_in, entry_of, reproduce_kept};
@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::LazyLock;
 
-/// What all tests compute once: quick chapters, with and without faults.
+/// The results that all tests compute once: quick chapters, with and without faults.
 pub(crate) static KEPT: LazyLock<Kept> = LazyLock::new(Kept::default);
 
 /// A report from what is kept.

@@ -29,8 +29,9 @@ pub(crate) fn ornstein_uhlenbeck(g: f64, s: f64, dt: f64, samples: usize, normal
     track
 }
 
-/// Active Brownian particle: speed 1, heading' = omega + sqrt(2 d_r) xi, position' = heading + sqrt(2 d) xi (d per component). The trapezoidal rule
-/// over 20 steps a sample is off by (d_r dt/20)^2/12 of the displacement.
+/// Active Brownian particle: speed 1, heading' = omega + sqrt(2 d_r) xi, position' = heading + sqrt(2 d) xi
+/// (d per component). The trapezoidal rule over 20 steps a sample is off by (d_r dt/20)^2/12 of the
+/// displacement.
 pub(crate) fn active_brownian(
     (d_r, omega, d): (f64, f64, f64),
     dt: f64,

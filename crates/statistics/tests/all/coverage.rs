@@ -1,4 +1,4 @@
-//! How often 95 % intervals hold the exact value, over 200 data sets.
+//! The coverage of 95 % intervals: the share of 200 data sets in which they hold the exact value.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -12,7 +12,7 @@ const SETS: u64 = 200;
 /// 95 % of 200 are 190; three standard deviations of a binomial variable are 9.2.
 const LEAST: usize = 181;
 
-/// How many of the data sets hold each of the values.
+/// The number of data sets whose intervals hold each of the values.
 fn counts<const N: usize>(tracks: impl Fn(u64) -> Tracks, hold: impl Fn(&Tracks) -> [bool; N]) -> [usize; N] {
     let mut counts = [0; N];
     for seed in 0..SETS {

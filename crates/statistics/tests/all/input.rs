@@ -1,4 +1,4 @@
-//! What is refused, what errors refer to, and lengths that differ.
+//! Tests of refused input, of the units of errors, and of tracks of different lengths.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

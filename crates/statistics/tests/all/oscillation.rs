@@ -7,8 +7,8 @@ use motiform_dynamics::Normal;
 use motiform_statistics::{Quantity, Track, Tracks, autocorrelation};
 use std::f64::consts::TAU;
 
-/// A damped harmonic oscillator driven by noise, from independent exponentials: the complex number z' = -(l + i w) z + noise, whose real part correlates as
-/// e^{-l t} cos w t; exact at any dt.
+/// A damped harmonic oscillator driven by noise, from independent exponentials: the complex number z' = -(l +
+/// i w) z + noise, whose real part correlates as e^{-l t} cos w t; exact at any dt.
 fn oscillator((l, w): (f64, f64), dt: f64, samples: usize, normal: &mut Normal) -> Vec<[f64; 2]> {
     let size = (-l * dt).exp();
     let (c, s, kick) = (size * (w * dt).cos(), size * (w * dt).sin(), (1.0 - size * size).sqrt());

@@ -7,8 +7,9 @@ use crate::{Error, INVENTORY, Inventory, disk, lock};
 use std::fs::{self, File};
 
 impl Folder {
-    /// Checks that no listed file is changed, figures excepted, so that work of hours is not done in vain. Changed files of unfinished work (in a folder
-    /// whose name begins with `_`) are kept under another name, with a note: they are computed again.
+    /// Checks that no listed file is changed, figures excepted, so that work of hours is not done in vain.
+    /// Changed files of unfinished work (in a folder whose name begins with `_`) are kept under another name,
+    /// with a note: they are computed again.
     ///
     /// # Errors
     /// [`Error::Changed`], [`Error::WriteFailed`].
@@ -23,8 +24,9 @@ impl Folder {
         Ok(())
     }
 
-    /// Takes a result away whose computation failed before there was anything of it, and puts back what it replaced. What was written by then
-    /// stays, for a run that goes on with it: a full disk must not cost hours.
+    /// Takes a result away whose computation failed before there was anything of it, and puts back what it
+    /// replaced. What was written by then stays, for a run that goes on with it: a full disk must not cost
+    /// hours.
     pub fn abandon(self) {
         let Some(target) = self.new.as_ref().filter(|_| self.state().files == 0) else {
             let _ = self.settle(); // if this fails, too, the lines of the inventory say the same

@@ -34,9 +34,10 @@ pub struct Folder {
 #[derive(Debug)]
 struct State {
     inventory: Inventory,
-    /// Where lines are appended; none in a folder without an inventory, in which only new figures are drawn.
+    /// The file that lines are appended to; none in a folder without an inventory, in which only new figures
+    /// are drawn.
     log: Option<File>,
-    /// Whether the inventory on disk says how the names of incomplete files begin.
+    /// `true` if the inventory on disk holds the common start of the names of incomplete files.
     announced: bool,
     files: u64,
     notes: Vec<String>,
@@ -55,25 +56,25 @@ impl State {
 }
 
 impl Folder {
-    /// Where it is, as given.
+    /// The path, as given.
     #[must_use]
     pub fn shown(&self) -> &Path {
         &self.shown
     }
 
-    /// Where it is, without links.
+    /// The path, without links.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What a person should know, in sentences; each is returned once.
+    /// The remarks for the user, in sentences; each is returned once.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         std::mem::take(&mut self.state().notes)
     }
 
-    /// Whether the result is complete.
+    /// Returns `true` if the result is complete.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.state().inventory.complete
@@ -95,8 +96,9 @@ impl Folder {
         digests.contains(&sha256_hex(&bytes)).then_some(bytes)
     }
 
-    /// Writes a file, at once or not at all; `/` in its name makes folders. It replaces a file of this name that is ours and unchanged. A figure that others
-    /// wrote or changed stays, with a note, and this one is not written.
+    /// Writes a file, at once or not at all; `/` in its name makes folders. It replaces a file of this name
+    /// that is ours and unchanged. A figure that others wrote or changed stays, with a note, and this one is
+    /// not written.
     ///
     /// # Errors
     /// [`Error::Changed`], [`Error::Taken`], [`Error::WriteFailed`].
@@ -104,7 +106,8 @@ impl Folder {
         self.draw(name, bytes, false).map(drop)
     }
 
-    /// Writes a figure as [`Folder::put`]; with `force` it replaces one of ours that was edited, which is kept under another name. Whether it is written.
+    /// Writes a figure as [`Folder::put`]; with `force` it replaces one of ours that was edited, which is
+    /// kept under another name. Whether it is written.
     ///
     /// # Errors
     /// Those of [`Folder::put`].
@@ -128,7 +131,7 @@ impl Folder {
         write().inspect_err(|_| drop(fs::remove_file(&partial))).map_err(failed).map(|()| true)
     }
 
-    /// Whether a name is free for a file of ours, or becomes free; `false` where a figure stays.
+    /// Returns `true` if a name is free for a file of ours, or becomes free; `false` where a figure stays.
     fn gives_way(&self, name: &str, force: bool) -> Result<bool, Error> {
         if !is_taken(&self.path, name) {
             return Ok(true);

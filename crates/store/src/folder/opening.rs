@@ -11,7 +11,7 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-/// What to do with a result that exists.
+/// The treatment of a result that exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Opening {
     /// Refuse it.
@@ -82,7 +82,8 @@ impl Folder {
         Self::begin(shown, target.path, lock, notes)
     }
 
-    /// Opens a result of any kind to draw its figures again. A folder without an inventory (an earlier version's) gets those that it does not have.
+    /// Opens a result of any kind to draw its figures again. A folder without an inventory (an earlier
+    /// version's) gets those that it does not have.
     ///
     /// # Errors
     /// [`Error::Busy`], [`Error::Inventory`], [`Error::Unwritable`].
@@ -141,7 +142,7 @@ impl Folder {
     }
 }
 
-/// How the names of this process's incomplete files begin.
+/// The common start of the names of this process's incomplete files.
 fn start() -> String {
     format!(".{}-", number())
 }

@@ -17,7 +17,7 @@ pub struct TableWriter {
     format: Format,
     /// Rows that are not in the file yet: at most one group.
     table: Table,
-    /// Whether there are rows in the file that are not in the table any more.
+    /// `true` if there are rows in the file that are not in the table any more.
     written: bool,
     /// Begins with the first full group, or at the end: a short table is stored differently.
     file: Option<Kind>,

@@ -17,8 +17,8 @@ thread_local! {
     static DECODING: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether this thread is reading a Parquet file: the library panics on some damaged files, which is caught and becomes an error. A
-/// program's panic hook may stay silent meanwhile.
+/// Returns `true` if this thread is reading a Parquet file: the library panics on some damaged files, which
+/// is caught and becomes an error. A program's panic hook may stay silent meanwhile.
 #[must_use]
 pub fn decoding() -> bool {
     DECODING.get()

@@ -10,14 +10,15 @@ use crate::split::split;
 use crate::{Error, Options, Place, Result};
 use std::borrow::Cow;
 
-/// What to do where several cells have one name.
+/// The remedy where several cells have one name.
 pub(super) const REMEDY: &str =
     "name the column of the cell: --column cell=HEADER, in Python columns={'cell': HEADER}";
 
 /// Rows `cell, frame, i, x, y` in any order; without a cell there is one, without i the order of the rows is that of the vertices.
 ///
-/// A column of times stands for that of frames, or gives their times; frames that are not whole numbers are times too. Units in the header (`x [um]`) are those of
-/// the values. Where no comma separates columns it may be the decimal one.
+/// A column of times stands for that of frames, or gives their times; frames that are not whole numbers are
+/// times too. Units in the header (`x [um]`) are those of the values. Where no comma separates columns it may
+/// be the decimal one.
 pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
     let file = input.place.path().to_owned();
     let mut first = String::new();
@@ -87,7 +88,7 @@ impl Table {
         if self.separator == b',' { number(text, what, place) } else { decimal(text, what, place) }
     }
 
-    /// What the header says of the unit of these columns, if it says the same of all.
+    /// The unit of these columns according to the header, if it is the same for all.
     fn said(&self, columns: [usize; 2]) -> Said {
         let [a, b] = columns.map(|at| unit_of(&self.names[at]));
         match a {
@@ -96,7 +97,8 @@ impl Table {
         }
     }
 
-    /// What the table says of times: their interval where they stand for frames, and their unit, which is that of the options where the header has none.
+    /// The statement of the table about times: their interval where they stand for frames, and their unit,
+    /// which is that of the options where the header has none.
     fn time(&self, step: Option<f64>) -> Said {
         Said { step, unit: self.time.and_then(|at| unit_of(&self.names[at])), applied: self.time.is_some() }
     }

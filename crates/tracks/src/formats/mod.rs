@@ -19,7 +19,7 @@ use crate::scale::Scale;
 use crate::{Cell, Format, Image, Note, Options, Result, masks};
 use std::path::Path;
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Default)]
 pub(crate) struct Found {
     pub(crate) cells: Vec<Cell>,

@@ -11,7 +11,7 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader};
 use std::path::Path;
 
-/// What is read: the parquet library calls others a disabled feature.
+/// The compressions that can be read: for others the parquet library reports a disabled feature.
 const COMPRESSIONS: &str = "a Parquet file with zstd, snappy, gzip or lz4 compression, or none";
 
 /// Columns cell, frame, i, x and y as in CSV, of integers, floats or (cell) text; read by row groups.

@@ -1,6 +1,6 @@
 //! Frame and cell from the name of an ImageJ region.
 
-/// What a name says.
+/// Frame and cell, as read from a name.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Named<'a> {
     pub(super) frame: Option<i64>,
@@ -9,8 +9,8 @@ pub(super) struct Named<'a> {
 
 /// Understands `FRAME-CELL`, and ImageJ's own `SLICE-Y-X` and `Y-X` (four digits each, zeros in front), which name no cell.
 ///
-/// `position`: the frame that the region itself holds. It counts before the name. `FRAME-CELL` is believed where there is no position or both agree;
-/// they may differ by 1, counted from 0 and from 1.
+/// `position`: the frame that the region itself holds. It counts before the name. `FRAME-CELL` is believed
+/// where there is no position or both agree; they may differ by 1, counted from 0 and from 1.
 pub(super) fn named(entry: &str, position: Option<i64>) -> Named<'_> {
     let base = entry.rsplit(['/', '\\']).next().unwrap_or(entry);
     let base = base.rsplit_once('.').map_or(base, |(base, _)| base);

@@ -6,16 +6,17 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Frames and times of the rows of a table.
 ///
-/// While rows are read a frame is known by a key that is in the order of its value. At the end values that are whole numbers of a column of frames are the frames; others are
-/// times, and frames are counted in their intervals.
+/// While rows are read a frame is known by a key that is in the order of its value. At the end values that
+/// are whole numbers of a column of frames are the frames; others are times, and frames are counted in their
+/// intervals.
 pub(super) struct Times {
-    /// Whether the column of frames was named by an option: then its values are frames.
+    /// `true` if the column of frames was named by an option: then its values are frames.
     named: bool,
     /// The values of frames, or times where there are none.
     values: BTreeMap<i64, f64>,
     /// The time of each frame, where there are both.
     times: BTreeMap<i64, f64>,
-    /// Whether there is a column of frames.
+    /// `true` if there is a column of frames.
     framed: bool,
     /// The first frame that is no whole number.
     fraction: Option<(Place, f64)>,
@@ -81,7 +82,8 @@ impl Times {
         }
     }
 
-    /// Gives every outline its frame and, where times are known, its time; whether times are. `as_times`: whole values without a column of frames are times, not counts.
+    /// Gives every outline its frame and, where times are known, its time; whether times are. `as_times`:
+    /// whole values without a column of frames are times, not counts.
     ///
     /// # Errors
     /// Frames that are no whole numbers, and are not evenly spaced either.
@@ -115,7 +117,7 @@ impl Times {
         Ok(timed)
     }
 
-    /// Whether there are three values and more, in steps of one interval.
+    /// Returns `true` if there are at least three values, in steps of one interval.
     fn even(&self) -> bool {
         let values: Vec<f64> = self.values.values().copied().collect();
         values.len() > 2 && numbers(&values, median_difference(&values)).is_some()

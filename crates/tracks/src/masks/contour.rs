@@ -10,8 +10,9 @@ type Span = [usize; 4];
 
 /// Label, outline of the largest part, and number of parts, of each cell.
 ///
-/// The outline is the contour at half level of the pixels of the cell (marching squares): its vertices are the middles between the middles of neighbouring pixels inside and
-/// outside. Pixels that touch at a corner alone are different parts; holes do not count.
+/// The outline is the contour at half level of the pixels of the cell (marching squares): its vertices are
+/// the middles between the middles of neighbouring pixels inside and outside. Pixels that touch at a corner
+/// alone are different parts; holes do not count.
 ///
 /// Source: Lorensen and Cline (1987), Comput. Graph. 21, 163, in two dimensions.
 pub(super) fn outlines(labels: &Labels) -> Vec<(u32, Vec<[f64; 2]>, usize)> {

@@ -40,7 +40,7 @@ pub(super) fn number(path: &Path) -> Option<i64> {
     stem.split(|c: char| !c.is_ascii_digit()).rfind(|digits| !digits.is_empty())?.parse().ok()
 }
 
-/// What the table of tracks says about divisions.
+/// The divisions of cells according to the table of tracks.
 pub(super) fn divisions(folder: &Path) -> Result<Vec<Note>> {
     let Some(table) = TABLES.map(|name| folder.join(name)).into_iter().find(|path| path.exists()) else {
         return Ok(Vec::new());

@@ -16,7 +16,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// What to do where a frame occurs twice.
+/// The remedy where a frame occurs twice.
 const REMEDY: &str = "number the images at the ends of their names";
 
 /// Most pixels of an image.
@@ -30,15 +30,16 @@ pub(crate) struct Labels {
     pub(crate) of: Vec<u32>,
 }
 
-/// Whether a file begins as an image does.
+/// Returns `true` if a file begins like an image.
 pub(crate) fn is_image(head: &[u8]) -> bool {
     tiff::is_tiff(head) || png::is_png(head)
 }
 
 /// The contours at half level around the largest part of each cell, from a folder of images, an image, or a stack.
 ///
-/// The frame of an image is the last number of its name; a stack counts its own. In a folder, `res_track.txt` or `man_track.txt` of the Cell Tracking Challenge says which cells
-/// come from which. Coordinates are in pixels, y downwards; the first pixel spans 0 to 1.
+/// The frame of an image is the last number of its name; a stack counts its own. In a folder, `res_track.txt`
+/// or `man_track.txt` of the Cell Tracking Challenge says which cells come from which. Coordinates are in
+/// pixels, y downwards; the first pixel spans 0 to 1.
 pub(crate) fn read(path: &Path, options: &Options) -> Result<Found> {
     let files =
         if path.is_dir() { folder::images(path)? } else { vec![(folder::number(path), path.to_owned())] };
@@ -108,7 +109,7 @@ fn pixels(width: usize, height: usize, place: &Place) -> Result<usize> {
     }
 }
 
-/// What no label mask is.
+/// The error for an image that is no label mask.
 fn unsuitable(place: &Place, found: impl Into<String>) -> Error {
     Error::structure(place, found, "one whole number for each pixel, of 8, 16 or 32 bits: a label mask")
 }

@@ -30,7 +30,7 @@ pub(super) fn decode(bytes: &[u8], place: &Place) -> Result<Vec<Labels>> {
 
 struct File<'b> {
     bytes: &'b [u8],
-    /// Whether the highest byte of a number comes first.
+    /// `true` if the highest byte of a number comes first.
     big: bool,
     place: &'b Place,
 }
@@ -81,7 +81,7 @@ impl File<'_> {
     }
 }
 
-/// How an image is stored.
+/// The layout of an image in the file.
 struct Page<'f, 'b> {
     file: &'f File<'b>,
     width: usize,
@@ -89,12 +89,12 @@ struct Page<'f, 'b> {
     /// Bytes of a pixel.
     bytes: usize,
     compression: usize,
-    /// Whether each pixel is stored as its difference from the one to the left.
+    /// `true` if each pixel is stored as its difference from the one to the left.
     differences: bool,
     /// Width and height of a strip or tile, and how many lie beside each other.
     block: [usize; 2],
     across: usize,
-    /// Where each is, and how many bytes it has.
+    /// Place and number of bytes of each strip or tile.
     blocks: Vec<[usize; 2]>,
 }
 

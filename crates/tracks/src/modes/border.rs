@@ -9,7 +9,8 @@ use std::f64::consts::PI;
 /// Frames in which a line must be reached.
 const FRAMES: usize = 5;
 
-/// Width of the band in which extremes coincide, and distance from the extreme of all within which outlines count, both relative to the radius.
+/// Width of the band in which extremes coincide, and distance from the extreme of all within which outlines
+/// count, both relative to the radius.
 const BAND: f64 = 0.01;
 const NEAR: f64 = 0.05;
 
@@ -45,9 +46,11 @@ impl Borders {
     /// coordinate of all outlines if one of two things is seen there.
     ///
     /// 1. Straight runs in at least 5 frames: see [`run`].
-    /// 2. Extremes that coincide: of the outlines whose extreme lies within 5 % of the radius of that of all, 45 % and at least 8 lie in a band
-    ///    of 1 % (evenly spread ones: 20 %), while from frame to frame extremes move by more than half the band (median), and the centroids of the outlines in the band
-    ///    scatter by more than its width. A cell that moves does not stop at one line by itself; where it turns back, or rests, its centroid stays with its extreme.
+    /// 2. Extremes that coincide: of the outlines whose extreme lies within 5 % of the radius of that of all,
+    ///    45 % and at least 8 lie in a band of 1 % (evenly spread ones: 20 %), while from frame to frame
+    ///    extremes move by more than half the band (median), and the centroids of the outlines in the band
+    ///    scatter by more than its width. A cell that moves does not stop at one line by itself; where it
+    ///    turns back, or rests, its centroid stays with its extreme.
     pub(super) fn find(tracks: &Tracks) -> Self {
         let edges: Vec<Edge> = SIDES.iter().map(|&(_, axis, sign)| edge(tracks, axis, sign)).collect();
         let lines = SIDES.iter().zip(&edges).filter_map(|(&side, &edge)| line(tracks, side, edge, &edges));

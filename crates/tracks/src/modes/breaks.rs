@@ -26,8 +26,9 @@ const LEAST_LEVEL: usize = 5;
 
 /// Frames at another place for at most 3 frames, and displacements after which the cell stays at the other place.
 ///
-/// Elsewhere: 1.5 mean radii and more from the place before, and back within half of that distance. A displacement without a return is a step if it
-/// also exceeds 4 times the 90 % quantile of all displacements, for each frame that passed: of the stage, where the shape goes on ([`Going`]), or to another cell.
+/// Elsewhere: 1.5 mean radii and more from the place before, and back within half of that distance. A
+/// displacement without a return is a step if it also exceeds 4 times the 90 % quantile of all displacements,
+/// for each frame that passed: of the stage, where the shape goes on ([`Going`]), or to another cell.
 pub(super) fn displacements(modes: &mut [FrameModes]) {
     let seen: Vec<usize> = (0..modes.len()).filter(|&k| modes[k].area > 0.0).collect();
     let steps: Vec<f64> = seen.windows(2).map(|pair| pace(&modes[pair[0]], &modes[pair[1]])).collect();
@@ -61,7 +62,7 @@ pub(super) fn displacements(modes: &mut [FrameModes]) {
     }
 }
 
-/// How much the shape changes between frames that follow each other: of area, z2 and z3.
+/// The usual changes of the shape between successive frames: of area, z2 and z3.
 struct Going {
     usual: [f64; 3],
 }
@@ -72,7 +73,8 @@ impl Going {
         Self { usual: [0, 1, 2].map(|k| quantile(pairs().filter_map(|found| found[k]).collect(), 0.9)) }
     }
 
-    /// Whether the shape of `here` is that of `before`, as far as it changes between other frames. Where there are no modes, nothing tells one cell from another.
+    /// Returns `true` if the shape of `here` is that of `before`, within the usual changes between frames.
+    /// Where there are no modes, nothing tells one cell from another.
     fn on(&self, before: &FrameModes, here: &FrameModes) -> bool {
         let found = changes(before, here);
         found.iter().zip(self.usual).all(|(change, usual)| change.is_some_and(|x| x <= CHANGED * usual))
@@ -90,8 +92,9 @@ fn changes(a: &FrameModes, b: &FrameModes) -> [Option<f64>; 3] {
     [area, mode(0), mode(1)]
 }
 
-/// Areas that change from one frame to the next and stay: the medians of up to 8 frames before and after (5 at least) differ by more than the
-/// limit in the logarithm, and more than half of the difference lies between the two frames. The frames at which they step.
+/// Areas that change from one frame to the next and stay: the medians of up to 8 frames before and after (5
+/// at least) differ by more than the limit in the logarithm, and more than half of the difference lies
+/// between the two frames. The frames at which they step.
 pub(super) fn areas(modes: &mut [FrameModes], logs: &[Option<f64>], limit: f64) -> Vec<usize> {
     let mut found = Vec::new();
     for k in LEAST_LEVEL..logs.len() {
@@ -111,7 +114,7 @@ pub(super) fn areas(modes: &mut [FrameModes], logs: &[Option<f64>], limit: f64) 
     found
 }
 
-/// Why a record is not that of one cell in one unit, with the first frame that shows it.
+/// The reason why a record is not that of one cell in one unit, with the first frame that shows it.
 pub(super) fn reason(modes: &[FrameModes]) -> Option<String> {
     let flagged = |test: &dyn Fn(&Flag) -> bool| {
         modes.iter().filter(|frame| frame.flags.iter().any(test)).map(|frame| frame.frame).collect::<Vec<_>>()
@@ -119,7 +122,8 @@ pub(super) fn reason(modes: &[FrameModes]) -> Option<String> {
     let elsewhere = flagged(&|flag| matches!(flag, Flag::PositionJump { .. }));
     if elsewhere.len() > 3 && elsewhere.len() as f64 > MIXED * modes.len() as f64 {
         return Some(format!(
-            "{} of {} frames are at another place than those around them, the first of them frame {}: two cells have one name, or the frames are too far apart to follow the cell",
+            "{} of {} frames are at another place than those around them, the first of them frame {}: two \
+            cells have one name, or the frames are too far apart to follow the cell",
             elsewhere.len(),
             modes.len(),
             elsewhere[0]
@@ -127,7 +131,8 @@ pub(super) fn reason(modes: &[FrameModes]) -> Option<String> {
     }
     if let [first, ..] = flagged(&|flag| matches!(flag, Flag::AreaStep { .. }))[..] {
         return Some(format!(
-            "the area steps to another level at frame {first}: another unit, or another cell under the same name; give the parts names of their own"
+            "the area steps to another level at frame {first}: another unit, or another cell under the same \
+            name; give the parts names of their own"
         ));
     }
     let steps = flagged(&|flag| matches!(flag, Flag::PositionStep { .. }));

@@ -1,4 +1,4 @@
-//! Whether a polygon crosses itself.
+//! The test of self-intersection of a polygon.
 
 use crate::geometry::edges;
 

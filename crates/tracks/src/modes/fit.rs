@@ -27,11 +27,12 @@ pub struct RadiusFit {
     pub z: Vec<[f64; 2]>,
     /// Noise of a vertex along each coordinate, estimated from the residuals: sigma^2 = sum w r^2/(n - p).
     pub sigma: f64,
-    /// Correlation of the residuals of neighbouring vertices: about -p/n for independent noise. Well above 0, the outline has finer features
-    /// than the modes, and the covariance is too small.
+    /// Correlation of the residuals of neighbouring vertices: about -p/n for independent noise. Well above 0,
+    /// the outline has finer features than the modes, and the covariance is too small.
     pub neighbours: f64,
-    /// By how much correlated residuals multiply the variances: `1 + 2 sum_k rho_k` over the lags k up to the first rho_k <= 0; 1 for independent
-    /// noise. Not contained in the covariance: multiply it where `neighbours` is well above 0.
+    /// The factor by which correlated residuals multiply the variances: `1 + 2 sum_k rho_k` over the lags k up to the
+    /// first rho_k <= 0; 1 for independent noise. Not contained in the covariance: multiply it where
+    /// `neighbours` is well above 0.
     pub inflation: f64,
     /// `(J^T W J)^{-1}` of (X, Y, R0, Re z2, Im z2, Re z3, ...), row by row: times sigma^2 it is the covariance.
     pub unit_covariance: Vec<f64>,
@@ -50,7 +51,8 @@ impl RadiusFit {
         sigma * sigma * self.unit_covariance[j * self.unknowns() + k]
     }
 
-    /// The covariance of (X, Y, Re z2, Im z2, .., Im z_highest) for this noise of a vertex, row by row. Modes that were not fitted are left out.
+    /// The covariance of (X, Y, Re z2, Im z2, .., Im z_highest) for this noise of a vertex, row by row. Modes
+    /// that were not fitted are left out.
     #[must_use]
     pub fn observed_covariance(&self, sigma: f64, highest: usize) -> Vec<Vec<f64>> {
         let last = (1 + 2 * highest).min(self.unknowns());
@@ -61,9 +63,10 @@ impl RadiusFit {
 
 /// Least squares of `r_k = |P_k - X| - R(arg(P_k - X))` with weights `w = 1/(1 + (R'/R)^2)`, by damped Gauss-Newton steps.
 ///
-/// Noise of a vertex, equal in all directions, moves r by sigma sqrt(1 + (R'/R)^2): the weights are the inverse variances. The columns of the
-/// centre are cos + (R'/r) sin and sin - (R'/r) cos. `highest` is the largest n of z_n, at least 3. `None` where the points are too few, or no start converges to
-/// an outline with R > 0 at every vertex.
+/// Noise of a vertex, equal in all directions, moves r by sigma sqrt(1 + (R'/R)^2): the weights are the
+/// inverse variances. The columns of the centre are cos + (R'/r) sin and sin - (R'/r) cos. `highest` is the
+/// largest n of z_n, at least 3. `None` where the points are too few, or no start converges to an outline
+/// with R > 0 at every vertex.
 ///
 /// # Checked by  tests/all/modes.rs: exact outlines (1e-13), symmetry (1e-13), pulls
 #[must_use]

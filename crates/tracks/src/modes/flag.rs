@@ -1,4 +1,4 @@
-//! What is wrong with a frame, by name and with evidence.
+//! The faults of a frame, by name and with evidence.
 
 use serde::Serialize;
 use std::fmt;
@@ -81,13 +81,15 @@ impl Flag {
         }
     }
 
-    /// Whether no displacement can be taken to this frame from those before: stage, unit or cell is another one.
+    /// Returns `true` if no displacement can be taken to this frame from those before: stage, unit or cell is
+    /// another one.
     #[must_use]
     pub fn parts(&self) -> bool {
         matches!(self, Self::AreaStep { .. } | Self::PositionStep { .. } | Self::StageJump { .. })
     }
 
-    /// Whether the frame is no observation of the shape: its modes, if there are any, must not be used.
+    /// Returns `true` if the frame is no observation of the shape: its modes, if there are any, must not be
+    /// used.
     #[must_use]
     pub fn leaves_out(&self) -> bool {
         if let Self::MissingVertices { count, of } = self {

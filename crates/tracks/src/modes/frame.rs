@@ -54,24 +54,25 @@ pub struct FrameModes {
     pub radius: Option<RadiusFit>,
     /// Modes of the tangent angle; `None` where the outline does not turn once.
     pub tangent: Option<TangentModes>,
-    /// What is wrong.
+    /// Its faults.
     pub flags: Vec<Flag>,
 }
 
 impl FrameModes {
-    /// Whether the frame is no observation of the shape; its flags say why.
+    /// Returns `true` if the frame is no observation of the shape; its flags say why.
     #[must_use]
     pub fn is_left_out(&self) -> bool {
         self.flags.iter().any(Flag::leaves_out)
     }
 
-    /// Whether it has modes of the radius that count.
+    /// Returns `true` if it has modes of the radius that count.
     #[must_use]
     pub fn counts(&self) -> bool {
         self.radius.is_some() && !self.is_left_out()
     }
 
-    /// Whether place and form of the polygon are observations, whatever its radius: it encloses an area, and only modes would ask for more vertices.
+    /// Returns `true` if place and form of the polygon are observations, whatever its radius: it encloses an
+    /// area, and only modes would ask for more vertices.
     #[must_use]
     pub fn is_seen(&self) -> bool {
         let hides = |flag: &Flag| flag.leaves_out() && !matches!(flag, Flag::TooFewVertices { .. });

@@ -1,8 +1,9 @@
 //! Outlines -> modes of the shape, with their errors and with what is wrong with each frame.
 //!
 //! `R(theta) = R0 + sum_{n=2}^{N} 2 Re(z_n e^{i n theta})` about the centre (X, Y): the outline of the models. A rotation of the plane by
-//! `angle` multiplies `z_n` by `exp(-i n angle)`; a mirror `y -> -y` makes it its conjugate; all are lengths. The centre is the point about which
-//! the radius has no first harmonic; the centroid of the area is another point.
+//! `angle` multiplies `z_n` by `exp(-i n angle)`; a mirror `y -> -y` makes it its conjugate; all are lengths.
+//! The centre is the point about which the radius has no first harmonic; the centroid of the area is another
+//! point.
 
 mod border;
 mod breaks;

@@ -1,4 +1,4 @@
-//! What is wrong with a frame beside the others of its cell.
+//! The faults of a frame that show beside the others of its cell.
 
 use super::breaks::areas;
 use super::flag::Flag;
@@ -44,9 +44,10 @@ pub(super) fn gaps(modes: &mut [FrameModes]) {
     }
 }
 
-/// Areas that differ from the median of the 3 frames on each side by more than the threshold, and by more than 6 robust standard deviations of all
-/// such differences (1.4826 times their median size). Logarithms: half and double are as far. Areas that step to another level and stay there are
-/// flagged as steps; the frames on both sides of a step are not compared.
+/// Areas that differ from the median of the 3 frames on each side by more than the threshold, and by more
+/// than 6 robust standard deviations of all such differences (1.4826 times their median size). Logarithms:
+/// half and double are as far. Areas that step to another level and stay there are flagged as steps; the
+/// frames on both sides of a step are not compared.
 pub(super) fn jumps(modes: &mut [FrameModes], threshold: f64) {
     let logs: Vec<Option<f64>> =
         modes.iter().map(|frame| (frame.area > 0.0).then(|| libm::log(frame.area))).collect();

@@ -1,10 +1,10 @@
-//! Whether an outline is star-shaped about a point: whether each ray from there meets it once.
+//! The test if an outline is star-shaped about a point, so that each ray from there meets it once.
 
 use crate::geometry::edges;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// How far the direction of the outline, seen from the centre, runs backwards.
+/// The largest angle by which the direction of the outline, seen from the centre, runs backwards.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Fold {
     /// Turns of the direction along the outline: 1 (or -1) for a simple curve around the centre, 0 where the centre lies outside.

@@ -1,4 +1,4 @@
-//! Where the fit of the radius begins.
+//! The start of the fit of the radius.
 
 use crate::geometry::{area, centroid, edges};
 

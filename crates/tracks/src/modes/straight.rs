@@ -56,9 +56,10 @@ impl Edge {
     }
 }
 
-/// Length of the longest run of vertices within 3 % of the radius sqrt(A/pi) of a border, and whether it is clipped there: longer than 1.6 times the chord of a
-/// circle at that depth (and one pixel, of outlines that follow pixels), while no other side of the outline is nearly as flat. `borders`: all lines at
-/// which an outline may be clipped, whose sides do not count.
+/// Length of the longest run of vertices within 3 % of the radius sqrt(A/pi) of a border, and whether it is
+/// clipped there: longer than 1.6 times the chord of a circle at that depth (and one pixel, of outlines that
+/// follow pixels), while no other side of the outline is nearly as flat. `borders`: all lines at which an
+/// outline may be clipped, whose sides do not count.
 pub(super) fn run(points: &[[f64; 2]], border: Edge, borders: &[Edge]) -> (f64, bool) {
     let radius = (area(points).abs() / PI).sqrt();
     let depth = DEPTH * radius;
@@ -71,7 +72,8 @@ pub(super) fn run(points: &[[f64; 2]], border: Edge, borders: &[Edge]) -> (f64, 
     (longest, straight)
 }
 
-/// Whether another side of the outline is as flat: then it is so by itself, and not because a part is not seen.
+/// Returns `true` if another side of the outline is as flat: then it is so by itself, and not because a part
+/// is not seen.
 fn is_flat_elsewhere(points: &[[f64; 2]], (run, depth): (f64, f64), border: Edge, borders: &[Edge]) -> bool {
     // a cell in a corner of the images is clipped at two sides; no cell is as wide as the images
     let beside = |edge: &&Edge| dot(edge.normal, border.normal) > -SAME_SIDE;

@@ -15,13 +15,15 @@ pub struct TangentModes {
 
 /// Modes of the tangent angle minus the turning of a circle.
 ///
-/// phi(s) is the direction of the tangent, anticlockwise along the outline of length L; sigma = 2 pi s/L + c is the parameter, with c such that
-/// psi(sigma) = phi - sigma - pi/2 has mean 0 (a circle: psi = 0 and sigma = theta). Then
+/// phi(s) is the direction of the tangent, anticlockwise along the outline of length L; sigma = 2 pi s/L + c
+/// is the parameter, with c such that psi(sigma) = phi - sigma - pi/2 has mean 0 (a circle: psi = 0 and sigma =
+/// theta). Then
 ///
 /// psi_n = 1/(2 pi) int psi e^{-i n sigma} dsigma = 1/(2 pi i n) sum_k tau_k e^{-i n sigma_k},   w_n = i n/(n^2 - 1) sqrt(A/pi) psi_n,
 ///
-/// tau_k the turning at vertex k. To first order in the deformation w_n = z_n; a rotation, mirror, other first vertex or sense acts on w_n as
-/// on z_n. Vertices need not be evenly spaced. psi_0 and w_1 carry no shape: of a closed curve w_1 vanishes to first order.
+/// tau_k the turning at vertex k. To first order in the deformation w_n = z_n; a rotation, mirror, other
+/// first vertex or sense acts on w_n as on z_n. Vertices need not be evenly spaced. psi_0 and w_1 carry no
+/// shape: of a closed curve w_1 vanishes to first order.
 ///
 /// `None` where the outline does not turn once (it crosses itself), reverses at a vertex, or has no area.
 ///

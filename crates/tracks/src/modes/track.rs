@@ -25,7 +25,8 @@ impl CellModes {
         self.frames.iter().filter(|frame| frame.is_left_out())
     }
 
-    /// Why the record is not that of one cell in one unit: two cells under one name, or a unit that changes. `None` for a sound record.
+    /// The reason why the record is not that of one cell in one unit: two cells under one name, or a unit
+    /// that changes. `None` for a sound record.
     #[must_use]
     pub fn inconsistent(&self) -> Option<String> {
         reason(&self.frames)

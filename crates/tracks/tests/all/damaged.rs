@@ -1,4 +1,4 @@
-//! What is wrong with data is an error with its place, or a note.
+//! Tests of damaged data: an error with its place, or a note.
 
 use crate::common::{cell, csv, notes, outlines, read, read_with, refusal};
 use crate::formats::{quimp_nodes, quimp_table};

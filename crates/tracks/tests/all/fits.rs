@@ -45,7 +45,8 @@ fn exact_outlines_give_their_modes() {
     assert!(worst < 1e-13, "{worst:e}");
 }
 
-/// Where the outline nearly reaches its centre: no wrong modes without a word, and nearly always the right ones.
+/// Outlines that nearly reach their centre: no wrong modes without a large residual, and nearly always the
+/// right ones.
 #[test]
 fn large_deformation() {
     let mut next = uniform(2);

@@ -200,7 +200,8 @@ fn images_of_every_kind_have_the_same_outlines() {
     assert!(outlines(&read(&single, &options).expect("masks")) == expected);
 }
 
-/// The contour at half level: a rectangle of pixels has its corners cut, the area is that of its pixels without an eighth of one at each, and its middle is that of the pixels.
+/// The contour at half level: a rectangle of pixels has its corners cut, the area is that of its pixels
+/// without an eighth of one at each, and its middle is that of the pixels.
 #[test]
 fn contours_are_at_half_level() {
     let files = Files::new();

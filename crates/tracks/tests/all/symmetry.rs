@@ -1,4 +1,4 @@
-//! What a rotation, translation, scale, mirror, another first vertex or sense does to the modes.
+//! The effect of a rotation, translation, scale, mirror, another first vertex or sense on the modes.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

@@ -17,7 +17,8 @@ pub(crate) fn parquet(frames: i64) -> Vec<u8> {
 }
 
 fn compressed(frames: i64, compression: Compression) -> Vec<u8> {
-    let schema = "message rows { optional binary cell (UTF8); required int64 frame; required int64 i; required double x; required double y; }";
+    let schema = "message rows \
+        { optional binary cell (UTF8); required int64 frame; required int64 i; required double x; required double y; }";
     let schema = Arc::new(parse_message_type(schema).unwrap());
     let properties = Arc::new(WriterProperties::builder().set_compression(compression).build());
     let mut file = SerializedFileWriter::new(Vec::new(), schema, properties).unwrap();

@@ -28,7 +28,8 @@ pub(crate) fn xml(spots: &[(i64, i64)], tracks: &[&[(i64, i64)]], pixel: f64, un
         text += "</Track>";
     }
     text += &format!(
-        "</AllTracks></Model><Settings><ImageData width=\"100\" height=\"50\" pixelwidth=\"{pixel}\" timeinterval=\"2.5\"/></Settings></TrackMate>"
+        "</AllTracks></Model><Settings><ImageData width=\"100\" height=\"50\" pixelwidth=\"{pixel}\" \
+        timeinterval=\"2.5\"/></Settings></TrackMate>"
     );
     text
 }

@@ -10,7 +10,8 @@ use crate::{Lyapunov, Result};
 use motiform_dynamics::{Equivariant, Watch};
 
 impl Search {
-    /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a torus, seen twice, that keeps its size.
+    /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a
+    /// torus, seen twice, that keeps its size.
     pub(super) fn on_a_curve<B: Equivariant + ?Sized>(
         &mut self,
         body: &B,

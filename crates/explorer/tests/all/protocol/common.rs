@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-/// What a session says.
+/// The page's side of a session: messages to it, and its answers.
 pub(crate) trait Page {
     /// Sends a message.
     fn say(&mut self, text: &str);
@@ -117,7 +117,7 @@ impl Page for Served {
     }
 }
 
-/// Whether an answer is a text of this type.
+/// Returns `true` if an answer is a text of this type.
 pub(crate) fn is_of(answer: &Answer, is: &str) -> bool {
     matches!(answer, Answer::Text(text) if text.starts_with(&format!("{{\"is\":\"{is}\"")))
 }

@@ -6,7 +6,10 @@ use crate::protocol::common::{Alone, Page, Served, binaries};
 use motiform_explorer::Answer;
 
 const BEGIN: &str = r#"{"do":"begin","model":"tensor","preset":"fig5a","state":[0.3,0.1,0.2,0.05,0.01,-0.02],"position":[0,0]}"#;
-const MAP: &str = r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":0.5,"high":1.5},"y":{"name":"kappa3","low":0.1,"high":0.9},"count":9}"#;
+const MAP: &str = concat!(
+    r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":0.5,"high":1.5},"#,
+    r#""y":{"name":"kappa3","low":0.1,"high":0.9},"count":9}"#
+);
 
 fn texts(answers: &[Answer], is: &str) -> Vec<String> {
     let texts = answers.iter().filter_map(|answer| match answer {

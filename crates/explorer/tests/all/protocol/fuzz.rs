@@ -23,7 +23,7 @@ fn messages_are_read() {
     assert!(good > 100, "{good}");
 }
 
-/// What a session does at once with what it hears; its errands for helpers are not done.
+/// The immediate answer of a session to messages of any content; its errands for helpers are not done.
 #[test]
 fn messages_are_heard() {
     const BEGIN: &str = r#"{"do":"begin","model":"tensor","preset":"fig5a"}"#;

@@ -57,7 +57,7 @@ fn what_lies_beyond_everything_is_refused() {
     assert_eq!(page.next("changed")["revision"], 2, "just inside");
 }
 
-/// Whatever a swarm begins from, the next body can begin.
+/// The next body can begin after a swarm from any start.
 #[test]
 fn a_swarm_from_the_largest_start_leaves_the_session_as_it_was() {
     for from in ["starts", "near", "noises"] {

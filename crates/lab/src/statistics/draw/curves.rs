@@ -75,7 +75,7 @@ fn thinned(points: Vec<BandPoint>, logarithmic: bool) -> Vec<BandPoint> {
     points.into_iter().enumerate().filter_map(kept).collect()
 }
 
-/// How far each quantity is worth drawing: until its correlation has decayed; all lags where it does not.
+/// The largest lag to draw of each quantity: until its correlation has decayed; all lags where it does not.
 fn decays(all: &[&Autocorrelation]) -> Vec<f64> {
     let decays = all.iter().map(|found| {
         let length = found.lags[found.lags.len() - 1];

@@ -17,7 +17,7 @@ const POINTS: usize = 200;
 /// Lags that are drawn differ by this factor at least.
 const APART: f64 = 1.25;
 
-/// How far guide lines go beyond the crossover, as a factor.
+/// The reach of guide lines beyond the crossover, as a factor.
 const BEYOND: f64 = 4.0;
 
 /// Measured values as points of a curve; without an interval there is no band.
@@ -104,7 +104,8 @@ fn lines(measurement: &Measurement, points: &[BandPoint], units: &Shown) -> Vec<
     lines
 }
 
-/// How far the line goes below the lags it was fitted to, as a factor, while its intercept is less than half of it.
+/// The reach of the line below the lags it was fitted to, as a factor, while its intercept is less than half
+/// of it.
 const BEFORE: f64 = 8.0;
 
 /// The straight line of the late displacements, with its intercept: that is what passes through the points.

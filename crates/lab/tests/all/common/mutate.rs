@@ -7,7 +7,7 @@ use std::time::Instant;
 /// A sequence of random numbers.
 pub struct Mutator(u64);
 
-/// What numbers and texts break on.
+/// Tokens on which readers of numbers and texts break.
 const TOKENS: [&str; 28] = [
     "0",
     "-1",
@@ -99,13 +99,13 @@ impl Mutator {
     }
 }
 
-/// How many cases each target gets: `MOTIFORM_FUZZ`, or some thousand.
+/// The number of cases for each target: `MOTIFORM_FUZZ`, or some thousand.
 pub fn cases(usual: usize) -> usize {
     std::env::var("MOTIFORM_FUZZ").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
-/// Hands damaged inputs to `read`, which says whether they could be used, and returns how many could; prints the rate. A panic fails the test and shows its
-/// input, so that it can become a test of its own.
+/// Hands damaged inputs to `read`, which says whether they could be used, and returns how many could; prints
+/// the rate. A panic fails the test and shows its input, so that it can become a test of its own.
 pub fn each(
     name: &str,
     (seed, usual): (u64, usize),

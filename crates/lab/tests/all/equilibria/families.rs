@@ -23,8 +23,8 @@ fn families(text: &str) -> Vec<usize> {
     first
 }
 
-/// A circle of rests; two of them, which make a torus with the phases of both; and an ellipse and its axes, where the path from one member to the
-/// next goes round a curve that is no circle.
+/// A circle of rests; two of them, which make a torus with the phases of both; and an ellipse and its axes,
+/// where the path from one member to the next goes round a curve that is no circle.
 #[test]
 fn circles_and_tori_of_equilibria_are_one_entry_each() {
     let one = "z1 = \"(1 - |z1|^2)*z1\"";
@@ -40,8 +40,9 @@ fn circles_and_tori_of_equilibria_are_one_entry_each() {
     assert_eq!(families(&text("1", "none", ellipse)), [0, 1]);
 }
 
-/// The reduced model (a1 = 1, b1 = .5, b3 = 1) without a word about its symmetry has the rests and straight motions that it has with all of it:
-/// its rotated copies are a family. (A body that turns is no equilibrium of the unreduced equations.)
+/// The reduced model (a1 = 1, b1 = .5, b3 = 1) without a word about its symmetry has the rests and straight
+/// motions that it has with all of it: its rotated copies are a family. (A body that turns is no equilibrium
+/// of the unreduced equations.)
 #[test]
 fn an_undeclared_symmetry_changes_no_list_of_motions_that_do_not_turn() {
     for (kappa2, gamma) in [(0.18, 0.1), (-0.1, 0.05), (-0.1, -0.04), (0.02, 0.05)] {
@@ -64,7 +65,8 @@ fn an_undeclared_symmetry_changes_no_list_of_motions_that_do_not_turn() {
     }
 }
 
-/// Where two shapes have a vanishing eigenvalue each, at a bifurcation, they are two: no path leads from one to the other.
+/// Two shapes that have a vanishing eigenvalue each, at a bifurcation, are two: no path leads from one to the
+/// other.
 #[test]
 fn equilibria_at_bifurcations_are_no_family() {
     // double roots at x = -1 and x = 1, y = 0

@@ -1,4 +1,5 @@
-//! What cannot matter changes no list: the seed, units, the order of the unknowns, silent unknowns.
+//! The invariance of a list of equilibria under what cannot matter: the seed, units, the order of the
+//! unknowns, silent unknowns.
 
 use super::other_search::{Field, distance, field, norm, text};
 use super::{list, study, values};

@@ -85,8 +85,8 @@ fn multiple_roots_are_not_multiplied() {
     assert_eq!((regular, found.len() - double), (1, 1), "{found:?}");
 }
 
-/// FitzHugh-Nagumo: `x - x^3/3 - y = 0`, `x + a = b y` has one solution. Where y is 1e15, the derivatives of `x^3` are rounding alone, and hundreds
-/// of places seemed to be solutions.
+/// FitzHugh-Nagumo: `x - x^3/3 - y = 0`, `x + a = b y` has one solution. Where y is 1e15, the derivatives of
+/// `x^3` are rounding alone, and hundreds of places seemed to be solutions.
 #[test]
 fn rounding_far_away_is_no_equilibrium() {
     let text = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\n\

@@ -1,4 +1,4 @@
-//! What is damaged, missing, of another plan or of an earlier version.
+//! Scans that are damaged, missing, of another plan or of an earlier version.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
@@ -144,7 +144,7 @@ fn different_numbers_for_the_same_rows_are_refused() {
     assert!(!at("c").exists() && std::fs::read_dir(at("")).unwrap().count() == 3);
 }
 
-/// What something else removes or damages while a scan runs is counted at its end.
+/// Parts that something else removes or damages while a scan runs are counted at its end.
 #[test]
 fn parts_that_vanish_are_counted() {
     let place = TempDir::new().unwrap();

@@ -61,7 +61,7 @@ fn starts_depend_on_seed_cell_and_sample_alone() {
     assert_eq!(start(&given, 7, 1), start(&plan, 7, 1));
 }
 
-/// What the numerics refuse for a row is that row's answer.
+/// The refusal of a row by the numerics is that row's answer.
 #[test]
 fn a_refused_row_is_undetermined() {
     struct Refusing;

@@ -14,7 +14,9 @@ fn study(text: &str) -> Study {
 }
 
 const NOISY: &str = "[model.tensor]\ngamma = 1\nkappa2 = 2\nkappa3 = 2\n[run]\nt_end = 40\ntransient = 5\ndt_out = 0.1\nnoise = 0.2";
-const IN_EQUATIONS: &str = "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.equations]\nz1 = \"(1 - |z1|^2)*z1\"\nz2 = \"-2*z2\"\n[model.amplitudes.noise]\nz1 = \"0.2*z1\"\nz2 = \"0.1\"\n[initial]\nv1 = 1.0\n[run]\nt_end = 40\ntransient = 5\ndt_out = 0.1";
+const IN_EQUATIONS: &str = "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.equations]\nz1 = \"(1 - \
+    |z1|^2)*z1\"\nz2 = \"-2*z2\"\n[model.amplitudes.noise]\nz1 = \"0.2*z1\"\nz2 = \"0.1\"\n[initial]\nv1 = \
+    1.0\n[run]\nt_end = 40\ntransient = 5\ndt_out = 0.1";
 const SILENT: &str = "preset = \"fig5b\"\n[run]\nt_end = 40\ntransient = 5\ndt_out = 0.1";
 
 fn run(

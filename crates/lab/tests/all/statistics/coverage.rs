@@ -1,4 +1,5 @@
-//! How often the intervals that `motiform statistics` prints hold the true value. The table of docs/statistics.md (some minutes):
+//! The coverage of the intervals that `motiform statistics` prints. The table of docs/statistics.md (some
+//! minutes):
 //!
 //!     cargo test --release -p motiform-lab --test all statistics::coverage::table -- --ignored --nocapture
 //!
@@ -18,7 +19,8 @@ const POOLED: usize = 100;
 /// Data sets that are simulated together.
 const TOGETHER: usize = 20;
 
-/// Too narrow, and said to be in docs/statistics.md: the circles of this motion just leave a disc of this radius, so few bodies make the mean.
+/// Too narrow, and said to be in docs/statistics.md: the circles of this motion just leave a disc of this
+/// radius, so few bodies make the mean.
 const NARROW: (&str, &str) = ("circles", "leaves a large disc");
 
 /// Steps between the samples that are used.
@@ -61,7 +63,8 @@ pub(crate) fn printed(found: &Statistics) -> Numbers {
     all
 }
 
-/// Whether a number is another one at another sampling interval: its lag is, or what is seen between samples.
+/// Returns `true` if a number is another one at another sampling interval: its lag is, or what is seen
+/// between samples.
 pub(crate) fn depends_on_sampling(name: &str) -> bool {
     ["exponent", "leaves", "stays", "msd"].iter().any(|start| name.starts_with(start))
 }

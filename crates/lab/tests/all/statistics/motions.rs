@@ -7,7 +7,7 @@ use motiform_lab::noisy::noisy_tracks;
 use motiform_statistics::{Settings, Statistics, Track, Tracks, statistics};
 use motiform_study::{RunPlan, Study};
 
-/// Where the bodies of a motion come from.
+/// The source of the bodies of a motion.
 #[derive(Clone, Copy)]
 pub(crate) enum Source {
     /// A study of the tensor model; bodies are cut from longer runs, with a gap between them.

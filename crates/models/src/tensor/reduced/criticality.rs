@@ -6,8 +6,9 @@ impl Reduced {
     /// First Lyapunov coefficient of the Hopf bifurcation of straight motion at the point with the ellipse `-B/2 < s < 0` of the line
     /// [`super::Line::StraightHopf`] (times a positive number): above 0 subcritical, below 0 supercritical.
     ///
-    /// With `psi = 0` or `pi` throughout, `p = r1^2` and `s` obey `p' = 2 p (gamma - p - 2 a1 s)`, `s' = -kappa2 s - 8 b3 s^3 + B p`. At the
-    /// bifurcation the trace vanishes, `m = 2 p = -kappa2 - 24 b3 s^2`, and `omega^2 = m (2 a1 B - m)`. In `x = s - s0`,
+    /// With `psi = 0` or `pi` throughout, `p = r1^2` and `s` obey `p' = 2 p (gamma - p - 2 a1 s)`,
+    /// `s' = -kappa2 s - 8 b3 s^3 + B p`. At the bifurcation the trace vanishes,
+    /// `m = 2 p = -kappa2 - 24 b3 s^2`, and `omega^2 = m (2 a1 B - m)`. In `x = s - s0`,
     /// `y = -(B (p - p0) + m x)/omega` the linear part is a rotation, and
     /// `16 a = f_xxx - (g_xy (g_xx + g_yy) + f_xx g_xx)/omega` (all other terms of the formula vanish).
     ///
@@ -25,8 +26,8 @@ impl Reduced {
         f_xxx - (g_xy * (g_xx + g_yy) + f_xx * g_xx) / omega
     }
 
-    /// Where that coefficient changes its sign between the Hopf line's points at `kappa2` = -0.2 and -0.005: a Bautin point, by bisection.
-    /// `None` if it does not.
+    /// The zero of that coefficient between the Hopf line's points at `kappa2` = -0.2 and -0.005, a Bautin
+    /// point, by bisection. `None` if its sign does not change from above to below 0 there.
     ///
     /// # Checked by  tests/all/reduced.rs: the measured zero
     #[must_use]

@@ -50,7 +50,8 @@ impl Line {
     }
 }
 
-/// How far along the open ends of their parameters lines are followed, as parts of their natural units.
+/// The extent to which lines are followed along the open ends of their parameters, in the parameters' natural
+/// units.
 const FAR: f64 = 8.0;
 
 /// Steps in which a root is followed from the origin.
@@ -140,8 +141,8 @@ impl Reduced {
         if cosine.abs() < 1.0 { [q * rho, gamma] } else { [f64::NAN, f64::NAN] }
     }
 
-    /// Where a line has this `kappa2`: its parameter there, and `gamma`; by bisection. `None` where it has no such point, and on
-    /// [`Line::CircleToEllipse`], along which `kappa2` does not change.
+    /// The point of a line with this `kappa2`: its parameter there, and `gamma`; by bisection. `None` where
+    /// it has no such point, and on [`Line::CircleToEllipse`], along which `kappa2` does not change.
     ///
     /// # Checked by  tests/all/reduced.rs: points of the lines
     #[must_use]

@@ -80,7 +80,7 @@ pub struct Expected {
 }
 
 impl Expected {
-    /// Whether a motion of this name is stable or possible.
+    /// Returns `true` if a motion of this name is stable or possible.
     #[must_use]
     pub fn allows(&self, name: &str) -> bool {
         self.stable.iter().chain(&self.possible).any(|motion| motion.name() == name)
@@ -109,7 +109,7 @@ pub struct Circular {
     pub cos_psi: f64,
     /// Size of the turning rate, `|2 a1 r2 sin psi|`.
     pub turning_rate: f64,
-    /// Whether it is stable (Routh and Hurwitz).
+    /// `true` if it is stable (Routh and Hurwitz).
     pub stable: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What a TrackMate file holds.
+//! The content of a TrackMate file.
 
 use crate::Image;
 use std::collections::{HashMap, HashSet};
