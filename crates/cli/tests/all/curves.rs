@@ -152,7 +152,10 @@ fn interrupted_curves_go_on_to_the_same_points() {
         assert_eq!(bytes("whole"), bytes("parts"), "{name}");
     }
     let error = folder.run(&format!("{words} --points 9 --out parts --resume")).expect_error(2).stderr;
-    assert!(error.contains("branches.points: 2000 there, 9 requested") && error.contains("--force"), "{error}");
+    assert!(
+        error.contains("branches.points: 2000 there, 9 requested") && error.contains("--force"),
+        "{error}"
+    );
 }
 
 /// Simulation and continuation give the same mean speed of the stable zigzag.

@@ -72,5 +72,8 @@ fn an_interrupted_run_goes_on_to_the_same_numbers() {
         assert_eq!(bytes("whole"), bytes("parts"), "{name}");
     }
     let other = folder.run(&format!("{words} --seed 2 --out parts --resume")).expect(2).stderr;
-    assert!(other.contains("another plan (seed: 1 there, 2 requested)") && other.contains("--force"), "{other}");
+    assert!(
+        other.contains("another plan (seed: 1 there, 2 requested)") && other.contains("--force"),
+        "{other}"
+    );
 }

@@ -35,8 +35,8 @@ fn without(computation: &impl Question, paths: &[&str]) -> Value {
     let mut value = serde_json::to_value(computation).unwrap_or_default();
     for path in paths {
         let (parents, key) = path.rsplit_once('.').unwrap_or(("", path));
-        let parent = parents.split('.').filter(|part| !part.is_empty());
-        let parent = parent.fold(Some(&mut value), |inside, part| inside?.get_mut(part));
+        let mut parent = parents.split('.').filter(|part| !part.is_empty());
+        let parent = parent.try_fold(&mut value, |inside, part| inside.get_mut(part));
         parent.and_then(Value::as_object_mut).map(|object| object.shift_remove(key));
     }
     value
