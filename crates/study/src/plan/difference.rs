@@ -4,7 +4,7 @@ use super::Question;
 use serde_json::Value;
 
 /// Most differences in a line.
-const MOST: usize = 6;
+const MOST: usize = 12;
 
 /// The differences in one line: `KEY: VALUE there, VALUE requested`, separated by semicolons; the first ones where there are many.
 pub(super) fn between<C: Question>(there: &C, requested: &C) -> String {
