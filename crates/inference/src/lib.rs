@@ -1,10 +1,11 @@
 //! From observed tracks of shape modes to amplitude equations.
 //!
 //! [`fit()`] finds the coefficients of all rotation-covariant terms and the noise by maximum likelihood through an extended Kalman filter;
-//! [`stage_velocities`] whether the stage drifts beside it; [`select`] the terms that the data ask for;
-//! [`identifiability()`] what the motion fixes; [`handedness`] whether left and right differ; [`warnings()`]
-//! and [`drift()`] what makes the fit doubtful; [`weak()`] is a cheap witness; [`place()`] and
-//! [`place_among`] say where the model lies on the paper's planes; [`Fit::definition`] makes it a model.
+//! [`stage_velocities`] estimates the drift of the stage; [`select`] chooses the terms that the data support;
+//! [`identifiability()`] finds the combinations of coefficients that the motion determines; [`handedness`]
+//! tests whether left and right differ; [`warnings()`] and [`drift()`] state reasons to doubt the fit;
+//! [`weak()`] is an inexpensive independent estimate; [`place()`] and [`place_among`] locate the model in the
+//! paper's planes; [`Fit::definition`] makes it a model.
 //! Knows no file. Method and measurements: docs/inference.md.
 
 mod between;

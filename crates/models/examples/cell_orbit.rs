@@ -1,8 +1,9 @@
 //! One orbit of the active cell model at a fixed step: what `bench/cell` times and compares; or with error control.
 //!
-//! Usage: `cell_orbit STEPPER LENGTH MODES STEP STEPS [position]`, or `rtol=R TIME` in place of `STEP STEPS`
-//! (the absolute tolerance is a tenth of R). Prints seconds of the stepping loop, then the modes; with error
-//! control the accepted and the rejected steps to the error output.
+//! Usage: `cell_orbit STEPPER LENGTH MODES STEP STEPS [position]` for fixed steps, or
+//! `cell_orbit STEPPER LENGTH MODES rtol=R TIME [position]` with error control (absolute tolerance R/10).
+//! It prints the seconds that the stepping loop took, then the modes; with error control, the numbers of
+//! accepted and rejected steps go to standard error.
 
 use motiform_dynamics::steppers::find_exponential;
 use motiform_dynamics::{ExponentialOrbit, Integration, StepControl, System};

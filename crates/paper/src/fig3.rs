@@ -15,8 +15,8 @@ use motiform_study::study::ReturnMapSettings;
 use motiform_study::{Dataset, Error, Study};
 use std::f64::consts::TAU;
 
-const ABOUT: &str = "The shape repeats after a period, turned by an angle that is no rational part of a \
-    turn: in the plane the path is a rosette that fills an annulus. With rotations divided out, the motion \
+const ABOUT: &str = "The shape repeats after a period, turned by an angle that is not a rational \
+    fraction of a full turn: in the plane the path is a rosette that fills an annulus. With rotations divided out, the motion \
     is a stable periodic orbit, the 'modulated wave'; the second frequency is that of the rotation alone. \
     The return map on a half line from the centre of the path, which is crossed once in every turn, is a \
     closed curve. On the paper's line *y* = 3, with the centre of the path put on the origin, it cannot be \

@@ -42,8 +42,8 @@ pub(crate) struct Products {
 /// Correlation time: `int_0^inf rho dtau` under a smooth lag window of length W, at least 10 int |rho|, and
 /// half of what the slowest quantity of the body needs, lengthened until longer windows give the same; the
 /// change from W to 2 W is in the interval as far as it is more than chance. The sum over samples is that of
-/// an exponential at any dt, and of order dt^4 for others. For an oscillating rho it is the small rest of
-/// what cancels; then frequency and decay are given beside it. Unknown where rho does not decay within the
+/// an exponential at any dt, and of order dt^4 for others. Where rho oscillates, contributions of opposite sign
+/// cancel and the integral is small: its frequency and decay rate are given as well. Unknown where rho does not decay within the
 /// lags, where samples are too coarse, and where it is within its error of 0 (it is a spectrum at frequency
 /// 0, so never below).
 ///

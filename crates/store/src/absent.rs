@@ -4,7 +4,7 @@
 use crate::Error;
 use crate::Fields;
 use crate::Table;
-use crate::table::columns::{Column, Stored};
+use crate::table::columns::Column;
 use std::ops::Range;
 use std::path::Path;
 
@@ -24,7 +24,7 @@ impl std::error::Error for Absent {}
 ///
 /// # Errors
 /// Always.
-pub fn encode(_columns: &[Column<impl Stored>], _metadata: Vec<(&str, String)>) -> Result<Vec<u8>, Absent> {
+pub fn encode(_columns: &[Column], _metadata: Vec<(&str, String)>) -> Result<Vec<u8>, Absent> {
     Err(Absent)
 }
 

@@ -14,17 +14,20 @@ use serde::{Deserialize, Serialize};
 /// Version of the meaning of a plan; part of the hash.
 pub const ATLAS_FORMAT: u32 = 2;
 
-/// Steps of the flow along orbits that a line may take, a few seconds of them. The lines of the plane of the paper's Fig. 4 take up to half of it; curves on which orbits come
+/// Steps of the flow along orbits that a line may take, a few seconds of them. The lines of the plane of the
+/// paper's Fig. 4 take up to half of it; curves on which orbits come
 /// close to a connection, with periods ten times those at their start, take any number.
 const LINE_STEPS: u64 = 1_000_000;
 
-/// Values of an axis whose number is not given: of models that are classified in the lanes of vector registers, and of others.
+/// Values of an axis whose number is not given: of models that are classified in the lanes of vector
+/// registers, and of others.
 const VALUES: [usize; 2] = [65, 17];
 
 /// Initial states of each cell, if nobody says how many.
 const SAMPLES: u64 = 3;
 
-/// An axis of a plane from text, as [`Axis::parse`] reads it, or by its ends alone, `NAME=LOW:HIGH`: the number of values is then that of the model.
+/// An axis of a plane from text, as [`Axis::parse`] reads it, or by its ends alone, `NAME=LOW:HIGH`: the
+/// number of values is then that of the model.
 ///
 /// # Errors
 /// [`Error::Axis`].
@@ -90,8 +93,8 @@ impl Question for AtlasComputation {
     const KIND: Kind = Kind::Atlas;
     const KEY: &'static str = "atlas";
 
-    fn format(&self) -> u32 {
-        self.format
+    fn value(&self) -> serde_json::Value {
+        serde_json::to_value(self).unwrap_or_default()
     }
 
     fn model(&self) -> &ModelName {
@@ -108,7 +111,8 @@ impl Question for AtlasComputation {
 }
 
 impl AtlasPlan {
-    /// Makes a study explicit whose scan has two axes, and checks every number. Without axes the plane is that of the study's display.
+    /// Makes a study explicit whose scan has two axes, and checks every number. Without axes the plane is
+    /// that of the study's display.
     ///
     /// # Errors
     /// [`Error`] naming the key, the value and the remedy.
@@ -179,7 +183,8 @@ impl AtlasPlan {
         Ok(Computation { parameters, initial, ..self.computation.start.clone() })
     }
 
-    /// The branches along a side of the plane that begin with the motion of an initial state of a cell, and the curves through their special points.
+    /// The branches along a side of the plane that begin with the motion of an initial state of a cell, and
+    /// the curves through their special points.
     ///
     /// # Errors
     /// Parameters that the model refuses.

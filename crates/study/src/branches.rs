@@ -241,8 +241,8 @@ impl Question for BranchComputation {
     const KIND: Kind = Kind::Branches;
     const KEY: &'static str = "branches";
 
-    fn format(&self) -> u32 {
-        self.format
+    fn value(&self) -> serde_json::Value {
+        serde_json::to_value(self).unwrap_or_default()
     }
 
     fn model(&self) -> &ModelName {

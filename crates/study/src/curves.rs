@@ -146,8 +146,8 @@ impl Question for CurveComputation {
     const KIND: Kind = Kind::Curves;
     const KEY: &'static str = "curves";
 
-    fn format(&self) -> u32 {
-        self.format
+    fn value(&self) -> serde_json::Value {
+        serde_json::to_value(self).unwrap_or_default()
     }
 
     fn model(&self) -> &ModelName {

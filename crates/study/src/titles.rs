@@ -1,4 +1,5 @@
-//! Titles of figures: as typed, otherwise from the verdict, otherwise from the parameters. Never from the motion of a preset with modified
+//! Titles of figures: as typed, otherwise from the verdict, otherwise from the parameters. Never from the
+//! motion of a preset with modified
 //! parameters ([`Study::set`] removes its title).
 
 use crate::plan::Computation;
@@ -8,7 +9,8 @@ use motiform_models::ModelInfo;
 /// More parameters than this do not fit into a title.
 const MOST: usize = 3;
 
-/// Title of the figures of a run: the model with the parameters that differ from its preset (or from the model's defaults), if they are
+/// Title of the figures of a run: the model with the parameters that differ from its preset (or from the
+/// model's defaults), if they are
 /// few: `Tensor model: kappa2 = 0.5`; with a verdict `Circular motion: kappa2 = 0.5`.
 pub(crate) fn of_run(run: &Computation, name: &str, regime: Option<&str>) -> String {
     let model = format!("{} model", capital(run.model.as_str()));

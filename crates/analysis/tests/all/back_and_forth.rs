@@ -11,8 +11,8 @@ use motiform_analysis::regime::{Form, settle};
 use motiform_dynamics::{Equivariant, Scalar, Semilinear, Shape, Symmetry, System, VectorField};
 
 /// Van der Pol's oscillator in the plane, `x'' = (1 - |x|^2) x' - x` for a vector x, which is the velocity of
-/// the body; and beside it a mode of this index that acts on nothing and whose phase nothing fixes,
-/// `w' = w (1 - |w|^2)`, if there is an index. State x, x', w.
+/// the body. With an index there is also a mode of this index, `w' = w (1 - |w|^2)`: it has no influence on
+/// the other variables, and its phase is neutral. State x, x', w.
 ///
 /// On a line it is van der Pol's oscillator. Deviations across the line decay: `y'' = (1 - x^2) y' - y` has
 /// the solution x, which is the rotation, and by Liouville's formula the multiplier

@@ -4,17 +4,19 @@
 
 use cargo_metadata::MetadataCommand;
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::process::Command;
 
 fn root() -> std::path::PathBuf {
     MetadataCommand::new().no_deps().exec().unwrap().workspace_root.into()
 }
 
-/// A number of the table `[program]`.
+/// A number of the tables `[program]` and `[source]`.
 fn budget(key: &str) -> u64 {
     let text = std::fs::read_to_string(root().join("budgets.toml")).unwrap();
     let budgets: toml::Table = text.parse().unwrap();
-    budgets["program"][key].as_integer().unwrap().try_into().unwrap()
+    let found = ["program", "source"].into_iter().find_map(|table| budgets[table].get(key));
+    found.unwrap().as_integer().unwrap().try_into().unwrap()
 }
 
 fn check(key: &str, found: u64) {
@@ -35,6 +37,33 @@ fn the_program_is_built_from_no_more_packages() {
     let external: BTreeSet<String> =
         text.lines().filter(|line| !line.contains("motiform") && !line.is_empty()).map(name).collect();
     check("packages", external.len() as u64);
+}
+
+/// The Rust sources below a folder.
+fn sources(folder: &Path, found: &mut Vec<String>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() && !["target", "node_modules"].iter().any(|name| path.ends_with(name)) {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            found.push(std::fs::read_to_string(path).unwrap());
+        }
+    }
+}
+
+/// Lines that do not fit beside another file, and doc comments that ask what an item is instead of naming it.
+#[test]
+fn no_more_lines_are_long_and_no_more_comments_ask() {
+    let mut found = Vec::new();
+    ["crates", "xtask"].iter().for_each(|folder| sources(&root().join(folder), &mut found));
+    let lines = || found.iter().flat_map(|text| text.lines());
+    check("long_lines", lines().filter(|line| line.chars().count() > 140).count() as u64);
+    let asks = |line: &&str| {
+        let text = line.trim_start();
+        let text = text.strip_prefix("/// ").or_else(|| text.strip_prefix("//! "));
+        text.is_some_and(|text| ["What ", "Whether ", "How "].iter().any(|word| text.starts_with(word)))
+    };
+    check("questions", lines().filter(asks).count() as u64);
 }
 
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]

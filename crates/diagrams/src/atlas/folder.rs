@@ -41,7 +41,7 @@ impl AtlasFolder {
     /// [`Error::Store`] where a file is missing or damaged, or the atlas is not finished.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let manifest: Provenance<AtlasComputation> = Provenance::read(path)?;
-        if manifest.complete == Some(false) {
+        if manifest.complete != Some(true) {
             let why = "this atlas is not finished: the same `motiform atlas` with --resume goes on";
             return Err(Error::unreadable(path, why));
         }
@@ -56,7 +56,8 @@ impl AtlasFolder {
     /// Opens the folder of the atlas of `plan` to write it, or to go on with it.
     ///
     /// # Errors
-    /// [`Error::OtherPlan`] for another plan; [`Error::Store`] where it exists, is not ours, is used by others or cannot be written.
+    /// [`Error::OtherPlan`] for another plan; [`Error::Store`] where it exists, is not ours, is used by
+    /// others or cannot be written.
     pub fn open(path: &Path, plan: &AtlasPlan, opening: Opening) -> Result<Folder, Error> {
         let (folder, earlier) = plan.open(path, opening, Some(false))?;
         if earlier {

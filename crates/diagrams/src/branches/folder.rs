@@ -1,4 +1,5 @@
-//! The folder of branches: `manifest.json`, `points.parquet`, `samples.parquet` if motions were sampled, `summary.json`, and `branches.json`, from which the work goes on.
+//! The folder of branches: `manifest.json`, `points.parquet`, `samples.parquet` if motions were sampled,
+//! `summary.json`, and `branches.json`, from which the work goes on.
 
 use super::result::Branches;
 use super::summary::summary;
@@ -35,7 +36,8 @@ impl BranchFolder {
     /// Opens the folder of the branches of `plan` to write it, and reads what it holds of them, to go on with.
     ///
     /// # Errors
-    /// [`Error::OtherPlan`] for another plan; [`Error::Store`] where it exists, is not ours, is used by others or cannot be written.
+    /// [`Error::OtherPlan`] for another plan; [`Error::Store`] where it exists, is not ours, is used by
+    /// others or cannot be written.
     pub fn open(
         path: &Path,
         plan: &BranchPlan,

@@ -1,4 +1,5 @@
-//! The folder of curves: `manifest.json`, `points.parquet`, `summary.json`, and `curves.json`, from which the work goes on.
+//! The folder of curves: `manifest.json`, `points.parquet`, `summary.json`, and `curves.json`, from which the
+//! work goes on.
 
 use super::follow::Curves;
 use super::summary::curve_summary;
@@ -36,7 +37,8 @@ impl CurveFolder {
     /// Opens the folder of the curves of `plan` to write it, and reads what it holds of them, to go on with.
     ///
     /// # Errors
-    /// [`Error::OtherPlan`] for another plan; [`Error::Store`] where it exists, is not ours, is used by others or cannot be written.
+    /// [`Error::OtherPlan`] for another plan; [`Error::Store`] where it exists, is not ours, is used by
+    /// others or cannot be written.
     pub fn open(path: &Path, plan: &CurvePlan, opening: Opening) -> Result<(Folder, Option<Curves>), Error> {
         let (folder, found) = open(plan, path, opening, STATE)?;
         if let Some(found) = &found {

@@ -16,7 +16,8 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
 
-/// The longest time of an orbit if the plan has no budget, in looks of the model ([`motiform_models::ModelInfo::look`]).
+/// The longest time of an orbit if the plan has no budget, in looks of the model
+/// ([`motiform_models::ModelInfo::look`]).
 const LOOKS: f64 = 100.0;
 
 /// The time between savings: a killed run loses at most this, beside the orbits under way.
@@ -51,9 +52,11 @@ pub struct LifeAt {
     pub captured: usize,
     /// Those that were still chaotic at the end, or on their way to a steady motion.
     pub lasting: usize,
-    /// Those that moved regularly at the end, not steadily (such as a zigzag): when they began to is not known, and they do not count.
+    /// Those that moved regularly at the end, not steadily (such as a zigzag): when they began to is not
+    /// known, and they do not count.
     pub regular: usize,
-    /// Those that could not be followed to the end (no further step, or the budget of steps was used up); they count until then.
+    /// Those that could not be followed to the end (no further step, or the budget of steps was used up);
+    /// they count until then.
     pub lost: usize,
     /// The time after which a life counts (model time).
     pub delay: f64,
@@ -66,10 +69,12 @@ pub struct LifeAt {
 /// come close to a stable steady motion; both count alike.
 ///
 /// Lives count from `delay` on, which has to cover the way onto the chaotic set. If it is not given: one look, and if
-/// orbits are captured, twice the time that the slowest eigenvalue takes to bring an orbit as near as that is noticed, which a start that
+/// orbits are captured, twice the time that the slowest eigenvalue takes to bring an orbit as near as that is
+/// noticed, which a start that
 /// was never chaotic needs too.
 ///
-/// The tensor model runs in the lanes of vector registers. The results do not depend on `threads` or on the machine. `None` if the watch
+/// The tensor model runs in the lanes of vector registers. The results do not depend on `threads` or on the
+/// machine. `None` if the watch
 /// stopped it.
 ///
 /// # Errors
@@ -97,7 +102,8 @@ pub struct Lives {
     orbits: Vec<Option<Followed>>,
 }
 
-/// Follows the orbits of a plan that `before` does not hold. Where the watch stopped it, some are still missing; each of those that are
+/// Follows the orbits of a plan that `before` does not hold. Where the watch stopped it, some are still
+/// missing; each of those that are
 /// there was followed to its end.
 ///
 /// # Errors

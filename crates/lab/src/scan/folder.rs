@@ -21,7 +21,12 @@ impl ScanFolder {
     /// # Errors
     /// [`Error::NoResult`] if it is missing or damaged.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        Ok(Self { path: path.to_owned(), manifest: ScanManifest::read(path)? })
+        Ok(Self::of(path, ScanManifest::read(path)?))
+    }
+
+    /// A folder whose manifest was read.
+    pub(super) fn of(path: &Path, manifest: ScanManifest) -> Self {
+        Self { path: path.to_owned(), manifest }
     }
 
     /// The path of the folder.

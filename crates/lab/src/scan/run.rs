@@ -29,12 +29,13 @@ impl Scan {
     /// Opens the folder of a scan, creating it if it does not exist, and checks the parts in it.
     ///
     /// # Errors
-    /// [`Error::Store`] where it exists, is not ours, is used by others or cannot be written; [`Error::NoResult`], [`Error::OtherPlan`].
+    /// [`Error::Store`] where it exists, is not ours, is used by others or cannot be written;
+    /// [`Error::NoResult`], [`Error::OtherPlan`].
     pub fn open(path: &Path, plan: &ScanPlan, shard: Shard, opening: Opening) -> Result<Self, Error> {
         if opening == Opening::Resume && path.exists() {
-            plan.check_folder(path)?;
+            let manifest = plan.check_folder(path)?;
             if Inventory::read(path)?.is_none() {
-                adopt(&ScanFolder::read(path)?)?;
+                adopt(&ScanFolder::of(path, manifest))?;
             }
         }
         let (files, earlier) = plan.open(path, opening, None)?;
@@ -112,7 +113,8 @@ impl Scan {
         Ok(self.files.settle()?)
     }
 
-    /// Brings the inventory up to date, once all parts of this shard are there: the scan is complete then. [`Scan::run`] does it.
+    /// Brings the inventory up to date, once all parts of this shard are there: the scan is complete then.
+    /// [`Scan::run`] does it.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -125,7 +127,8 @@ impl Scan {
         Ok(if complete { self.files.complete() } else { self.files.settle() }?)
     }
 
-    /// The parts of this scan that are missing or damaged although all of them were written: another process changed the folder.
+    /// The parts of this scan that are missing or damaged although all of them were written: another process
+    /// changed the folder.
     #[must_use]
     pub fn lost(&self) -> usize {
         let parts = self.folder.parts();
@@ -171,7 +174,8 @@ fn survey(folder: &ScanFolder, shard: Shard) -> Result<(Vec<bool>, Vec<String>),
     Ok((whole, damaged))
 }
 
-/// Gives a scan of an earlier version its inventory: its manifest gives the hash of its plan, and whole parts give their own digests.
+/// Gives a scan of an earlier version its inventory: its manifest gives the hash of its plan, and whole parts
+/// give their own digests.
 fn adopt(folder: &ScanFolder) -> Result<(), Error> {
     let parts = folder.parts();
     let whole = (0..folder.plan().parts()).filter(|&part| parts.check(part).is_ok());

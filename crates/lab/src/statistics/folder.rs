@@ -20,7 +20,8 @@ const PLAN: &str = "plan.json";
 /// Opens a folder of the statistics of so many bodies of a plan (`None`: of datasets), to write it or to go on with it.
 ///
 /// # Errors
-/// [`Error::OtherPlan`] where it holds those of another plan; [`Error::Store`] where it exists, is not ours, is used by others or cannot be
+/// [`Error::OtherPlan`] where it holds those of another plan; [`Error::Store`] where it exists, is not ours,
+/// is used by others or cannot be
 /// written.
 pub fn open(
     path: &Path,

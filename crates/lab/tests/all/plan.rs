@@ -7,8 +7,14 @@ use crate::common;
 
 use common::{column, preset, run};
 use motiform_store::table::same_bits;
+use motiform_study::atlas::AtlasSettings;
+use motiform_study::branches::{Along, BranchSettings};
+use motiform_study::curves::{CurveKind, CurveSettings, Plane};
+use motiform_study::scan::Axis;
 use motiform_study::study::ReturnMapSettings;
-use motiform_study::{RunPlan, Study};
+use motiform_study::{
+    AtlasPlan, BranchPlan, CurvePlan, Plan, Provenance, Question, RunPlan, ScanPlan, Study,
+};
 
 type Change = (&'static str, fn(&mut Study));
 
@@ -123,4 +129,41 @@ fn rows_do_not_move_the_orbit() {
     assert_eq!(coarse.manifest.state, fine.manifest.state);
     let every_other: Vec<f64> = column(&fine, "x").iter().copied().step_by(2).collect();
     assert_eq!(column(&coarse, "x"), every_other);
+}
+
+/// The manifest of a plan of any kind: it reads back, gives its folder, and neither a changed plan nor one of another kind passes.
+fn manifests<C: Question>(plan: &Plan<C>, folder: &str) {
+    assert_eq!(plan.default_folder(), folder);
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join(C::MANIFEST);
+    let provenance = Provenance::new(plan, Some(false));
+    let bytes = provenance.encode(place.path()).unwrap();
+    std::fs::write(&path, &bytes).unwrap();
+    assert_eq!(plan.check_folder(place.path()).unwrap(), provenance);
+    let text = String::from_utf8(bytes).unwrap();
+    assert!(text.contains(&format!("\n  \"{}\": {{", C::KEY)), "{text}");
+    let mut other = plan.clone();
+    other.name = "another".to_owned();
+    assert!(other.check_folder(place.path()).is_ok(), "the name is no part of the computation");
+    std::fs::write(&path, text.replacen("0.9", "0.8", 1)).unwrap();
+    let error = plan.check_folder(place.path()).unwrap_err().to_string();
+    assert!(error.contains("was changed: its plan does not give its hash"), "{error}");
+}
+
+#[test]
+fn plans_of_all_kinds_have_one_manifest() {
+    let mut study = preset("fig5a", |_| {});
+    manifests(&RunPlan::new(&study).unwrap(), "tensor-fig5a");
+    let along = Along::parse("kappa2=0.85:1").unwrap();
+    let branches = BranchPlan::new(&study, &BranchSettings::over(along)).unwrap();
+    manifests(&branches, "tensor-fig5a-branches");
+    let plane = Plane::parse("kappa2=0.5:1,kappa3=0.1:1").unwrap();
+    let settings = CurveSettings { kinds: CurveKind::ALL.to_vec(), plane };
+    manifests(&CurvePlan::new(&study, branches, &settings).unwrap(), "tensor-fig5a-curves");
+    study.scan.axes = vec![Axis::parse("kappa2=0.85:1:3").unwrap(), Axis::parse("kappa3=0.1:0.9:3").unwrap()];
+    manifests(&ScanPlan::new(&study).unwrap(), "tensor-fig5a-scan");
+    manifests(&AtlasPlan::new(&study, &AtlasSettings::default()).unwrap(), "tensor-fig5a-atlas");
+    study.name = "tensor".to_owned();
+    manifests(&ScanPlan::new(&study).unwrap(), "tensor-scan");
+    manifests(&RunPlan::new(&study).unwrap(), "tensor");
 }

@@ -13,8 +13,8 @@ use motiform_lab::draw::{phase_diagram, sheet};
 use motiform_lab::scan::Axis;
 use motiform_study::Error;
 
-/// The relaxation rate of the triangle above which there shall be nothing but circles and straight lines. The
-/// text gives no number; the measured table has other motions up to 0.4.
+/// The relaxation rate of the triangle above which only circular and straight motion are expected. The paper
+/// gives no number; other motions were found up to 0.4.
 const SLOW: f64 = 0.65;
 
 /// The row that the text names for chaos, and the `kappa2` below which its cells shall be chaotic or blow up: the paper's

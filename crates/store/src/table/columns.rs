@@ -1,4 +1,5 @@
-//! Columns: whole numbers, numbers (null where undefined), texts. As the bytes of one Parquet file and back, and as CSV.
+//! Columns: whole numbers, numbers (null where undefined), texts. As the bytes of one Parquet file and back,
+//! and as CSV.
 
 #[cfg(feature = "formats")]
 pub use super::parquet_columns::{decode, encode, metadata};

@@ -98,7 +98,8 @@ impl TableWriter {
         if self.table.rows() == 0 { Ok(()) } else { file.rows(&self.table, 0..self.table.rows(), &self.path) }
     }
 
-    /// Ends the file, with the manifest inside if the format supports it. Gives the whole table where it has one group at most.
+    /// Ends the file, with the manifest inside if the format supports it. Gives the whole table where it has
+    /// one group at most.
     ///
     /// # Errors
     /// [`Error::WriteFailed`].
@@ -128,7 +129,8 @@ pub fn write_table(
     file.finish(manifest, path)
 }
 
-/// Gives `take` the rows of a table, a group at a time; a table without rows is one empty group. An error of `take` ends it.
+/// Gives `take` the rows of a table, a group at a time; a table without rows is one empty group. An error of
+/// `take` ends it.
 ///
 /// # Errors
 /// [`Error::Unreadable`], and what `take` refuses.
@@ -139,7 +141,8 @@ pub fn read_groups<E: From<Error>>(
     read_columns(path, None, take)
 }
 
-/// As [`read_groups`], with these columns alone, in the order of the file; of Parquet no other one is read. `None`: all.
+/// As [`read_groups`], with these columns alone, in the order of the file; of Parquet no other one is read.
+/// `None`: all.
 ///
 /// # Errors
 /// As [`read_groups`]; [`Error::Unreadable`] for a column that is not there.
@@ -206,7 +209,8 @@ mod tests {
         serde_json::json!({ "motiform": "0", "seed": 1 })
     }
 
-    /// Row by row or at once: the same bytes, on both sides of everything that depends on the number of rows; and all of them are read.
+    /// Row by row or at once: the same bytes, on both sides of everything that depends on the number of rows;
+    /// and all of them are read.
     #[test]
     fn rows_that_come_one_by_one_give_the_same_file() {
         let folder = tempfile::tempdir().unwrap();

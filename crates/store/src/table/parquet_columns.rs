@@ -1,6 +1,6 @@
 //! Columns as the bytes of one Parquet file, and back.
 
-use crate::table::columns::{Column, Stored, Values};
+use crate::table::columns::{Column, Values};
 use crate::table::parquet_input::{Read, read, values, wrong};
 use crate::table::parquet_output;
 use parquet::data_type::ByteArray;
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// The file, with these entries in its metadata. The same columns give the same bytes.
-pub fn encode(columns: &[Column<impl Stored>], metadata: Vec<(&str, String)>) -> Result<Vec<u8>> {
+pub fn encode(columns: &[Column], metadata: Vec<(&str, String)>) -> Result<Vec<u8>> {
     // the manifest knows the version
     parquet_output::write(Vec::new(), columns, metadata, "motiform".to_owned())
 }

@@ -1,7 +1,9 @@
 //! Writing Parquet files: zstd, no dictionaries, so that the same columns give the same bytes.
 //!
-//! Numbers of a short table are stored as they are: preparing the compressor of a column costs more than writing a thousand numbers, and
-//! they hardly get shorter. (The parts of a scan have some 40 rows and 17 columns of numbers: compressors took a tenth of Fig. 1.)
+//! Numbers of a short table are stored as they are: preparing the compressor of a column costs more than
+//! writing a thousand numbers, and
+//! they hardly get shorter. (The parts of a scan have some 40 rows and 17 columns of numbers: compressors
+//! took a tenth of Fig. 1.)
 
 use crate::table::columns::{Column, Stored, View, rows};
 use crate::table::file::GROUP_ROWS;
@@ -19,7 +21,8 @@ use std::sync::Arc;
 /// Rows from which on numbers are compressed.
 const COMPRESSED_ROWS: usize = 1024;
 
-/// Writes columns of equal length with these entries in the metadata; meanings are a separate entry, `motiform.columns`.
+/// Writes columns of equal length with these entries in the metadata; meanings are a separate entry,
+/// `motiform.columns`.
 pub(crate) fn write<W: Write + Send>(
     out: W,
     columns: &[Column<impl Stored>],
@@ -124,7 +127,8 @@ fn put<W: Write + Send>(
     out.close()
 }
 
-/// 1 for each number, 0 for one that is not defined. A loop: this crate is built for size, where iterators are calls for every number.
+/// 1 for each number, 0 for one that is not defined. A loop: this crate is built for size, where iterators
+/// are calls for every number.
 fn levels(values: &[f64]) -> Vec<i16> {
     let mut levels = vec![1; values.len()];
     let mut row = 0;

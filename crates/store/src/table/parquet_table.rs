@@ -27,14 +27,16 @@ impl Writer {
         self.0.group(&table.columns, rows)
     }
 
-    /// Ends the file; `metadata` (a JSON text) is kept under the key `motiform`, column meanings under `motiform.columns`.
+    /// Ends the file; `metadata` (a JSON text) is kept under the key `motiform`, column meanings under
+    /// `motiform.columns`.
     pub(crate) fn finish(self, metadata: &str) -> Result<()> {
         self.0.finish(vec![("motiform", metadata.to_owned())])?.sync_all()?;
         Ok(())
     }
 }
 
-/// Gives `take` the groups of rows of a table, one after the other; without rows, one empty group. `take` ends it by an error.
+/// Gives `take` the groups of rows of a table, one after the other; without rows, one empty group. `take`
+/// ends it by an error.
 pub(crate) fn groups<E: From<Error>>(
     path: &Path,
     wanted: Option<&[String]>,

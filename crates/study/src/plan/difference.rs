@@ -1,27 +1,32 @@
 //! Differences between two plans, key by key.
 
-use super::Question;
 use serde_json::Value;
 
 /// Most differences in a line.
 const MOST: usize = 12;
 
-/// The differences in one line: `KEY: VALUE there, VALUE requested`, separated by semicolons; the first ones where there are many.
-pub(super) fn between<C: Question>(there: &C, requested: &C) -> String {
+/// A serialized computation, and the parts of it that are stated in words.
+type Side = (Value, Vec<(&'static str, String)>);
+
+/// The differences in one line: `KEY: VALUE there, VALUE requested`, separated by semicolons; the first ones
+/// where there are many.
+pub(super) fn between((mut there, words): Side, (mut requested, asked): Side) -> String {
     let mut found = Vec::new();
-    if there.format() != requested.format() {
+    let formats = [take(&mut there, "format"), take(&mut requested, "format")];
+    if formats[0] != formats[1] {
         found.push(format!(
             "it was computed by another version of motiform with other numbers: format {} there, {} here",
-            there.format(),
-            requested.format()
+            formats[0], formats[1]
         ));
     }
-    let stated = [there.stated(), requested.stated()];
-    let differ = stated[0].iter().zip(&stated[1]).filter(|(left, right)| left != right);
-    found.extend(differ.map(|((key, left), (_, right))| format!("{key}: {left} there, {right} requested")));
-    let said: Vec<&str> = stated[0].iter().map(|(key, _)| *key).chain(["format"]).collect();
-    let [left, right] = [there, requested].map(|side| without(side, &said));
-    compare("", &left, &right, &mut found);
+    for ((path, left), (_, right)) in words.iter().zip(&asked) {
+        take(&mut there, path);
+        take(&mut requested, path);
+        if left != right {
+            found.push(format!("{path}: {left} there, {right} requested"));
+        }
+    }
+    compare("", &there, &requested, &mut found);
     if found.len() > MOST {
         let more = format!("{} more", found.len() - MOST);
         found.truncate(MOST);
@@ -30,16 +35,12 @@ pub(super) fn between<C: Question>(there: &C, requested: &C) -> String {
     found.join("; ")
 }
 
-/// The serialized computation without the keys (paths with dots) that are said otherwise.
-fn without(computation: &impl Question, paths: &[&str]) -> Value {
-    let mut value = serde_json::to_value(computation).unwrap_or_default();
-    for path in paths {
-        let (parents, key) = path.rsplit_once('.').unwrap_or(("", path));
-        let mut parent = parents.split('.').filter(|part| !part.is_empty());
-        let parent = parent.try_fold(&mut value, |inside, part| inside.get_mut(part));
-        parent.and_then(Value::as_object_mut).map(|object| object.shift_remove(key));
-    }
-    value
+/// Takes the value at a path with dots out of an object; null where there is none.
+fn take(object: &mut Value, path: &str) -> Value {
+    let (parents, key) = path.rsplit_once('.').unwrap_or(("", path));
+    let mut parents = parents.split('.').filter(|part| !part.is_empty());
+    let parent = parents.try_fold(object, |inside, part| inside.get_mut(part));
+    parent.and_then(Value::as_object_mut).and_then(|parent| parent.shift_remove(key)).unwrap_or_default()
 }
 
 /// Appends the differences of two values with the path of their keys.
@@ -59,4 +60,35 @@ fn compare(key: &str, there: &Value, requested: &Value, found: &mut Vec<String>)
 
 fn shown(value: &Value) -> String {
     if value.is_null() { "none".to_owned() } else { value.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn each_key_is_told_with_both_values() {
+        let side = |value: Value, axes: &str| (value, vec![("scan.axes", axes.to_owned())]);
+        let there =
+            json!({ "format": 1, "scan": { "axes": [1, 2], "seed": 1 }, "noise": null, "t_end": 5.0 });
+        let asked = json!({ "format": 1, "scan": { "axes": [1, 3], "seed": 2 }, "t_end": 5.0, "lines": 4 });
+        let found = between(side(there.clone(), "a=1,2"), side(asked, "a=1,3"));
+        let keys = ["scan.axes: a=1,2 there, a=1,3 requested", "scan.seed: 1 there, 2 requested"];
+        assert_eq!(found, format!("{}; lines: none there, 4 requested", keys.join("; ")));
+        assert_eq!(between(side(there.clone(), "a"), side(there, "a")), "");
+    }
+
+    #[test]
+    fn formats_come_first_and_many_differences_are_counted() {
+        let numbers = |shift: usize| (0..20).map(|k| (format!("p{k}"), json!(k + shift))).collect();
+        let side = |format: u32, shift: usize| {
+            let mut object: serde_json::Map<String, Value> = numbers(shift);
+            object.insert("format".to_owned(), json!(format));
+            (Value::Object(object), Vec::new())
+        };
+        let found = between(side(1, 0), side(2, 1));
+        assert!(found.starts_with("it was computed by another version"), "{found}");
+        assert!(found.ends_with("p10: 10 there, 11 requested; 9 more"), "{found}");
+    }
 }

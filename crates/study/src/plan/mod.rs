@@ -1,4 +1,5 @@
-//! Plans: questions made explicit. A plan contains exactly the numbers that its result depends on, in one form for every kind of
+//! Plans: questions made explicit. A plan contains exactly the numbers that its result depends on, in one
+//! form for every kind of
 //! result: a name, a title, and the computation that its hash covers.
 
 mod difference;
@@ -19,6 +20,7 @@ use motiform_models::{ModelInfo, ModelName};
 use motiform_store::Kind;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use std::fmt::Debug;
 
 /// A question about a body whose answer is a set of numbers: everything that the numbers depend on.
@@ -32,8 +34,10 @@ pub trait Question: Clone + PartialEq + Debug + Serialize + DeserializeOwned {
     /// Key of the plan in that manifest.
     const KEY: &'static str;
 
-    /// Version of the meaning of its numbers.
-    fn format(&self) -> u32;
+    /// Its serialized form, which the hash is taken of. A function of each question, so that it is compiled
+    /// once and not wherever it is
+    /// used.
+    fn value(&self) -> Value;
 
     /// The model of the body.
     fn model(&self) -> &ModelName;
@@ -77,7 +81,7 @@ impl<C: Question> Plan<C> {
     /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
     #[must_use]
     pub fn hash(&self) -> String {
-        sha256_hex(&serde_json::to_vec(&self.computation).unwrap_or_default())
+        sha256_hex(self.computation.value().to_string().as_bytes())
     }
 
     /// The registry entry of its model.
@@ -88,30 +92,41 @@ impl<C: Question> Plan<C> {
         Ok(self.computation.model().info()?)
     }
 
+    /// The plan as an object, with the key `figure` where it carries settings of figures.
+    fn value(&self) -> Value {
+        let mut object =
+            json!({ "name": self.name, "title": self.title, "computation": self.computation.value() });
+        if !is_nothing(&self.figure) {
+            object["figure"] = serde_json::to_value(&self.figure).unwrap_or_default();
+        }
+        object
+    }
+
     /// Title of its figures: as typed, otherwise that of its question.
     #[must_use]
     pub fn title(&self) -> String {
         if self.title.is_empty() { self.computation.title(&self.name) } else { self.title.clone() }
     }
 
-    /// Folder of the result where none is given: `MODEL-NAME-KIND`, without the name where it is that of the model; of a run, without
+    /// Folder of the result where none is given: `MODEL-NAME-KIND`, without the name where it is that of the
+    /// model; of a run, without
     /// the kind.
     #[must_use]
     pub fn default_folder(&self) -> String {
         let model = self.computation.model().as_str();
-        let mut folder = model.to_owned();
-        for part in [self.name.as_str(), C::KIND.name()] {
-            if part != model && part != Kind::Dataset.name() {
-                folder = format!("{folder}-{part}");
-            }
-        }
-        folder
+        let name = Some(self.name.as_str()).filter(|name| *name != model);
+        let kind = Some(C::KIND.name()).filter(|_| C::KIND != Kind::Dataset);
+        [Some(model), name, kind].into_iter().flatten().collect::<Vec<_>>().join("-")
     }
 
-    /// Differences between the computation of this plan, which a folder holds, and that of a requested one: each key with both values.
+    /// Differences between the computation of this plan, which a folder holds, and that of a requested one:
+    /// each key with both values.
     /// Empty where they are the same.
     #[must_use]
     pub fn differences(&self, requested: &Self) -> String {
-        difference::between(&self.computation, &requested.computation)
+        difference::between(
+            (self.computation.value(), self.computation.stated()),
+            (requested.computation.value(), requested.computation.stated()),
+        )
     }
 }

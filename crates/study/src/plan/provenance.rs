@@ -3,8 +3,8 @@
 use super::{Plan, Question};
 use crate::{Error, input};
 use motiform_store::{Folder, Opening, VERSION, mend};
-use serde::ser::{SerializeMap, Serializer};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
+use serde_json::json;
 use std::path::Path;
 
 /// The manifest of a result that grows in its folder. It contains no host, user, time of day, threads or shards.
@@ -24,14 +24,12 @@ pub struct Provenance<C: Question> {
 
 impl<C: Question> Serialize for Provenance<C> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("motiform", &self.motiform)?;
-        map.serialize_entry("plan_hash", &self.plan_hash)?;
+        let mut object = json!({ "motiform": self.motiform, "plan_hash": self.plan_hash });
         if let Some(complete) = self.complete {
-            map.serialize_entry("complete", &complete)?;
+            object["complete"] = complete.into();
         }
-        map.serialize_entry(C::KEY, &self.plan)?;
-        map.end()
+        object[C::KEY] = self.plan.value();
+        object.serialize(serializer)
     }
 }
 
@@ -97,11 +95,13 @@ impl<C: Question> Plan<C> {
         })
     }
 
-    /// Opens the folder of this plan's result: a new one, which has its manifest from the beginning, or an earlier one of the same plan,
+    /// Opens the folder of this plan's result: a new one, which has its manifest from the beginning, or an
+    /// earlier one of the same plan,
     /// to go on with. Returns `true` beside an earlier one.
     ///
     /// # Errors
-    /// Those of [`Plan::check_folder`]; [`Error::Store`] where it exists, is not ours, is used by others or cannot be written.
+    /// Those of [`Plan::check_folder`]; [`Error::Store`] where it exists, is not ours, is used by others or
+    /// cannot be written.
     pub fn open(
         &self,
         path: &Path,

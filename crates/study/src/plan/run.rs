@@ -69,8 +69,8 @@ impl Question for Computation {
     const KIND: Kind = Kind::Dataset;
     const KEY: &'static str = "plan";
 
-    fn format(&self) -> u32 {
-        self.format
+    fn value(&self) -> serde_json::Value {
+        serde_json::to_value(self).unwrap_or_default()
     }
 
     fn model(&self) -> &ModelName {
@@ -83,7 +83,8 @@ impl Question for Computation {
 }
 
 impl RunPlan {
-    /// Rejects a trajectory that is too long to be held in memory; [`RunPlan::new`] takes those that are written as they are computed.
+    /// Rejects a trajectory that is too long to be held in memory; [`RunPlan::new`] takes those that are
+    /// written as they are computed.
     ///
     /// # Errors
     /// [`Error::Setting`].

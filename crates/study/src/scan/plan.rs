@@ -12,14 +12,16 @@ use motiform_models::{ModelInfo, ModelName, parameters};
 use motiform_store::Kind;
 use serde::{Deserialize, Serialize};
 
-/// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change (tests/all/scan/bits.rs notices), so that no
+/// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change
+/// (tests/all/scan/bits.rs notices), so that no
 /// folder ever contains rows of two programs that compute differently.
 pub const SCAN_FORMAT: u32 = 10;
 
 /// Maximum number of cells of a scan, and of initial states per cell.
 const MOST: (usize, u64) = (100_000_000, 100_000);
 
-/// Maximum number of cells and rows of a part: a kill loses little, and memory is bounded. About 256 parts if there are fewer cells.
+/// Maximum number of cells and rows of a part: a kill loses little, and memory is bounded. About 256 parts if
+/// there are fewer cells.
 const PART: (usize, usize, usize) = (160, 4096, 256);
 
 /// The plan of a scan.
@@ -45,7 +47,8 @@ pub struct ScanComputation {
     pub seed: u64,
     /// The distribution of the random starts.
     pub random: Random,
-    /// The start of sample 0 if given (values not named are 0); empty if that one is random too. Where an axis is a coordinate, sample 0 is never
+    /// The start of sample 0 if given (values not named are 0); empty if that one is random too. Where an
+    /// axis is a coordinate, sample 0 is never
     /// random.
     pub initial: Named,
     /// Stepper.
@@ -63,12 +66,13 @@ pub struct ScanComputation {
 impl Question for ScanComputation {
     type Figure = ();
     const KIND: Kind = Kind::Scan;
-    /// Readers of folders of Parquet files (pandas, pyarrow, polars) skip names that begin with `_`: they open the folder as one table.
+    /// Readers of folders of Parquet files (pandas, pyarrow, polars) skip names that begin with `_`: they
+    /// open the folder as one table.
     const MANIFEST: &'static str = "_manifest.json";
     const KEY: &'static str = "plan";
 
-    fn format(&self) -> u32 {
-        self.format
+    fn value(&self) -> serde_json::Value {
+        serde_json::to_value(self).unwrap_or_default()
     }
 
     fn model(&self) -> &ModelName {
@@ -92,7 +96,8 @@ impl ScanComputation {
 }
 
 impl ScanPlan {
-    /// Resolves the scan of a study and checks every number. A given start is perturbed ([`Study::perturbed`]); a coordinate on an axis counts as
+    /// Resolves the scan of a study and checks every number. A given start is perturbed
+    /// ([`Study::perturbed`]); a coordinate on an axis counts as
     /// given, with its largest value.
     ///
     /// # Errors
@@ -137,7 +142,8 @@ impl ScanPlan {
         Ok(plan)
     }
 
-    /// The small values that a scan of this study gives to coordinates that its start leaves at zero ([`Study::perturbed`]).
+    /// The small values that a scan of this study gives to coordinates that its start leaves at zero
+    /// ([`Study::perturbed`]).
     ///
     /// # Errors
     /// As [`ScanPlan::new`].
