@@ -225,6 +225,8 @@ pub(crate) struct ReproduceOptions {
     /// Number of threads (default: all cores); does not affect the results
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
     pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) style: StyleOptions,
     /// Print the claims as one JSON object
     #[arg(long)]
     pub(crate) json: bool,

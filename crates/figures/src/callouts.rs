@@ -8,7 +8,7 @@ use super::svg::{Anchor, Svg};
 use super::text::Label;
 
 /// Size of the letters, in pixels.
-const SIZE: f64 = 11.5;
+const SIZE: f64 = 12.0;
 /// Half of the side of the square that a point takes, in pixels.
 pub(crate) const POINT: f64 = 6.0;
 /// Distances of a label from its point, in pixels: the words lie at the first ones alone.

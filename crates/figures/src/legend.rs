@@ -4,7 +4,7 @@ use super::geometry::{Point, Rect};
 use super::glyph::Glyph;
 use super::marks::RegimeMark;
 use super::paint::Paint;
-use super::palette::{BLACK, Colour, GREY, WHITE};
+use super::palette::{BLACK, Colour, GREY, INK, WHITE};
 use super::stripes::{draw_bands, draw_hatch};
 use super::svg::{Anchor, Svg};
 use super::text::Label;
@@ -29,6 +29,8 @@ pub(crate) enum Mark {
     Arrow(Paint, Colour),
     /// A filled closed curve.
     Outline(Paint),
+    /// A tinted region within its edge, both on a white ground as over cells.
+    Region,
     /// A disc of a radius in pixels.
     Dot(Paint, f64),
     /// The mark of the first point.
@@ -166,11 +168,12 @@ fn draw_mark(svg: &mut Svg, mark: Mark, [x, y]: Point) {
             draw_arrow(svg, [x + 5.0, y], [1.0, 0.0], colour);
         }
         Mark::Outline(paint) => {
-            let point = |i: u32| {
-                let (s, c) = (f64::from(i) * std::f64::consts::TAU / 24.0).sin_cos();
-                [x + 0.42 * MARK * c, y + 0.26 * MARK * s]
-            };
-            svg.polyline(&(0..24).map(point).collect::<Vec<_>>(), true, &paint);
+            svg.polyline(&ellipse([x, y], [0.42 * MARK, 0.26 * MARK]), true, &paint);
+        }
+        Mark::Region => {
+            let rim = ellipse([x, y], [0.46 * MARK, 0.31 * MARK]);
+            draw_region(svg, &rim);
+            draw_edge(svg, &rim);
         }
         Mark::Dot(paint, radius) => svg.circle([x, y], radius, &paint),
         Mark::Start => draw_start(svg, [x, y]),
@@ -201,6 +204,29 @@ fn draw_mark(svg: &mut Svg, mark: Mark, [x, y]: Point) {
         }
     }
 }
+
+/// An ellipse of 24 points, the first at its right end and again at the end.
+fn ellipse([x, y]: Point, [a, b]: [f64; 2]) -> Vec<Point> {
+    let point = |i: u32| {
+        let (s, c) = (f64::from(i) * std::f64::consts::TAU / 24.0).sin_cos();
+        [x + a * c, y + b * s]
+    };
+    (0..=24).map(point).collect()
+}
+
+/// The ground of a region of confidence.
+pub(crate) fn draw_region(svg: &mut Svg, outline: &[Point]) {
+    svg.polyline(outline, true, &Paint::fill(WHITE).opacity(REGION));
+}
+
+/// A piece of the edge of a region of confidence.
+pub(crate) fn draw_edge(svg: &mut Svg, piece: &[Point]) {
+    svg.polyline(piece, false, &Paint::stroke(WHITE, 3.6).opacity(0.85));
+    svg.polyline(piece, false, &Paint::stroke(INK, 1.4).dashed("2.5 2"));
+}
+
+/// Opacity of the white ground of a region: the cells beneath stay in sight.
+const REGION: f64 = 0.45;
 
 /// Opacity of the band about a curve.
 pub(crate) const BAND: f64 = 0.22;

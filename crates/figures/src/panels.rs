@@ -41,6 +41,8 @@ fn letter(number: usize) -> String {
 /// sheet.
 struct Drawn {
     panels: Vec<(Rect, [f64; 2])>,
+    /// Least heights of the frames, where these were asked to be lower: their labels need it.
+    floors: Vec<f64>,
     columns: usize,
 }
 
@@ -72,12 +74,14 @@ impl Drawn {
         self.row(of).iter().map(|(frame, size)| top - frame.y + size[1]).fold(0.0, f64::max)
     }
 
-    /// Height of the frames of a row: that of the highest, but beside others none is higher than wide.
+    /// Height of the frames of a row: that of the highest, but beside others none is higher than wide, unless one must be.
     fn frame(&self, of: usize) -> f64 {
         let row = self.row(of);
         let highest = row.iter().map(|panel| panel.0.h).fold(0.0, f64::max);
         let widest = row.iter().map(|panel| panel.0.w).fold(0.0, f64::max);
-        if row.len() > 1 { highest.min(widest) } else { highest }
+        let first = of - of % self.columns;
+        let floor = self.floors[first..first + row.len()].iter().copied().fold(0.0, f64::max);
+        if row.len() > 1 { highest.min(widest).max(floor) } else { highest }
     }
 
     /// The rooms in which frames are aligned, below `top`, the places of the letters, and where the last row ends.
@@ -128,10 +132,18 @@ impl Figure for Panels {
         let mut rooms: Vec<Room> =
             (0..self.figures.len()).map(|of| Room::panel(of, wide, None, [0.0; 2])).collect();
         let (mut letters, mut bottom) = (Vec::new(), 0.0);
+        let mut floors = vec![0.0; self.figures.len()];
         // frames of other heights may have other labels, and these other margins
         for _ in 0..ROUNDS {
-            let panels = self.draw(&rooms)?.iter().map(|sheet| (sheet.framed(), sheet.size())).collect();
-            (rooms, letters, bottom) = Drawn { panels, columns: self.columns }.rooms(wide, title.height());
+            let panels: Vec<(Rect, [f64; 2])> =
+                self.draw(&rooms)?.iter().map(|sheet| (sheet.framed(), sheet.size())).collect();
+            for ((floor, room), (frame, _)) in floors.iter_mut().zip(&rooms).zip(&panels) {
+                if room.height().is_some_and(|asked| frame.h > asked + 0.01) {
+                    *floor = frame.h;
+                }
+            }
+            let drawn = Drawn { panels, floors: floors.clone(), columns: self.columns };
+            (rooms, letters, bottom) = drawn.rooms(wide, title.height());
         }
         let foot = if self.caption.is_empty() { 0.0 } else { caption.height() + MARGIN };
         let mut whole = Svg::in_room(room, all.ceil(), (bottom + foot).ceil());

@@ -8,8 +8,7 @@ use super::figure::{Csv, figure};
 use super::framed::Framed;
 use super::geometry::{Point, Range, Rect};
 use super::glyph::Glyph;
-use super::legend::{Entry, Mark};
-use super::line_style::LineStyle;
+use super::legend::{Entry, Mark, draw_edge, draw_region};
 use super::paint::Paint;
 use super::palette::{BLACK, INK, WHITE};
 use super::phase_diagram::PhaseDiagram;
@@ -110,7 +109,7 @@ impl PlaceMap {
         entries.extend(self.under.line_entries());
         entries.push(Entry::new(Mark::Point(Glyph::Diamond, BLACK, false), "the cell"));
         if self.places.iter().any(|place| !place.region.is_empty()) {
-            entries.push(Entry::new(Mark::Line(LineStyle::Solid.paint()), &self.region_label));
+            entries.push(Entry::new(Mark::Region, &self.region_label));
         }
         if self.places.iter().any(|place| !place.cloud.is_empty()) {
             entries.push(Entry::new(Mark::Dot(dot(), 1.8), &self.cloud_label));
@@ -138,15 +137,13 @@ fn dot() -> Paint {
 
 impl MapPlace {
     fn draw(&self, svg: &mut Svg, scale: &Scale) {
-        svg.clipped(scale.frame, |svg| {
-            self.cloud.iter().for_each(|at| svg.circle(scale.map(*at), 1.8, &dot()));
-        });
         let mut closed: Vec<Point> = self.region.iter().map(|at| scale.map(*at)).collect();
         closed.extend(closed.first().copied());
-        for piece in clip(&closed, scale.frame) {
-            svg.polyline(&piece, false, &Paint::stroke(WHITE, 3.6).opacity(0.85));
-            svg.polyline(&piece, false, &LineStyle::Solid.paint());
-        }
+        svg.clipped(scale.frame, |svg| {
+            draw_region(svg, &closed);
+            self.cloud.iter().for_each(|at| svg.circle(scale.map(*at), 1.8, &dot()));
+        });
+        clip(&closed, scale.frame).iter().for_each(|piece| draw_edge(svg, piece));
         let at = scale.map(self.at);
         svg.circle(at, 6.5, &Paint::fill(WHITE).opacity(0.9));
         Glyph::Diamond.draw(svg, at, 4.6, BLACK);

@@ -25,7 +25,8 @@ pub struct Style {
     pub title: Option<String>,
     /// Leaves the caption out.
     pub no_caption: bool,
-    /// Width of the sheet. On paper it is laid out for this width, with text of 8 pt and lines of at least .5 pt; in pixels it is scaled.
+    /// Width of the sheet. On paper it is laid out for this width, with text of 8.5 pt and more, indices of 7 pt
+    /// and more, and lines of at least .5 pt; in pixels it is scaled.
     pub width: Option<Width>,
 }
 
@@ -40,8 +41,8 @@ pub enum Width {
     Slide,
 }
 
-/// Units of a drawing per point on paper: its text of 12 units has 8 pt.
-pub(crate) const PER_POINT: f64 = 1.5;
+/// Units of a drawing per point on paper: its text of 12 units has 8.6 pt, indices in it 7 pt.
+pub(crate) const PER_POINT: f64 = 1.4;
 
 /// Width of a column of a journal in millimetres.
 const COLUMN: f64 = 86.0;

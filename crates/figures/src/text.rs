@@ -17,17 +17,17 @@ pub(crate) enum Script {
 }
 
 impl Script {
-    /// Font size relative to the line's.
+    /// Font size relative to the line's: on paper no index is smaller than 7 pt.
     pub(crate) fn scale(self) -> f64 {
-        if self == Self::Base { 1.0 } else { 0.72 }
+        if self == Self::Base { 1.0 } else { 0.82 }
     }
 
     /// Baseline, in font sizes below the line's.
     pub(crate) fn drop(self) -> f64 {
         match self {
             Self::Base => 0.0,
-            Self::Sub => 0.2,
-            Self::Super => -0.36,
+            Self::Sub => 0.22,
+            Self::Super => -0.42,
         }
     }
 }

@@ -16,6 +16,8 @@ const MARGIN: f64 = 14.0;
 const SIDE: f64 = 300.0;
 const WIDTH: f64 = 920.0;
 const GAP: f64 = 14.0;
+/// Narrowest panel; it is also as wide as its name.
+const LEAST: f64 = 60.0;
 /// Height of a panel's name.
 const HEAD: f64 = 20.0;
 const WORDS: f64 = 12.5;
@@ -44,7 +46,7 @@ pub struct TrackPanels {
     pub caption: Vec<String>,
     /// Unit of length beside the scale bar (markup).
     pub unit: String,
-    /// Most panels in a row; fewer where they are wide.
+    /// Most panels in a row; fewer where they are wide, or the sheet is narrow.
     pub columns: usize,
     /// The panels, from left to right and row by row.
     pub panels: Vec<TrackPanel>,
@@ -60,8 +62,8 @@ impl TrackPanels {
         let boxes = boxes.filter(|boxes| !boxes.is_empty()).ok_or(FigureError::Empty { what: "track" })?;
         let widest = |side: usize| boxes.iter().map(|ranges| ranges[side].span()).fold(0.0, f64::max);
         let size = [widest(0), widest(1)].map(|span| span.max(1e-100));
-        let columns = self.columns(size);
         let all = room.width().map_or(WIDTH, |width| width - 2.0 * MARGIN);
+        let columns = self.columns(size, all);
         let wide = ((all + GAP) / columns as f64 - GAP).min((size[0] / size[1]).max(1.0) * SIDE);
         let pixels = (wide / size[0]).min(SIDE / size[1]) / 1.12;
         let (w, h) = (wide, (1.12 * size[1] * pixels).max(40.0));
@@ -87,8 +89,9 @@ impl TrackPanels {
         Ok(svg)
     }
 
-    /// Panels beside one another: half as many where they are wide, one where they are very wide.
-    fn columns(&self, [w, h]: [f64; 2]) -> usize {
+    /// Panels beside one another: half as many where they are wide, one where they are very wide; and no more than there is room for
+    /// between the margins. Rows are as full as possible.
+    fn columns(&self, [w, h]: [f64; 2], all: f64) -> usize {
         let shape = if w > 2.5 * h {
             4
         } else if w > 1.2 * h {
@@ -96,7 +99,11 @@ impl TrackPanels {
         } else {
             1
         };
-        self.panels.len().clamp(1, (self.columns / shape).max(1))
+        let most = self.panels.len().clamp(1, (self.columns / shape).max(1));
+        let name = self.panels.iter().map(|panel| Label::parse(&panel.name).width(WORDS));
+        let least = name.fold(LEAST, f64::max);
+        let columns = most.min((((all + GAP) / (least + GAP)) as usize).max(1));
+        self.panels.len().div_ceil(self.panels.len().div_ceil(columns))
     }
 
     /// A bar of a round length, at most half of a panel, and the colours of time.

@@ -16,7 +16,7 @@ pub mod long;
 pub mod naming;
 pub mod noisy;
 pub mod pool;
-mod readings;
+pub mod readings;
 pub mod recorder;
 pub mod registry;
 pub mod saddle;

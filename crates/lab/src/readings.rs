@@ -3,8 +3,10 @@
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
 use motiform_dynamics::{Model, Trajectory};
 use motiform_store::table::Table;
+use motiform_study::Dimension;
 use motiform_study::plan::{Computation, Named};
 use motiform_study::study::ReturnMapSettings;
+use motiform_study::units::{LENGTH, RATE, SPEED, TIME};
 
 /// The trajectory as a table, with derived quantities.
 pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, c: &Computation) -> Table {
@@ -31,6 +33,23 @@ pub(crate) fn columns(model: &dyn Model) -> Table {
     model.observables().iter().for_each(|observable| push(observable.name, observable.meaning));
     model.measures().iter().for_each(|measure| push(measure.name, measure.meaning));
     table
+}
+
+/// The dimension of a column of a trajectory; none of other names. A shape is a deviation of the outline and has that of its size.
+#[must_use]
+pub fn dimension(model: &dyn Model, column: &str) -> Dimension {
+    let seen = model.observables().iter().chain(model.measures()).find(|known| known.name == column);
+    let place = model.coordinates().iter().position(|known| known.name == column);
+    match (column, place, seen) {
+        ("t", ..) => TIME,
+        ("x" | "y", ..) => LENGTH,
+        ("speed", ..) => SPEED,
+        ("turning_rate", ..) => RATE,
+        (_, Some(place), _) if place < model.velocities() => SPEED,
+        (_, Some(_), _) => [model.observables().iter().map(|size| size.length).max().unwrap_or(0), 0],
+        (_, None, Some(seen)) => [seen.length, 0],
+        (_, None, None) => [0, 0],
+    }
 }
 
 /// Turns states into rows.

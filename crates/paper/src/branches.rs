@@ -7,7 +7,6 @@ use motiform_continuation::Special;
 use motiform_diagrams::draw::{Ordinate, branch_diagram};
 use motiform_diagrams::{Branches, Followed, Sample, SpecialEntry, stretches};
 use motiform_figures::report::{Claim, ReportFigure, Section};
-use motiform_lab::draw::sheet;
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
 use motiform_study::{Error, Study};
 use std::sync::Arc;
@@ -82,7 +81,8 @@ pub(crate) fn add(
         (Ordinate::Speed, "The same branches with those that are steady: mean speed."),
     ];
     for (ordinate, caption) in words {
-        section.figures.push(ReportFigure::new(sheet(&branch_diagram(plan, found, ordinate)?)?, caption));
+        let drawn = context.sheet(branch_diagram(plan, found, ordinate)?)?;
+        section.figures.push(ReportFigure::new(drawn, caption));
     }
     let own = |of: fn(&Context<'_>, &Branches) -> Claim| of(context, found);
     section.claims.extend([own(ends), own(kinds), own(known), bistable(context, found)?]);

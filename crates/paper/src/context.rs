@@ -6,7 +6,9 @@ use motiform_analysis::{Estimate, Lyapunov, Verdict};
 use motiform_dynamics::Watch;
 use motiform_dynamics::{Outcome, StopOnly};
 use motiform_figures::report::{Claim, ReportFigure, Verdict as Judged};
+use motiform_figures::{Drawn, Figure, Style};
 use motiform_lab::analyse;
+use motiform_lab::draw::sheet_in;
 use motiform_lab::pool;
 use motiform_lab::saddle::{Saddle, saddle};
 use motiform_lab::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
@@ -23,6 +25,8 @@ pub(crate) struct Context<'c> {
     pub quick: bool,
     /// Threads of scans; changes no number.
     pub threads: usize,
+    /// How figures are drawn.
+    pub style: &'c Style,
     /// Progress, and whether to stop.
     pub watch: &'c dyn Watch,
     /// The results that are computed once for all chapters.
@@ -149,6 +153,11 @@ impl Context<'_> {
         if self.fault.is_some() { Ok(Vec::new()) } else { draw() }
     }
 
+    /// A figure in the style that is asked for, with its data.
+    pub(crate) fn sheet(&self, figure: impl Figure) -> Result<Drawn, Error> {
+        sheet_in(figure, self.style)
+    }
+
     /// The claim, which rests on so many places or runs: with too few it is not judged, unless it fails.
     pub(crate) fn resting_on(&self, count: usize, what: &str, claim: Claim) -> Claim {
         if count >= ENOUGH || self.fault.is_some() || matches!(claim.verdict, Judged::Fails { .. }) {
@@ -231,8 +240,15 @@ mod tests {
     #[test]
     fn too_few_places_allow_no_judgement_but_a_failure_stays_one() {
         let kept = Kept::default();
-        let mut context =
-            Context { out: Path::new("."), quick: true, threads: 1, watch: &(), kept: &kept, fault: None };
+        let mut context = Context {
+            out: Path::new("."),
+            quick: true,
+            threads: 1,
+            style: &Style::default(),
+            watch: &(),
+            kept: &kept,
+            fault: None,
+        };
         let one = |holds| claim(&[1], "it moves", "it does", "by looking", holds);
         let verdict =
             |context: &Context<'_>, count, holds| context.resting_on(count, "lengths", one(holds)).verdict;

@@ -9,7 +9,6 @@ use motiform_analysis::Verdict;
 use motiform_diagrams::draw::{Ordinate, branch_diagram};
 use motiform_diagrams::{follow, summary};
 use motiform_figures::report::{Claim, ReportFigure, Section};
-use motiform_lab::draw::sheet;
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
 use motiform_study::{Error, Study};
 
@@ -80,7 +79,7 @@ fn onset(context: &Context<'_>) -> Result<(Vec<Claim>, ReportFigure), Error> {
     let finds = format!("{} at *γ*_c − 0.01, {} at *γ*_c + 0.01", regimes[0], regimes[1]);
     let regimes =
         check(says, finds, "the classifier, from a small random start", regimes == ["straight", "circular"]);
-    let drawn = sheet(&branch_diagram(&plan, &found, Ordinate::Speed)?)?;
+    let drawn = context.sheet(branch_diagram(&plan, &found, Ordinate::Speed)?)?;
     let words = "Mean speed along *γ*: straight motion, and the circular motion that leaves it at *γ*_c = 0.75. Dashed: unstable.";
     Ok((vec![pitchfork, regimes], ReportFigure::new(drawn, words)))
 }

@@ -10,7 +10,7 @@ use super::context::Context;
 use crate::lines::Continued;
 use grid::{Grid, found_line};
 use motiform_figures::report::{Claim, ReportFigure, Section};
-use motiform_lab::draw::{boundary_lines, phase_diagram, sheet};
+use motiform_lab::draw::{boundary_lines, phase_diagram};
 use motiform_lab::scan::Axis;
 use motiform_models::tensor::reduced::{Line, Motion, Reduced};
 use motiform_study::Error;
@@ -51,8 +51,9 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         about: ABOUT.to_owned(),
         parameters: parameters(&plan),
         figures: context.drawn(&|| {
-            let diagram = ReportFigure::new(sheet(&phase_diagram(&plan, &cells)?)?, caption).of_paper("1");
-            Ok(vec![diagram, continued.figure(&boundary_lines(&plan))?])
+            let diagram = context.sheet(phase_diagram(&plan, &cells)?)?;
+            let diagram = ReportFigure::new(diagram, caption).of_paper("1");
+            Ok(vec![diagram, continued.figure(context, &boundary_lines(&plan))?])
         })?,
         claims,
         ..Section::default()

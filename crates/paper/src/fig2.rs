@@ -40,8 +40,8 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let (shown, long, other) = (run(1e-12, 1500.0)?, run(1e-12, 5000.0)?, run(1e-11, 5000.0)?);
     let noise = noisy::measure(context)?;
     let figures = context.drawn(&|| {
-        let mut figures = drawn(&shown)?;
-        figures.push(noise.figure()?);
+        let mut figures = drawn(context, &shown)?;
+        figures.push(noise.figure(context)?);
         Ok(figures)
     })?;
     let mut claims =
@@ -65,7 +65,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     })
 }
 
-fn drawn(dataset: &Dataset) -> Result<Vec<ReportFigure>, Error> {
+fn drawn(context: &Context<'_>, dataset: &Dataset) -> Result<Vec<ReportFigure>, Error> {
     let words = |name: &str| match name {
         "path" => Some(
             "The path: legs at right angles, and a rest at each corner, where the ellipse turns into its mirror image.",
@@ -79,7 +79,7 @@ fn drawn(dataset: &Dataset) -> Result<Vec<ReportFigure>, Error> {
         let figure = ReportFigure::new(drawn, words(name)?);
         Some(if name == "path" { figure.of_paper("2") } else { figure })
     };
-    Ok(draw::drawn(dataset)?.into_iter().filter_map(figure).collect())
+    Ok(draw::drawn(dataset, context.style)?.into_iter().filter_map(figure).collect())
 }
 
 fn regime(context: &Context<'_>) -> Result<Claim, Error> {

@@ -10,7 +10,6 @@ use motiform_analysis::{correlation_dimension, return_pairs};
 use motiform_figures::report::{Claim, ReportFigure, Section};
 use motiform_figures::{Chart, ErrorBarSeries, Measured};
 use motiform_lab::draw;
-use motiform_lab::draw::sheet;
 use motiform_study::study::ReturnMapSettings;
 use motiform_study::{Dataset, Error, Study};
 use std::f64::consts::TAU;
@@ -60,7 +59,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         title: "Fig. 3: quasi-periodic motion".to_owned(),
         about: ABOUT.to_owned(),
         parameters: parameters.map(|(name, value)| (name.to_owned(), value)).to_vec(),
-        figures: context.drawn(&|| drawn(&dataset, &radial))?,
+        figures: context.drawn(&|| drawn(context, &dataset, &radial))?,
         claims,
         ..Section::default()
     })
@@ -72,19 +71,19 @@ fn through_the_centre(study: &Study) -> Study {
     Study { return_map: Some(half_line), ..study.clone() }
 }
 
-fn drawn(dataset: &Dataset, radial: &Dataset) -> Result<Vec<ReportFigure>, Error> {
+fn drawn(context: &Context<'_>, dataset: &Dataset, radial: &Dataset) -> Result<Vec<ReportFigure>, Error> {
     let mut figures = Vec::new();
-    for (name, drawn) in draw::drawn(dataset)? {
+    for (name, drawn) in draw::drawn(dataset, context.style)? {
         match name {
             "path" => {
                 let words = "The beginning of the path: a rosette.";
                 figures.push(ReportFigure::new(drawn, words).of_paper("3(a)"));
             }
-            "return-map" => figures.push(by_direction(dataset)?.of_paper("3(b)")),
+            "return-map" => figures.push(by_direction(context, dataset)?.of_paper("3(b)")),
             _ => {}
         }
     }
-    let map = draw::drawn(radial)?.into_iter().find(|(name, _)| *name == "return-map");
+    let map = draw::drawn(radial, context.style)?.into_iter().find(|(name, _)| *name == "return-map");
     figures.extend(map.map(|(_, drawn)| {
         ReportFigure::new(
             drawn,
@@ -96,7 +95,7 @@ fn drawn(dataset: &Dataset, radial: &Dataset) -> Result<Vec<ReportFigure>, Error
 }
 
 /// The return map on the paper's line, for each direction of crossing.
-fn by_direction(dataset: &Dataset) -> Result<ReportFigure, Error> {
+fn by_direction(context: &Context<'_>, dataset: &Dataset) -> Result<ReportFigure, Error> {
     let series = |(label, rising): (&str, bool)| ErrorBarSeries {
         label: label.to_owned(),
         points: map(dataset, rising).into_iter().map(|[x, y]| Measured { x, y, error: 0.0 }).collect(),
@@ -112,7 +111,7 @@ fn by_direction(dataset: &Dataset) -> Result<ReportFigure, Error> {
     let words = "The return map of *x* on the paper's line -3 < *x* < 3, *y* = 3, from one crossing to the \
         next one in the same direction. It consists of open arcs: an arc ends where the path only touches \
         the line, or where the next turn stays below it.";
-    Ok(ReportFigure::new(sheet(&figure)?, words))
+    Ok(ReportFigure::new(context.sheet(figure)?, words))
 }
 
 /// Smallest and largest distance from the centre of the path.

@@ -51,7 +51,7 @@ pub(super) fn drawings(
     wanted: &[(&str, &str)],
 ) -> Result<Vec<ReportFigure>, Error> {
     context.drawn(&|| {
-        let mut figures = draw_all(dataset, wanted)?;
+        let mut figures = draw_all(context, dataset, wanted)?;
         let path = wanted.iter().position(|(known, _)| *known == "path");
         if let Some(figure) = path.and_then(|place| figures.get_mut(place)) {
             figure.of_paper = Some(name.to_owned());
@@ -60,8 +60,12 @@ pub(super) fn drawings(
     })
 }
 
-fn draw_all(dataset: &Dataset, wanted: &[(&str, &str)]) -> Result<Vec<ReportFigure>, Error> {
-    let mut drawn = draw::drawn(dataset)?;
+fn draw_all(
+    context: &Context<'_>,
+    dataset: &Dataset,
+    wanted: &[(&str, &str)],
+) -> Result<Vec<ReportFigure>, Error> {
+    let mut drawn = draw::drawn(dataset, context.style)?;
     let mut figures = Vec::new();
     for &(name, caption) in wanted {
         if name == "motion" {

@@ -30,6 +30,7 @@ use context::{Context, Progress, Share};
 pub use fault::Fault;
 pub use kept::Kept;
 use motiform_dynamics::Watch;
+use motiform_figures::Style;
 use motiform_figures::report::{Claim, Counts, Report, Section};
 use motiform_lab::pool;
 use motiform_store::Journal;
@@ -47,6 +48,8 @@ pub struct Options {
     pub quick: bool,
     /// Threads of the scans; changes no number.
     pub threads: usize,
+    /// Title, caption and width of the figures. Finished chapters with figures in another style are rebuilt, from the scans that are there.
+    pub style: Style,
 }
 
 impl Options {
@@ -136,7 +139,7 @@ pub fn reproduce_kept(
     let paper = CHAPTERS.iter().filter(|chapter| options.figures.is_empty() || named(chapter));
     let chapters: Vec<&Chapter> = paper.chain(FURTHER.iter().filter(named)).collect();
     let progress = Progress::new(watch, &chapters.iter().map(|chapter| chapter.work).collect::<Vec<_>>());
-    let pages = Pages::new(&chapters, keeping);
+    let pages = Pages::new(&chapters, keeping, options.style.no_caption);
     // Much of a chapter is one long run after the other: chapters side by side keep all cores busy.
     let rebuild = |&(index, chapter): &(usize, &Chapter)| {
         let share = Share { progress: &progress, index };
@@ -144,18 +147,19 @@ pub fn reproduce_kept(
             out,
             quick: options.quick,
             threads: options.threads,
+            style: &options.style,
             watch: &share,
             kept: keeping.kept,
             fault: None,
         };
-        let section = match journal::read(keeping.journal, chapter.name, options.quick) {
+        let section = match journal::read(keeping.journal, chapter.name, options) {
             Some(section) => section,
             None => {
                 let mut section = (chapter.rebuild)(&context)?;
                 section.number = number_of(chapter.name);
                 // the paper's own figures first
                 section.figures.sort_by_key(|figure| figure.of_paper.is_none());
-                journal::write(keeping.journal, chapter.name, options.quick, &section)?;
+                journal::write(keeping.journal, chapter.name, options, &section)?;
                 section
             }
         };
@@ -165,7 +169,7 @@ pub fn reproduce_kept(
     };
     let numbered: Vec<(usize, &Chapter)> = chapters.iter().copied().enumerate().collect();
     pool::each(&numbered, options.threads, watch, rebuild)?;
-    Ok(report(pages.sections()))
+    Ok(report(pages.sections(), options.style.no_caption))
 }
 
 /// The claims of a chapter, with a fault in what they are judged by: what is computed is kept, so that many faults cost little. There
@@ -181,16 +185,18 @@ pub fn claims_under(
 ) -> Result<Vec<Claim>, Error> {
     let found = CHAPTERS.iter().chain(FURTHER).find(|known| known.name == chapter);
     let found = found.ok_or_else(|| Error::UnknownFigure { name: chapter.to_owned(), known: names() })?;
-    let context = Context { out, quick: true, threads, watch: &(), kept, fault: Some(fault) };
+    let style = &Style::default();
+    let context = Context { out, quick: true, threads, style, watch: &(), kept, fault: Some(fault) };
     Ok((found.rebuild)(&context)?.claims)
 }
 
 /// The report of these sections.
-fn report(sections: Vec<Section>) -> Report {
+fn report(sections: Vec<Section>, without_captions: bool) -> Report {
     Report {
         title: "Dynamics of a deformable self-propelled domain, rebuilt".to_owned(),
         about: claims::ABOUT.to_owned(),
         sections,
+        without_captions,
         sentences: sentences::sentences(),
         ..Report::default()
     }
@@ -199,12 +205,13 @@ fn report(sections: Vec<Section>) -> Report {
 /// The sections so far.
 struct Pages<'k> {
     sections: Mutex<Vec<Section>>,
+    without_captions: bool,
     keeping: Keeping<'k>,
 }
 
 impl<'k> Pages<'k> {
     /// Sections that say that they are missing.
-    fn new(chapters: &[&Chapter], keeping: Keeping<'k>) -> Self {
+    fn new(chapters: &[&Chapter], keeping: Keeping<'k>, without_captions: bool) -> Self {
         let missing = |chapter: &&Chapter| {
             Section {
             number: number_of(chapter.name),
@@ -215,14 +222,14 @@ impl<'k> Pages<'k> {
             ..Section::default()
         }
         };
-        Self { sections: Mutex::new(chapters.iter().map(missing).collect()), keeping }
+        Self { sections: Mutex::new(chapters.iter().map(missing).collect()), without_captions, keeping }
     }
 
     /// Takes the section of a chapter, and gives the report to the page.
     fn turn(&self, index: usize, section: Section) -> Result<(), Error> {
         let mut sections = self.sections.lock().unwrap_or_else(PoisonError::into_inner);
         sections[index] = section;
-        (self.keeping.page)(&report(sections.clone())) // one page after the other
+        (self.keeping.page)(&report(sections.clone(), self.without_captions)) // one page after the other
     }
 
     fn sections(self) -> Vec<Section> {

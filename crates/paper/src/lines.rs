@@ -9,7 +9,6 @@ use motiform_continuation::{
 };
 use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Measured};
-use motiform_lab::draw::sheet;
 use motiform_models::tensor::reduced::{Line, Reduced};
 use motiform_study::Error;
 
@@ -255,7 +254,11 @@ impl Continued {
     ///
     /// # Errors
     /// Numbers that no axis can hold.
-    pub(crate) fn figure(&self, lines: &[ExpectedLine]) -> Result<ReportFigure, Error> {
+    pub(crate) fn figure(
+        &self,
+        context: &Context<'_>,
+        lines: &[ExpectedLine],
+    ) -> Result<ReportFigure, Error> {
         let kinds: [(&str, Kind); 4] = [
             ("pitchfork, continued", |p| matches!(p.special, Special::Pitchfork { .. })),
             ("Hopf, supercritical, continued", |p| kind(p) == Some(true)),
@@ -281,7 +284,7 @@ impl Continued {
         .with(lines.iter().cloned())
         .with(kinds.into_iter().map(series).filter(|series| !series.points.is_empty()));
         let caption = "The lines of Fig. 1 by continuation, which knows none of the formulas, on top of the analytic ones.";
-        Ok(ReportFigure::new(sheet(&figure)?, caption))
+        Ok(ReportFigure::new(context.sheet(figure)?, caption))
     }
 }
 

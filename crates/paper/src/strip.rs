@@ -1,12 +1,13 @@
 //! A scan over one parameter as a strip.
 
+use super::context::Context;
 use motiform_figures::{Cell, Drawn, ExpectedLine, PhaseDiagram};
-use motiform_lab::draw::sheet;
 use motiform_lab::scan::CellSummary;
 use motiform_study::Error;
 
 /// The motions found at each value, increasing, and lines in front of them.
 pub(super) fn strip(
+    context: &Context<'_>,
     x_label: &str,
     points: &[(f64, CellSummary)],
     lines: Vec<ExpectedLine>,
@@ -21,5 +22,5 @@ pub(super) fn strip(
         lines,
         ..PhaseDiagram::default()
     };
-    sheet(&figure)
+    context.sheet(figure)
 }

@@ -22,6 +22,7 @@ mod scan_files;
 mod scan_plan;
 mod statistics;
 mod study;
+mod units;
 mod verify;
 mod watch;
 
@@ -62,6 +63,8 @@ mod _motiform {
     use super::statistics::{statistics, statistics_of};
     #[pymodule_export]
     use super::study::Study;
+    #[pymodule_export]
+    use super::units::Units;
     #[pymodule_export]
     use super::verify::verify;
 }

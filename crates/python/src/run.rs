@@ -4,6 +4,7 @@ use crate::errors::{of_json, python};
 use crate::study::{Study, plan};
 use crate::watch::Caller;
 use motiform_dynamics::{Model, Outline};
+use motiform_lab::readings::dimension;
 use motiform_lab::{draw, naming};
 use motiform_store::table::Table;
 use motiform_study::{Dataset, Manifest};
@@ -109,6 +110,13 @@ impl Run {
     /// Names and meanings of the columns, and the array (column, row).
     fn table(&self, py: Python<'_>) -> TableArrays {
         self.table.parts(py)
+    }
+
+    /// The powers of length and time of each column.
+    fn dimensions(&self) -> PyResult<Vec<(i8, i8)>> {
+        let model = self.model()?;
+        let of = |name: &String| dimension(model, name).into();
+        Ok(self.table.names.iter().map(of).collect())
     }
 
     /// The same for the crossings of the return map, if there is one.

@@ -4,6 +4,7 @@ use crate::errors::{of_keywords, python};
 use motiform_dynamics::model::Coordinate;
 use motiform_models::ModelInfo;
 use motiform_study::study::RunSettings;
+use motiform_study::units::Units;
 use motiform_study::{Error, Random, presets, remarks};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -142,6 +143,12 @@ impl Study {
         Ok(coordinates.iter().map(|&Coordinate { name, meaning }| (name, meaning)).collect())
     }
 
+    /// What a unit of length and one of time are; empty where they are those of the model.
+    #[getter]
+    fn units(&self) -> &str {
+        &self.0.figure.units
+    }
+
     /// The run settings as JSON.
     fn run(&self) -> PyResult<String> {
         serde_json::to_string(&self.0.run).map_err(crate::errors::of_json)
@@ -199,6 +206,11 @@ fn random(value: &Bound<'_, PyAny>) -> PyResult<Random> {
 fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
     match name {
         "random" => study.random = Some(random(value)?),
+        "units" => {
+            let text: String = value.extract()?;
+            Units::parse(&text).map_err(of_keywords)?;
+            study.figure.units = text;
+        }
         "perturb" => study.perturb = number(name, value)?,
         _ if set_run(&mut study.run, name, value)? => {}
         _ => return Err(PyTypeError::new_err(format!("unknown setting {name:?}"))),

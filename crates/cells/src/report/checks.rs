@@ -2,26 +2,26 @@
 
 use crate::Fitted;
 use crate::Units;
+use crate::report::Setting;
 use crate::report::numbers::{plain, with_error};
 use crate::report::terms::typeset;
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart};
 use motiform_inference::{Channel, Coefficient};
-use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
 /// Half the width of a 95 % interval in standard errors.
 const NORMAL_95: f64 = 1.96;
 
-pub(crate) fn section(fitted: &Fitted, units: &Units) -> Result<Section, Error> {
+pub(crate) fn section(fitted: &Fitted, setting: &Setting<'_>) -> Result<Section, Error> {
     let n = fitted.model().frames as f64;
     let channels = &fitted.checks.innovations;
     let pairs = channels.chunks(2).filter(|pair| !pair[0].autocorrelation.is_empty());
     Ok(Section {
         title: "Checks".to_owned(),
         about: "If the model describes the cell, coefficients do not depend on the sampling interval, and innovations have variance 1 and no memory. The weak form shares nothing with the likelihood but the data: under process noise it is biased by 10 to 40 %, so only its signs and orders of magnitude count.".to_owned(),
-        tables: vec![intervals(fitted, units), whiteness(channels)],
-        small_figures: pairs.map(|pair| memory(pair, n)).collect::<Result<_, _>>()?,
+        tables: vec![intervals(fitted, &setting.units), whiteness(channels)],
+        small_figures: pairs.map(|pair| memory(pair, n, setting)).collect::<Result<_, _>>()?,
         ..Section::default()
     })
 }
@@ -63,7 +63,7 @@ fn intervals(fitted: &Fitted, units: &Units) -> Table {
 }
 
 /// The autocorrelations of the innovations of a pair of numbers (x and y, the parts of a mode), on the band of white noise.
-fn memory(pair: &[Channel], n: f64) -> Result<ReportFigure, Error> {
+fn memory(pair: &[Channel], n: f64, setting: &Setting<'_>) -> Result<ReportFigure, Error> {
     let half = NORMAL_95 / n.sqrt();
     let lags = || (1..=pair[0].autocorrelation.len()).map(|lag| lag as f64);
     let bare = |x, y| BandPoint { x, y, low: y, high: y };
@@ -85,7 +85,7 @@ fn memory(pair: &[Channel], n: f64) -> Result<ReportFigure, Error> {
     }
     .with(curves);
     let names: Vec<String> = pair.iter().map(|channel| symbol(&channel.name)).collect();
-    Ok(ReportFigure::new(sheet(&figure)?, format!("Innovations of {}.", names.join(" and "))))
+    setting.figure(figure, format!("Innovations of {}.", names.join(" and ")))
 }
 
 /// Variances of the innovations and the test of their whiteness.

@@ -1,16 +1,21 @@
 //! Simulated cells beside the observed one.
 
 use crate::Units;
-use crate::report::Case;
 use crate::report::numbers::plain;
 use crate::report::outlines::{observed, track};
+use crate::report::{Case, Setting};
 use crate::{Agreement, Axis, Comparison, Kind, Prediction};
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart, TrackPanels};
-use motiform_lab::draw::{FigureFormat, Picture, files, sheet};
+use motiform_lab::draw::{Picture, files};
 use motiform_study::Error;
 
-pub(crate) fn section(case: &Case<'_>, prediction: &Prediction, units: &Units) -> Result<Section, Error> {
+pub(crate) fn section(
+    case: &Case<'_>,
+    prediction: &Prediction,
+    setting: &Setting<'_>,
+) -> Result<Section, Error> {
+    let units = &setting.units;
     let title = "Simulated cells".to_owned();
     let lost = prediction.lost;
     if prediction.is_unstable() {
@@ -32,9 +37,8 @@ pub(crate) fn section(case: &Case<'_>, prediction: &Prediction, units: &Units) -
         about += &format!(" {lost} more leave all bounds and are left out.");
     }
     let paths = side_by_side(case, prediction, units);
-    let figures =
-        vec![ReportFigure::new(sheet(&paths)?, "The observed cell and three simulated ones, at one scale.")];
-    let small = prediction.comparisons.iter().map(|one| curve(one, units)).collect::<Result<_, _>>()?;
+    let figures = vec![setting.figure(paths, "The observed cell and three simulated ones, at one scale.")?];
+    let small = prediction.comparisons.iter().map(|one| curve(one, setting)).collect::<Result<_, _>>()?;
     Ok(Section {
         title,
         about,
@@ -46,12 +50,12 @@ pub(crate) fn section(case: &Case<'_>, prediction: &Prediction, units: &Units) -
 }
 
 /// The observed cell beside simulated ones as files, `paths-NAME`: for a slide or a page. None without simulated cells.
-pub(crate) fn pictures(case: &Case<'_>, name: &str, units: &Units) -> Result<Vec<Picture>, Error> {
+pub(crate) fn pictures(case: &Case<'_>, name: &str, setting: &Setting<'_>) -> Result<Vec<Picture>, Error> {
     let Some(prediction) = case.prediction().filter(|prediction| !prediction.is_unstable()) else {
         return Ok(Vec::new());
     };
-    let paths = side_by_side(case, prediction, units);
-    files(vec![(format!("paths-{name}"), Box::new(paths))], false, &FigureFormat::default())
+    let paths = side_by_side(case, prediction, &setting.units);
+    files(vec![(format!("paths-{name}"), Box::new(paths))], false, setting.format)
 }
 
 fn side_by_side(case: &Case<'_>, prediction: &Prediction, units: &Units) -> TrackPanels {
@@ -84,7 +88,8 @@ fn table(prediction: &Prediction, units: &Units) -> Table {
     }
 }
 
-fn curve(one: &Comparison, units: &Units) -> Result<ReportFigure, Error> {
+fn curve(one: &Comparison, setting: &Setting<'_>) -> Result<ReportFigure, Error> {
+    let units = &setting.units;
     let (statistic, envelope) = (&one.statistic, &one.envelope);
     let places = || statistic.at.iter().copied().enumerate();
     let simulated = places().map(|(k, x)| BandPoint {
@@ -113,7 +118,7 @@ fn curve(one: &Comparison, units: &Units) -> Result<ReportFigure, Error> {
     ]);
     let caption =
         format!("{}: {}, p = {:.3}.", statistic.kind.name(), envelope.agreement.name(), envelope.p_value);
-    Ok(ReportFigure::new(sheet(&figure)?, caption))
+    setting.figure(figure, caption)
 }
 
 fn label(kind: Kind, units: &Units) -> String {

@@ -1,22 +1,21 @@
 //! Numbers without a model: a table and the displacements; speed, area and aspect ratio over time, for beside the film strip.
 
-use crate::report::Case;
 use crate::report::motion::mean_square;
 use crate::report::numbers::{answer, plain};
+use crate::report::{Case, Setting};
 use crate::{Numbers, Row, Units};
 use motiform_dynamics::order::ascending;
 use motiform_figures::palette::INK;
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{Curve, Panel, SeriesFigure};
-use motiform_lab::draw::sheet;
 use motiform_statistics::Answer;
 use motiform_study::Error;
 use motiform_tracks::modes::{Flag, FrameModes};
 
-pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> {
+pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section, Error> {
     let numbers = &case.observation.numbers;
     let seen = numbers.seen;
-    let figures = displacement(numbers, units)?.into_iter().collect();
+    let figures = displacement(numbers, setting)?.into_iter().collect();
     let frames = case.cell.modes.frames.len();
     let mut about = format!(
         "From the centroids and polygons of the {seen} of {frames} frames whose outline is seen, whatever its radius. In brackets 95 % intervals."
@@ -30,19 +29,19 @@ pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> 
     Ok(Section {
         title: "Numbers without a model".to_owned(),
         about,
-        tables: vec![table(numbers, units)],
+        tables: vec![table(numbers, &setting.units)],
         figures,
         ..Section::default()
     })
 }
 
 /// Speed, area and aspect ratio over time; nothing where fewer than two frames are seen.
-pub(crate) fn over_time(case: &Case<'_>, units: &Units) -> Result<Option<ReportFigure>, Error> {
+pub(crate) fn over_time(case: &Case<'_>, setting: &Setting<'_>) -> Result<Option<ReportFigure>, Error> {
     if case.observation.numbers.seen < 2 {
         return Ok(None);
     }
     let words = "Speed from each frame to the next, area and aspect ratio over time. Grey: frames that are missing, or whose outline does not count; there is no speed across a jump of the stage.";
-    Ok(Some(ReportFigure::new(sheet(&series(&case.cell.modes.frames, units))?, words)))
+    setting.figure(series(&case.cell.modes.frames, &setting.units), words).map(Some)
 }
 
 fn table(numbers: &Numbers, units: &Units) -> Table {
@@ -99,9 +98,11 @@ fn series(frames: &[FrameModes], units: &Units) -> SeriesFigure {
     SeriesFigure { time_label: format!("*t* ({})", units.time), times, panels, ..SeriesFigure::default() }
 }
 
-fn displacement(numbers: &Numbers, units: &Units) -> Result<Option<ReportFigure>, Error> {
+fn displacement(numbers: &Numbers, setting: &Setting<'_>) -> Result<Option<ReportFigure>, Error> {
     let long = numbers.displacement.len() >= 3;
-    let Some(figure) = mean_square(&numbers.displacement, units).filter(|_| long) else { return Ok(None) };
+    let Some(figure) = mean_square(&numbers.displacement, &setting.units).filter(|_| long) else {
+        return Ok(None);
+    };
     let words = "Mean-square displacement over all pairs of frames that are seen, gaps or not; errors of the places are in it. The band ends at an eighth of the record.";
-    Ok(Some(ReportFigure::new(sheet(&figure)?, words)))
+    setting.figure(figure, words).map(Some)
 }

@@ -3,33 +3,32 @@
 use crate::Units;
 use crate::report::numbers::estimate;
 use crate::report::place::{self, PLANES, map};
-use crate::report::{Case, Maps, fitted, free, page_name, population, words};
+use crate::report::{Case, Setting, fitted, free, page_name, population, words};
 use crate::{Agreement, CellFit, Fitted, Sample};
 use motiform_analysis::regime::Regime;
 use motiform_figures::literal;
-use motiform_figures::report::{Cell, Report, ReportFigure, Section, Table};
+use motiform_figures::report::{Cell, Report, Section, Table};
 use motiform_inference::{Place, Placement};
-use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
 pub(crate) fn report(
     sample: &Sample,
     (cases, together): (&[Case<'_>], Option<&CellFit>),
     names: &[String],
-    maps: &Maps,
-    units: &Units,
+    setting: &Setting<'_>,
 ) -> Result<Report, Error> {
+    let units = &setting.units;
     let mut sections = vec![Section {
         title: "Cells".to_owned(),
         tables: vec![table(cases, names, units)],
         ..Section::default()
     }];
     if let Some(fit) = together {
-        sections.extend(one_law(fit, maps, units)?);
+        sections.extend(one_law(fit, setting)?);
     }
     sections.extend(field(sample, units));
-    sections.extend(population::section(cases, units)?);
-    sections.extend(places(cases, maps)?);
+    sections.extend(population::section(cases, setting)?);
+    sections.extend(places(cases, setting)?);
     sections.extend(notes(sample));
     let about = format!(
         "{}; lengths in {}, times in {}. A name is given where the data leave no other; otherwise a motion is 'undecided', and the page of the cell says what is missing.",
@@ -47,12 +46,12 @@ pub(crate) fn report(
 }
 
 /// One fit of all cells: its equations, and their place.
-fn one_law(fit: &CellFit, maps: &Maps, units: &Units) -> Result<Vec<Section>, Error> {
+fn one_law(fit: &CellFit, setting: &Setting<'_>) -> Result<Vec<Section>, Error> {
     let file = crate::file_names(std::iter::once(fit.name.as_str())).concat();
-    let mut sections = vec![fitted::section(fit, &file, units)];
+    let mut sections = vec![fitted::section(fit, &file, &setting.units)];
     sections[0].title = "One law for all cells".to_owned();
     if let Ok(found) = &fit.fitted {
-        sections.push(place::section("all cells", found, maps)?);
+        sections.push(place::section("all cells", found, setting)?);
     }
     Ok(sections)
 }
@@ -139,17 +138,16 @@ pub(crate) fn agreement(case: &Case<'_>) -> String {
 }
 
 /// All places on one map per plane.
-fn places(cases: &[Case<'_>], maps: &Maps) -> Result<Option<Section>, Error> {
+fn places(cases: &[Case<'_>], setting: &Setting<'_>) -> Result<Option<Section>, Error> {
     let mut figures = Vec::new();
     for (number, (plane, name)) in PLANES.into_iter().enumerate() {
         let all: Vec<_> = cases
             .iter()
             .filter_map(|case| Some((case.cell.name.as_str(), placed(fitted_of(case)?, number)?, None)))
             .collect();
-        let drawn = if all.is_empty() { None } else { map(&all, plane, maps) };
+        let drawn = if all.is_empty() { None } else { map(&all, plane, setting.maps) };
         if let Some(map) = drawn {
-            figures
-                .push(ReportFigure::new(sheet(&map)?, format!("The cells that have a place on the {name}.")));
+            figures.push(setting.figure(map, format!("The cells that have a place on the {name}."))?);
         }
     }
     let section = Section { title: "Places".to_owned(), figures, ..Section::default() };

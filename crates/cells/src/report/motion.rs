@@ -2,14 +2,14 @@
 
 use crate::Units;
 use crate::report::numbers::{answer, plain, with_error};
-use crate::report::{Case, relatives};
+use crate::report::{Case, Setting, relatives};
 use crate::{AtLag, Memory, MotionStatistics};
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart, literal};
-use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
-pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> {
+pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section, Error> {
+    let units = &setting.units;
     let found = case.observation;
     let name = found.motion.regime.map_or("undecided", |regime| regime.name());
     let mut about = format!("Observed motion: {name}. {}.", capital(&literal(&found.motion.why)));
@@ -17,13 +17,13 @@ pub(crate) fn section(case: &Case<'_>, units: &Units) -> Result<Section, Error> 
         about += &format!(" {:.0} % of resampled records say the same.", 100.0 * confidence);
     }
     let mut figures = match &found.statistics {
-        Some(statistics) => figures(statistics, units)?,
+        Some(statistics) => figures(statistics, setting)?,
         None => Vec::new(),
     };
     let mut tables: Vec<Table> = found.statistics.iter().map(|statistics| walk(statistics, units)).collect();
     if let Some(found) = &found.relatives {
         tables.push(relatives::table(found, units));
-        figures.extend(relatives::figure(found, units)?);
+        figures.extend(relatives::figure(found, setting)?);
     }
     Ok(Section {
         title: "Observed motion".to_owned(),
@@ -102,7 +102,11 @@ pub(crate) fn mean_square(displacement: &[AtLag], units: &Units) -> Option<Chart
 }
 
 /// Mean-square displacement and autocorrelations.
-pub(crate) fn figures(statistics: &MotionStatistics, units: &Units) -> Result<Vec<ReportFigure>, Error> {
+pub(crate) fn figures(
+    statistics: &MotionStatistics,
+    setting: &Setting<'_>,
+) -> Result<Vec<ReportFigure>, Error> {
+    let units = &setting.units;
     let curve =
         |memory: &Memory| BandCurve { label: symbol(&memory.quantity), points: points(&memory.correlation) };
     let known = statistics.memories.iter().filter(|memory| !memory.correlation.is_empty());
@@ -110,16 +114,12 @@ pub(crate) fn figures(statistics: &MotionStatistics, units: &Units) -> Result<Ve
     let correlations = Chart { x_label, y_label, zero_line: true, ..Chart::default() }.with(known.map(curve));
     let mut all = Vec::new();
     if let Some(displacement) = mean_square(&statistics.displacement, units) {
-        all.push(ReportFigure::new(
-            sheet(&displacement)?,
-            "Mean-square displacement against lag; errors of measurement subtracted.",
-        ));
+        let words = "Mean-square displacement against lag; errors of measurement subtracted.";
+        all.push(setting.figure(displacement, words)?);
     }
     if !correlations.is_empty() {
-        all.push(ReportFigure::new(
-            sheet(&correlations)?,
-            "Autocorrelations of velocity and modes of the shape, with 95 % bands.",
-        ));
+        let words = "Autocorrelations of velocity and modes of the shape, with 95 % bands.";
+        all.push(setting.figure(correlations, words)?);
     }
     Ok(all)
 }

@@ -1,14 +1,13 @@
 //! The outlines: a film strip, the path, and the modes of the shape over time.
 
 use crate::Units;
-use crate::report::{Case, free};
+use crate::report::{Case, Setting, free};
 use crate::{CellTrack, Record};
 use motiform_figures::geometry::Point;
 use motiform_figures::palette::{BLUE, INK, VERMILION};
-use motiform_figures::report::{ReportFigure, Section};
+use motiform_figures::report::Section;
 use motiform_figures::{Curve, Panel, SeriesFigure, TrackPanel, TrackPanels};
 use motiform_inference::Observation;
-use motiform_lab::draw::sheet;
 use motiform_statistics::four_digits;
 use motiform_study::Error;
 use motiform_tracks::Cell;
@@ -28,11 +27,11 @@ const VERTICES: usize = 72;
 pub(crate) fn section(
     case: &Case<'_>,
     drawn: Option<&Cell>,
-    units: &Units,
+    setting: &Setting<'_>,
 ) -> Result<Option<Section>, Error> {
-    let cell = case.cell;
+    let (cell, units) = (case.cell, &setting.units);
     if cell.track.0.len() < 2 {
-        return polygons(case, drawn, units);
+        return polygons(case, drawn, setting);
     }
     let strip = TrackPanels {
         unit: units.length.clone(),
@@ -47,33 +46,34 @@ pub(crate) fn section(
         ..TrackPanels::default()
     };
     let mut figures = vec![
-        ReportFigure::new(
-            sheet(&strip)?,
+        setting.figure(
+            strip,
             "The outline at eight times, as it was read, with the path of the centre before, from the ring on.",
-        ),
-        ReportFigure::new(
-            sheet(&path)?,
+        )?,
+        setting.figure(
+            path,
             format!(
                 "The path of the centre, from the ring on, with outlines at equal numbers of frames: dark first, bright last. They are drawn from R_0, *z*_2{}. Pieces of the path are not joined across frames that are missing.",
                 if case.modes() > 3 { ", *z*_3 and *z*_4" } else { " and *z*_3" }
             ),
-        ),
-        ReportFigure::new(
-            sheet(&series(case, units))?,
+        )?,
+        setting.figure(
+            series(case, units),
             format!(
                 "Modes of the shape over time: *z*_2 elongation, *z*_3 triangle{}. Grey: frames that are missing or left out.",
                 if case.modes() > 3 { ", *z*_4 square" } else { "" }
             ),
-        ),
+        )?,
     ];
-    if let Some(series) = free::over_time(case, units)? {
+    if let Some(series) = free::over_time(case, setting)? {
         figures.insert(1, series);
     }
     Ok(Some(Section { title: "Outlines".to_owned(), about: String::new(), figures, ..Section::default() }))
 }
 
 /// The film strip of a cell without modes: its polygons as they were read, with the path of the centroid. Nothing where none is seen.
-fn polygons(case: &Case<'_>, drawn: Option<&Cell>, units: &Units) -> Result<Option<Section>, Error> {
+fn polygons(case: &Case<'_>, drawn: Option<&Cell>, setting: &Setting<'_>) -> Result<Option<Section>, Error> {
+    let units = &setting.units;
     let seen: Vec<&FrameModes> = case.cell.modes.frames.iter().filter(|frame| frame.is_seen()).collect();
     let panel = |k: usize| {
         let frame = seen[k];
@@ -90,8 +90,8 @@ fn polygons(case: &Case<'_>, drawn: Option<&Cell>, units: &Units) -> Result<Opti
     }
     let strip = TrackPanels { unit: units.length.clone(), columns: STRIP, panels, ..TrackPanels::default() };
     let words = "The outline at up to eight times, as it was read, with the path of the centroid before. There are no modes of the radius.";
-    let mut figures = vec![ReportFigure::new(sheet(&strip)?, words)];
-    figures.extend(free::over_time(case, units)?);
+    let mut figures = vec![setting.figure(strip, words)?];
+    figures.extend(free::over_time(case, setting)?);
     Ok(Some(Section { title: "Outlines".to_owned(), figures, ..Section::default() }))
 }
 

@@ -1,12 +1,11 @@
 //! The place on the paper's planes.
 
 use crate::Fitted;
-use crate::report::Maps;
 use crate::report::numbers::{estimate, plain};
-use motiform_figures::report::{Cell, ReportFigure, Section, Table};
+use crate::report::{Maps, Setting};
+use motiform_figures::report::{Cell, Section, Table};
 use motiform_figures::{MapPlace, PlaceMap, literal};
 use motiform_inference::{Coordinate, Place, Placement, Plane, coordinates, draws};
-use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
 /// Models of the cloud, and the seed of their draws.
@@ -20,7 +19,7 @@ const WITHIN: f64 = 2.447_746_830_680_816;
 pub(crate) const PLANES: [(Plane, &str); 2] =
     [(Plane::Full, "plane of Fig. 4"), (Plane::Reduced, "plane of Fig. 1")];
 
-pub(crate) fn section(name: &str, fitted: &Fitted, maps: &Maps) -> Result<Section, Error> {
+pub(crate) fn section(name: &str, fitted: &Fitted, setting: &Setting<'_>) -> Result<Section, Error> {
     let mut section = Section { title: "Place on the paper's diagrams".to_owned(), ..Section::default() };
     for ((plane, plane_name), placement) in PLANES.into_iter().zip(&fitted.places) {
         match placement {
@@ -30,11 +29,11 @@ pub(crate) fn section(name: &str, fitted: &Fitted, maps: &Maps) -> Result<Sectio
             }
             Placement::Placed(place) => {
                 section.tables.push(table(place, plane_name));
-                if let Some(map) = map(&[(name, place, Some(fitted))], plane, maps) {
+                if let Some(map) = map(&[(name, place, Some(fitted))], plane, setting.maps) {
                     let caption = format!(
                         "The cell on the {plane_name}. Beneath: motions of the tensor model on the paper's slice; what is off the slice is in the table, so the motion beneath need not be that of the cell."
                     );
-                    section.figures.push(ReportFigure::new(sheet(&map)?, caption));
+                    section.figures.push(setting.figure(map, caption)?);
                 }
             }
         }

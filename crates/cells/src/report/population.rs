@@ -3,7 +3,7 @@
 use crate::Units;
 use crate::report::numbers::plain;
 use crate::report::terms::{typeset, unit};
-use crate::report::{Case, motion};
+use crate::report::{Case, Setting, motion};
 use crate::{
     CellFit, FittedPopulation, NameShare, Observation, OverCells, PopulationNumbers, fitted_population,
     observed_population, population_numbers, population_statistics,
@@ -12,7 +12,8 @@ use motiform_figures::report::{Cell, Section, Table};
 use motiform_study::Error;
 
 /// Nothing for a single cell.
-pub(crate) fn section(cases: &[Case<'_>], units: &Units) -> Result<Option<Section>, Error> {
+pub(crate) fn section(cases: &[Case<'_>], setting: &Setting<'_>) -> Result<Option<Section>, Error> {
+    let units = &setting.units;
     if cases.len() < 2 {
         return Ok(None);
     }
@@ -36,7 +37,7 @@ pub(crate) fn section(cases: &[Case<'_>], units: &Units) -> Result<Option<Sectio
             if count == 1 { "" } else { "s" }
         );
         tables.push(motion::walk(&statistics, units));
-        figures = motion::figures(&statistics, units)?;
+        figures = motion::figures(&statistics, setting)?;
     }
     tables.retain(|table| !table.rows.is_empty());
     Ok(Some(Section {

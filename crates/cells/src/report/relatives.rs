@@ -1,13 +1,13 @@
 //! Spectra, rests, legs, rotation and the 0-1 test of a record.
 
 use crate::Units;
+use crate::report::Setting;
 use crate::report::motion::capital;
 use crate::report::numbers::plain;
 use crate::{Finding, ObservedLegs, ObservedRests, Relatives, SpectralPeak};
 use motiform_figures::palette::CATEGORIES;
 use motiform_figures::report::{Cell, ReportFigure, Table};
 use motiform_figures::{Chart, SpectrumCurve};
-use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
 /// What the record shows of them, and why it does not show the others.
@@ -92,7 +92,8 @@ fn legs_words(legs: &ObservedLegs, units: &Units) -> String {
 }
 
 /// The spectra, each over its variance.
-pub(crate) fn figure(found: &Relatives, units: &Units) -> Result<Option<ReportFigure>, Error> {
+pub(crate) fn figure(found: &Relatives, setting: &Setting<'_>) -> Result<Option<ReportFigure>, Error> {
+    let units = &setting.units;
     let Some(first) = found.spectra.first() else { return Ok(None) };
     let curve = |(number, of): (usize, &crate::ObservedSpectrum)| {
         let total: f64 = of.power.iter().sum::<f64>() * of.spacing;
@@ -111,7 +112,7 @@ pub(crate) fn figure(found: &Relatives, units: &Units) -> Result<Option<ReportFi
         ..Chart::spectra(frequencies, curves)
     };
     let caption = "Power spectra (Welch's method, windows of half the record), each over its variance.";
-    Ok(Some(ReportFigure::new(sheet(&figure)?, caption)))
+    setting.figure(figure, caption).map(Some)
 }
 
 fn symbol(quantity: &str) -> String {

@@ -5,6 +5,7 @@
 use motiform_cells::report::{Case, Maps, pages, planes};
 use motiform_cells::{CellFit, CellTrack, FitOptions, Observation, Sample, fit_cells, fit_together, observe};
 use motiform_dynamics::Normal;
+use motiform_lab::draw::FigureFormat;
 use motiform_lab::simulate::simulate;
 use motiform_study::{RunPlan, presets::find_any};
 use motiform_tracks::synthetic::{Synthetic, blur};
@@ -75,7 +76,7 @@ fn written(sample: &Sample, cases: &[Case<'_>], together: Option<&CellFit>, maps
         files.lock().unwrap().push((name.to_owned(), bytes.to_vec()));
         Ok(())
     };
-    assert!(pages(sample, (cases, together), maps, (2, &()), &write).unwrap());
+    assert!(pages(sample, (cases, together), (maps, &FigureFormat::default()), (2, &()), &write).unwrap());
     let mut files: Vec<File> = files.into_inner().unwrap();
     let index = files.pop().unwrap();
     files.sort();
@@ -169,7 +170,10 @@ fn cells_without_fits_have_pages_too_and_the_watch_stops_the_drawing() {
     let observation = observe(cell);
     let cases = [Case { cell, observation: &observation, fit: None }];
     let write = |name: &str, _: &[u8]| panic!("{name} is written");
-    assert!(!pages(&sample, (&cases, None), &Maps::default(), (1, &Stop), &write).unwrap());
+    assert!(
+        !pages(&sample, (&cases, None), (&Maps::default(), &FigureFormat::default()), (1, &Stop), &write)
+            .unwrap()
+    );
 }
 
 #[test]

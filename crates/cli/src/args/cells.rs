@@ -1,6 +1,6 @@
 //! Options of `observe` and `fit`.
 
-use super::number;
+use super::{StyleOptions, number};
 use clap::Args;
 use motiform_cells::Correction;
 use motiform_tracks::Format;
@@ -43,6 +43,8 @@ pub(crate) struct CellsOptions {
     /// Do not draw pages (report.html and a page per cell) in this folder
     #[arg(long, requires = "out")]
     pub(crate) no_report: bool,
+    #[command(flatten)]
+    pub(crate) style: StyleOptions,
     /// Replace an existing folder of results (or the file of --write-outlines); what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,

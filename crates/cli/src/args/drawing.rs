@@ -61,14 +61,14 @@ pub(crate) struct StyleOptions {
     /// Title of the figures instead of the default (*letters* between asterisks are italic, _ starts a subscript)
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
-    /// Omit the captions
+    /// Omit the captions; in pages the words below figures, too
     #[arg(long)]
     pub(crate) no_caption: bool,
     /// Where the figures are shown: journal (86 mm wide, title and caption beside them as NAME.txt) or slide (1920 pixels, its caption
     /// as NAME.txt); --width, --title and --no-caption change it
     #[arg(long = "style", value_name = "STYLE", value_enum)]
     pub(crate) medium: Option<ShownIn>,
-    /// Width of the figures: 86mm or 3.4in (laid out for it, with text of 8 pt), slide (1920 pixels, with text of 18 pt), or
+    /// Width of the figures: 86mm or 3.4in (laid out for it, with text of 8.5 pt), slide (1920 pixels, with text of 18 pt), or
     /// 1200px (scaled) (default: as drawn, about 170 mm)
     #[arg(long, value_name = "WIDTH", value_parser = width)]
     pub(crate) width: Option<Width>,
@@ -94,6 +94,29 @@ impl DrawingOptions {
 }
 
 impl StyleOptions {
+    /// The first of these options that is given.
+    fn first(&self) -> Option<&'static str> {
+        let given = [
+            ("--style", self.medium.is_some()),
+            ("--width", self.width.is_some()),
+            ("--title", self.title.is_some()),
+            ("--no-caption", self.no_caption),
+            ("--pdf", self.pdf),
+        ];
+        given.into_iter().find(|(_, given)| *given).map(|(name, _)| name)
+    }
+
+    /// Refuses these options where no figure is drawn.
+    ///
+    /// # Errors
+    /// One of them is given, and `drawn` is false.
+    pub(crate) fn refuse_unless(&self, drawn: bool, remedy: &'static str) -> Result<(), Error> {
+        match self.first() {
+            Some(key) if !drawn => Err(Error::Setting { key, value: "given".to_owned(), remedy }),
+            _ => Ok(()),
+        }
+    }
+
     /// How the figures become files, in model units.
     pub(crate) fn format(&self) -> FigureFormat {
         self.format_in(Shown::default())

@@ -165,8 +165,8 @@ fn an_option_means_one_thing() {
 /// The options of every figure.
 const OF_FIGURES: [&str; 5] = ["style", "width", "title", "no-caption", "pdf"];
 
-/// Commands that draw, but pages for a browser, which lay themselves out for its window; their figures are saved from there.
-const OF_PAGES: [&str; 4] = ["observe", "fit", "reproduce", "explore"];
+/// Commands that draw, but pages that lay themselves out for the window of a browser; their figures are saved from there.
+const OF_PAGES: [&str; 1] = ["explore"];
 
 /// Commands that have nothing to draw.
 const WITHOUT_FIGURES: [&str; 11] = [

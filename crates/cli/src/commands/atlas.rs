@@ -16,6 +16,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 pub(crate) fn run(options: &AtlasOptions) -> anyhow::Result<End> {
+    let remedy = "nothing is drawn with --no-figures: leave one out";
+    options.style.refuse_unless(!options.no_figures, remedy)?;
     let study = study(options)?;
     let plan = AtlasPlan::new(&study, &settings(options))?;
     ties(&study, &plan.computation.scan.axes.iter().map(|axis| axis.name.as_str()).collect::<Vec<_>>())?;

@@ -21,6 +21,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(options: &ContinueOptions) -> anyhow::Result<End> {
+    let drawn = output(options, String::new()).is_some() && !options.no_figures;
+    let remedy = "nothing is drawn with --no-figures, or with --json and no --out: leave one out";
+    options.style.refuse_unless(drawn, remedy)?;
     let (study, given) = study(options)?;
     let plan = BranchPlan::new(&study, &BranchSettings { given, ..study.follow.branches()? })?;
     match study.follow.curves()? {

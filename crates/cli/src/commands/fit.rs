@@ -1,7 +1,7 @@
 //! `motiform fit`.
 
 use crate::args::FitCellsOptions;
-use crate::commands::observe::{all_cores, head, plain_error, quality, read};
+use crate::commands::observe::{all_cores, head, plain_error, quality, read, style};
 use crate::commands::pages::draw;
 use crate::commands::population::fitted;
 use crate::output::{End, print, warn};
@@ -17,6 +17,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
+    style(&options.cells)?;
     let sample = read(&options.cells)?;
     let cells: Vec<&CellTrack> = sample.cells.iter().collect();
     let settings = settings(options);
@@ -28,6 +29,9 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
         work.as_ref().and_then(|work| Some((work, work.finished(!options.cells.no_report)?)))
     {
         work.leave().map_err(plain_error)?;
+        let remedy =
+            "the folder is complete and its pages are drawn: leave it out, or draw them again with --force";
+        options.cells.style.refuse_unless(false, remedy)?;
         let text = format!("complete       {}: nothing left to compute", work.path().display());
         print(&if options.cells.json { summary.to_string() } else { text })?;
         return Ok(End::Done);
@@ -38,7 +42,8 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     if let (Some(work), false) = (&work, options.cells.no_report) {
         let observations: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
         let write = |name: &str, bytes: &[u8]| work.write_file(name, bytes);
-        drawn = draw(&sample, (&cells, &observations), (&fits, options.together), threads(options), &write)?;
+        let how = (threads(options), &options.cells.style.format());
+        drawn = draw(&sample, (&cells, &observations), (&fits, options.together), how, &write)?;
     }
     if let Some(work) = &work {
         work.write(&sample, &fits, !options.cells.no_report).map_err(plain_error)?;

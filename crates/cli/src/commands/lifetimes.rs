@@ -21,6 +21,8 @@ const FILE: &str = "lifetimes.json";
 const ORBITS: &str = "orbits.json";
 
 pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
+    let remedy = "figures are drawn into a folder: give --out DIR, or leave it out";
+    options.style.refuse_unless(options.out.is_some(), remedy)?;
     let (plan, units) = plan(options)?;
     let (files, before) = open(options, &plan)?;
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);

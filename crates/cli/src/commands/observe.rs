@@ -21,6 +21,7 @@ use std::path::PathBuf;
 const MOST_NOTES: usize = 4;
 
 pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
+    style(&options.cells)?;
     let stage = |out| Staged::new(out, Kind::Observations, options.cells.force);
     let staged = options.cells.out.as_deref().map(stage).transpose()?;
     staged.iter().flat_map(Staged::notes).for_each(|note| warn(note));
@@ -33,7 +34,8 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
     let mut drawn = true;
     if let (Some(staged), false) = (&staged, options.cells.no_report) {
         let write = |name: &str, bytes: &[u8]| Ok(staged.write(name, bytes)?);
-        drawn = draw(&sample, (&cells, &found), (&[], false), all_cores(), &write)?;
+        let format = options.cells.style.format();
+        drawn = draw(&sample, (&cells, &found), (&[], false), (all_cores(), &format), &write)?;
     }
     let json = options.cells.json.then(|| observations_json(&sample, &found).to_string());
     let written =
@@ -158,6 +160,13 @@ pub(crate) fn quality(cell: Option<&CellTrack>, frames: usize) -> anyhow::Result
     }
     text.push('\n');
     Ok(text)
+}
+
+/// Refuses options of figures where there are no pages.
+pub(crate) fn style(options: &CellsOptions) -> Result<(), motiform_study::Error> {
+    let remedy =
+        "figures are in the pages of a folder: give --out DIR and leave out --no-report, or leave this out";
+    options.style.refuse_unless(options.out.is_some() && !options.no_report, remedy)
 }
 
 /// The first lines: how much was read, in which units, and what the field of view adds.

@@ -5,6 +5,7 @@ use crate::progress::Progress;
 use motiform_cells::report::{Case, Maps, Sink, pages, planes};
 use motiform_cells::{CellFit, CellTrack, Observation, Sample};
 use motiform_dynamics::Watch;
+use motiform_lab::draw::FigureFormat;
 use motiform_study::Error;
 use std::collections::HashMap;
 
@@ -14,7 +15,7 @@ pub(crate) fn draw(
     sample: &Sample,
     (cells, observations): (&[&CellTrack], &[Observation]),
     (fits, together): (&[CellFit], bool),
-    threads: usize,
+    (threads, format): (usize, &FigureFormat),
     write: &Sink<'_>,
 ) -> anyhow::Result<bool> {
     let own: HashMap<&str, &CellFit> = match together {
@@ -32,7 +33,7 @@ pub(crate) fn draw(
         return Ok(false);
     }
     let made = Maps::compute(&planes(fits), threads, &watch)
-        .and_then(|maps| pages(sample, (&cases, common), &maps, (threads, &watch), write));
+        .and_then(|maps| pages(sample, (&cases, common), (&maps, format), (threads, &watch), write));
     watch.finish();
     match made {
         Ok(true) => Ok(true),

@@ -3,9 +3,9 @@
 use crate::args::ReproduceOptions;
 use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
-use motiform_figures::report::{Claim, Counts, Picture, Report};
-use motiform_figures::{DEFAULT_SCALE, png};
-use motiform_lab::draw::undrawable;
+use motiform_figures::Label;
+use motiform_figures::report::{Claim, Counts, Picture, Report, ReportFigure};
+use motiform_lab::draw::{FigureFormat, formats};
 use motiform_paper::{Keeping, Kept, Options, reproduce_kept};
 use motiform_store::{Folder, Kind, Opening, end_of_work};
 use motiform_study::Error;
@@ -19,7 +19,9 @@ const PAGE: &str = "report.html";
 pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     let out = &options.out;
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let format = options.style.format();
     let wanted = Options {
+        style: format.style.clone(),
         figures: options.figures.clone(),
         quick: options.quick,
         threads: options.threads.map_or_else(all, usize::from),
@@ -45,7 +47,7 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
         }
         report => report?,
     };
-    write_figures(&report, &files)?;
+    write_figures(&report, &format, &files)?;
     files.put(PAGE, report.html().as_bytes())?;
     end_of_work(&files);
     files.complete()?;
@@ -56,22 +58,37 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
 }
 
 /// The figures of the report as files: `figure-3b.svg` and `.png` are Fig. 3(b) of the paper, `figure-3.1.svg` the page's further Figure 3.1, `.csv`
-/// the numbers that it shows.
-fn write_figures(report: &Report, files: &Folder) -> Result<(), Error> {
+/// the numbers that it shows, `.txt` the words that a medium leaves to the text around it.
+fn write_figures(report: &Report, format: &FigureFormat, files: &Folder) -> Result<(), Error> {
     for (number, section) in report.numbered() {
         for (figure, name) in section.figures.iter().zip(section.figure_names(number)) {
-            let file = |ending: &str| format!("figure-{}.{ending}", name.replace(['(', ')'], ""));
-            match &figure.picture {
-                Picture::Svg(svg) => {
-                    files.put(&file("svg"), svg.as_bytes())?;
-                    files.put(&file("png"), &png(svg, DEFAULT_SCALE, &[]).map_err(undrawable)?)?;
-                }
-                Picture::Png(bytes) => files.put(&file("png"), bytes)?,
-            }
-            if let Some(data) = &figure.data {
-                files.put(&file("csv"), data.as_bytes())?;
+            let stem = format!("figure-{}", name.replace(['(', ')'], ""));
+            write_figure(&stem, figure, format, files)?;
+        }
+    }
+    Ok(())
+}
+
+fn write_figure(
+    stem: &str,
+    figure: &ReportFigure,
+    format: &FigureFormat,
+    files: &Folder,
+) -> Result<(), Error> {
+    match &figure.picture {
+        Picture::Svg(svg) => {
+            for file in formats(&stem, svg.clone(), format)? {
+                files.put(&file.name, &file.bytes)?;
             }
         }
+        Picture::Png(bytes) => files.put(&format!("{stem}.png"), bytes)?,
+    }
+    if let Some(data) = &figure.data {
+        files.put(&format!("{stem}.csv"), data.as_bytes())?;
+    }
+    if let Some(left) = &figure.left {
+        let words = format!("{left}{}\n", Label::parse(&figure.caption).terminal());
+        files.put(&format!("{stem}.txt"), words.as_bytes())?;
     }
     Ok(())
 }

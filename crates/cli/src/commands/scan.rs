@@ -13,6 +13,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
+    let remedy = "nothing is drawn with --no-figures: leave one out";
+    options.style.refuse_unless(!options.no_figures, remedy)?;
     let study = study(options)?;
     let (plan, units) = (ScanPlan::new(&study)?, options.units.of(Some(&study))?);
     let shard = options.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse)?;

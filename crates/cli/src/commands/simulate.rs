@@ -21,6 +21,7 @@ use std::path::PathBuf;
 
 pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     film::check(&options.drawing.film)?;
+    style(options)?;
     let plan = RunPlan::new(&study(options)?)?;
     let target = Target::prepare(options, &plan)?;
     target.notes().iter().for_each(|note| warn(note));
@@ -72,6 +73,14 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
     figure::apply(&options.drawing, &mut study.figure);
     remark(&study, &[])?;
     Ok(study)
+}
+
+/// Refuses options of figures where none is drawn.
+fn style(options: &SimulateOptions) -> Result<(), Error> {
+    let folder = options.out.as_ref().map_or(!options.json, |out| Format::of_path(out).is_none());
+    let remedy =
+        "nothing is drawn with --no-figures, into a single table, or with --json and no --out: leave one out";
+    options.drawing.style.refuse_unless(folder && !options.no_figures, remedy)
 }
 
 /// The destination of the result.

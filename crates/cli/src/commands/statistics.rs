@@ -16,6 +16,8 @@ use std::path::Path;
 const BODIES: u64 = 100;
 
 pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
+    let remedy = "figures are drawn into a folder: give --out DIR, or leave it out";
+    options.style.refuse_unless(options.out.is_some(), remedy)?;
     let datasets = !options.subjects.is_empty() && options.subjects.iter().all(|path| is_dataset(path));
     let mut units = options.units.of(None)?;
     let (folder, found) = if datasets {

@@ -19,6 +19,7 @@ mod equations;
 mod explore;
 mod exponents;
 mod faults;
+mod figure_options;
 mod fits;
 mod free_phases;
 mod fuzz;

@@ -77,8 +77,8 @@ impl AtlasFolder {
         put_table(folder, "curves.parquet", &curve_columns(plan, lines), &provenance)?;
         folder.put("summary.json", &pretty(&atlas_summary(self), folder.shown())?)?;
         let pictures = figures.map(|format| draw_atlas(self, format)).transpose()?.unwrap_or_default();
-        if figures.is_some() {
-            folder.put("report.html", html(self)?.as_bytes())?;
+        if let Some(format) = figures {
+            folder.put("report.html", html(self, &format.style)?.as_bytes())?;
         }
         keep(STATE, &State { grid: grid.clone(), lines: lines.clone() }, folder)?;
         finish(folder, &pictures, &provenance)

@@ -7,20 +7,21 @@ use crate::atlas::grid::Found;
 use crate::atlas::region::{Region, regions};
 use crate::atlas::summary::words;
 use crate::curves::{codimension_2, curve_ends};
+use motiform_figures::Style;
 use motiform_figures::report::{Cell, Report, ReportFigure, Section, Table};
-use motiform_lab::draw::{sheet, symbol};
+use motiform_lab::draw::{sheet_in, symbol};
 use motiform_study::Error;
 use motiform_study::titles::number;
 
 /// Smaller regions, in cells, are counted and not listed: few initial states make regions of single cells.
 const LISTED: usize = 3;
 
-/// The page: HTML that refers to nothing outside itself.
+/// The page: HTML that refers to nothing outside itself, with the map in a style.
 ///
 /// # Errors
 /// An unknown model, or numbers that no axis can hold.
-pub fn html(folder: &AtlasFolder) -> Result<String, Error> {
-    let map = sheet(&atlas_map(folder)?)?;
+pub fn html(folder: &AtlasFolder, style: &Style) -> Result<String, Error> {
+    let map = sheet_in(atlas_map(folder)?, style)?;
     let (all, short) = all_regions(folder);
     let sections = vec![
         Section {
@@ -56,7 +57,7 @@ pub fn html(folder: &AtlasFolder) -> Result<String, Error> {
         },
     ];
     let title = format!("Atlas: {}", folder.plan.title);
-    Ok(Report { title, sections, ..Report::default() }.html())
+    Ok(Report { title, sections, without_captions: style.no_caption, ..Report::default() }.html())
 }
 
 fn heads(texts: &[&str]) -> Vec<String> {

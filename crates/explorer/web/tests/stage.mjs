@@ -88,7 +88,7 @@ export async function visit({ browser, server }, { hash = "", tolerate = null, a
   await page.goto(hash ? `${address.replace(/#.*/, "")}#${hash}` : address);
   const leave = async () => {
     await place.close();
-    assert.deepEqual(faults.filter((text) => !tolerate?.test(text) && !(FIREFOX && DRIVERS.test(text))), []);
+    assert.deepEqual(faults.filter((text) => !tolerate?.test(text) && !ofDriver(text)), []);
   };
   return { page, wire, leave };
 }
@@ -140,6 +140,9 @@ export async function doubleClick(page, x, y) {
 
 /** To take a picture in Firefox, Playwright adds a style to the page, which the page does not allow. */
 const DRIVERS = /Content-Security-Policy.*inline style \(style-src-elem\)/;
+
+/** Whether an error in the console is of who drives the browser, not of the page. It comes some time after the picture, or not at all if the page closes first. */
+export const ofDriver = (text) => FIREFOX && DRIVERS.test(text);
 
 /** In the page, before it begins: storage is denied, as browsers do in frames of other sites and where cookies are blocked. */
 export function denied() {

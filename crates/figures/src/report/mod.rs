@@ -32,6 +32,8 @@ pub struct Report {
     pub sections: Vec<Section>,
     /// The paper, sentence by sentence: shown with the claims that check it; without any, nothing is shown.
     pub sentences: Vec<Sentence>,
+    /// Leaves out the words below the figures; they still stand for figures that cannot be seen.
+    pub without_captions: bool,
     /// Words that are defined at the end of the page; names of parameters and of table heads that are equal to one of them lead there.
     pub glossary: Vec<Definition>,
 }
@@ -86,6 +88,8 @@ pub struct ReportFigure {
     pub picture: Picture,
     /// The numbers that are drawn, as a CSV table; none for animations.
     pub data: Option<String>,
+    /// Title and caption of the picture as plain text, where its style leaves them to the text around it.
+    pub left: Option<String>,
 }
 
 impl ReportFigure {
@@ -97,6 +101,7 @@ impl ReportFigure {
             caption: caption.into(),
             picture: Picture::Svg(drawn.svg),
             data: Some(drawn.data),
+            left: drawn.caption,
         }
     }
 
@@ -109,7 +114,7 @@ impl ReportFigure {
     /// An animation.
     #[must_use]
     pub fn film(png: Vec<u8>, caption: impl Into<String>) -> Self {
-        Self { of_paper: None, caption: caption.into(), picture: Picture::Png(png), data: None }
+        Self { of_paper: None, caption: caption.into(), picture: Picture::Png(png), data: None, left: None }
     }
 }
 

@@ -9,8 +9,7 @@ use crate::{Label, font_rules};
 const STYLE: &str = include_str!("style.css");
 
 pub(super) fn html(report: &Report) -> String {
-    let sections: String =
-        report.numbered().map(|(number, s)| section::html(number, s, &report.glossary)).collect();
+    let sections: String = report.numbered().map(|(number, s)| section::html(number, s, report)).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\

@@ -4,13 +4,15 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 
 use crate::report::glossary::{Definition, linked};
-use crate::report::{Claim, Picture, ReportFigure, Section, Verdict, inline, paragraphs, table};
+use crate::report::{Claim, Picture, Report, ReportFigure, Section, Verdict, inline, paragraphs, table};
 use crate::svg::escape;
 use crate::{Label, embedded};
 
-pub(super) fn html(number: usize, section: &Section, glossary: &[Definition]) -> String {
+pub(super) fn html(number: usize, section: &Section, report: &Report) -> String {
+    let glossary = &report.glossary;
     let names = section.figure_names(number);
-    let mut drawn = names.iter().zip(section.figures.iter().chain(&section.small_figures)).map(figure);
+    let all = names.iter().zip(section.figures.iter().chain(&section.small_figures));
+    let mut drawn = all.map(|(name, of)| figure(name, of, !report.without_captions));
     let papers = section.figures.iter().take_while(|figure| figure.of_paper.is_some()).count();
     let first: String = drawn.by_ref().take(papers).collect();
     let further: String = drawn.by_ref().take(section.figures.len() - papers).collect();
@@ -40,7 +42,7 @@ fn parameters(parameters: &[(String, String)], glossary: &[Definition]) -> Strin
 }
 
 /// Drawings are elements of the page, which has their fonts once.
-fn figure((number, figure): (&String, &ReportFigure)) -> String {
+fn figure(number: &str, figure: &ReportFigure, captions: bool) -> String {
     let name = format!("f{}", number.replace('.', "-").replace(['(', ')'], ""));
     let words = Label::parse(&figure.caption).plain();
     let picture = match &figure.picture {
@@ -53,10 +55,17 @@ fn figure((number, figure): (&String, &ReportFigure)) -> String {
             )
         }
     };
+    let below = if captions { below(figure) } else { String::new() };
     format!(
-        "<figure id=\"{name}\">\n{picture}<figcaption><b>Figure {number}.</b> {}</figcaption>\n</figure>\n",
-        inline(&figure.caption)
+        "<figure id=\"{name}\">\n{picture}<figcaption><b>Figure {number}.</b>{below}</figcaption>\n</figure>\n"
     )
+}
+
+/// The words below a figure, and those that the style of the picture leaves to the text around it.
+fn below(figure: &ReportFigure) -> String {
+    let left = figure.left.as_deref().map(str::trim).filter(|left| !left.is_empty());
+    let left = left.map_or_else(String::new, |left| format!("<br>{}", escape(left).replace('\n', "<br>")));
+    format!(" {}{left}", inline(&figure.caption))
 }
 
 fn claim(section: usize, number: usize, claim: &Claim) -> String {

@@ -22,8 +22,13 @@ fn report() -> Report {
         .svg()
         .expect("a figure");
     let bytes = png(&svg, 0.5, &[]).expect("a png");
-    let figure =
-        |picture| ReportFigure { of_paper: None, caption: "a \"quoted\" *x*_1".into(), picture, data: None };
+    let figure = |picture| ReportFigure {
+        of_paper: None,
+        caption: "a \"quoted\" *x*_1".into(),
+        picture,
+        data: None,
+        left: None,
+    };
     let explanation = || "the paper's *a*_1 is rounded".to_owned();
     let first = Section {
         title: "Phase diagram, *κ*_2 > 0".into(),

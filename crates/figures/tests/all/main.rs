@@ -2,6 +2,8 @@
 
 #![allow(clippy::expect_used, reason = "a test may fail")]
 
+mod colours;
+mod drawing;
 #[path = "../../examples/gallery/kinds/mod.rs"]
 mod kinds;
 mod references;

@@ -1,54 +1,99 @@
-//! Text is never too small to read, and nothing is written beside the sheet.
+//! Text is never too small to read, nothing is written over other words or beside the sheet.
 
+use crate::drawing::{Words, sides, words};
 use crate::kinds::kinds;
-use motiform_figures::{Panels, Style, Width, png};
+use motiform_figures::{Medium, Panels, Style, Width, png};
 
-/// Points per unit of a drawing that is as wide as asked: text of 12 units has 8 pt.
-const POINT: f64 = 1.5;
+/// Units of a drawing per point, where it is as wide as asked.
+const ON_PAPER: f64 = 1.4;
+/// The same of a slide, 960 pt wide.
+const ON_SLIDE: f64 = 640.0 / 960.0;
 
-/// Least size of text, and of indices and exponents in it, in points.
+/// Least size of all text, indices and exponents included, in points.
 const TEXT: f64 = 7.0;
-const INDEX: f64 = 5.5;
+
+/// Least size of text on a slide in points, and of indices.
+const SLIDE: [f64; 2] = [18.0, 14.0];
 
 /// Kinds whose sheets may be narrower: both axes of a path have one unit, and its frame a largest height, panels of tracks a largest width.
-const NARROWER: [&str; 2] = ["path-section", "tracks"];
+const NARROWER: [&str; 3] = ["path-section", "tracks", "film-strip"];
 
-/// The numbers of an attribute of all elements of a kind.
-fn numbers(svg: &str, element: &str, attribute: &str) -> Vec<f64> {
-    let (begin, key) = (format!("<{element}"), format!(" {attribute}=\""));
-    let tags = svg.split(&begin).skip(1).filter_map(|rest| rest.split('>').next());
-    let value = |tag: &str| tag.split(&key).nth(1)?.split('"').next()?.parse().ok();
-    tags.filter_map(value).collect()
+/// Words that lie over others or reach beyond the sheet.
+fn faults(svg: &str) -> Vec<String> {
+    let [width, height] = sides(svg);
+    let all = words(svg);
+    let beside = |words: &&Words| {
+        let [left, top, right, bottom] = words.sides;
+        left < -0.5 || top < -0.5 || right > width + 0.5 || bottom > height + 0.5
+    };
+    let mut faults: Vec<String> =
+        all.iter().filter(beside).map(|words| format!("{:?} beside the sheet", words.text)).collect();
+    for (i, one) in all.iter().enumerate() {
+        let over = all[..i].iter().filter(|other| one.overlaps(other));
+        faults.extend(over.map(|other| format!("{:?} over {:?}", one.text, other.text)));
+    }
+    faults
 }
 
-/// Width and height of a sheet in units of its drawing.
-fn sides(svg: &str) -> [f64; 2] {
-    let view = svg.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next()).expect("a view");
-    let (width, height) = view.split_once(' ').expect("sides");
-    [width, height].map(|side| side.parse().expect("a number"))
+/// The least size of text and of its smallest letters, in units.
+fn least(svg: &str) -> [f64; 2] {
+    let all = words(svg);
+    let of = |size: fn(&Words) -> f64| all.iter().map(size).fold(f64::INFINITY, f64::min);
+    [of(|words| words.size), of(|words| words.least)]
 }
 
 #[test]
 fn sheets_are_as_wide_as_asked_and_their_text_can_be_read() {
+    let mut wrong = Vec::new();
     for (name, mut figure) in kinds() {
         for millimetres in [86.0, 120.0, 178.0] {
             let style = Style { width: Some(Width::Millimetres(millimetres)), ..Style::default() };
             let svg = style.draw(figure.as_mut()).expect("a figure").svg;
-            let [width, height] = sides(&svg);
-            let asked = millimetres / 25.4 * 72.0 * POINT;
+            let [width, _] = sides(&svg);
+            let asked = millimetres / 25.4 * 72.0 * ON_PAPER;
             let fits = (width - asked).abs() <= 3.0 || NARROWER.contains(&name) && width < asked;
             assert!(fits, "{name} at {millimetres} mm: {width} units for {asked}");
-            let least = |all: Vec<f64>| all.into_iter().fold(f64::INFINITY, f64::min) * asked / width / POINT;
-            let (text, index) =
-                (least(numbers(&svg, "text", "font-size")), least(numbers(&svg, "tspan", "font-size")));
-            assert!(text >= TEXT && index >= INDEX, "{name}: text of {text:.2} pt, indices of {index:.2} pt");
-            let inside = |axis: &str, side: f64| {
-                let all = numbers(&svg, "text", axis);
-                !all.is_empty() && all.iter().all(|place| (0.0..=side).contains(place))
-            };
-            assert!(inside("x", width) && inside("y", height), "{name}: text beside the sheet");
+            let [_, letters] = least(&svg).map(|size| size * asked / width / ON_PAPER);
+            assert!(letters >= TEXT, "{name} at {millimetres} mm: letters of {letters:.2} pt");
+            let found = faults(&svg);
+            wrong.extend(found.into_iter().map(|fault| format!("{name} at {millimetres} mm: {fault}")));
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn slides_can_be_read_from_afar() {
+    let mut wrong = Vec::new();
+    for (name, mut figure) in kinds() {
+        let style = Style { medium: Some(Medium::Slide), ..Style::default() };
+        let svg = style.draw(figure.as_mut()).expect("a figure").svg;
+        let [width, _] = sides(&svg);
+        let found = least(&svg).map(|size| size * 640.0 / width / ON_SLIDE);
+        assert!(found[0] >= SLIDE[0] && found[1] >= SLIDE[1], "{name}: text of {found:.2?} pt");
+        wrong.extend(faults(&svg).into_iter().map(|fault| format!("{name} on a slide: {fault}")));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The test sees what it looks for: words over others, and words beyond the edge.
+#[test]
+fn moved_words_are_seen() {
+    let mut figure = kinds().swap_remove(0).1;
+    let style = Style { width: Some(Width::Millimetres(86.0)), ..Style::default() };
+    let svg = style.draw(figure.as_mut()).expect("a figure").svg;
+    assert_eq!(faults(&svg), [""; 0]);
+    let first = svg.find("<text x=\"").expect("text") + "<text x=\"".len();
+    let end = first + svg[first..].find('"').expect("an end");
+    let beyond = format!("{}{}{}", &svg[..first], 340.0, &svg[end..]);
+    assert!(faults(&beyond).iter().any(|fault| fault.contains("beside the sheet")));
+    let text = svg.rfind("<text ").expect("text");
+    let twice = svg.replacen(
+        "</svg>",
+        &format!("{}</svg>", svg[text..].split("</text>").next().expect("text").to_owned() + "</text>"),
+        1,
+    );
+    assert!(faults(&twice).iter().any(|fault| fault.contains(" over ")));
 }
 
 #[test]

@@ -41,6 +41,14 @@ pub fn sheet(figure: &dyn Figure) -> Result<Drawn, Error> {
     figure.drawn().map_err(undrawable)
 }
 
+/// Draws a figure in a style, with its data.
+///
+/// # Errors
+/// As [`sheet`], and a width without room for the figure.
+pub fn sheet_in(mut figure: impl Figure, style: &Style) -> Result<Drawn, Error> {
+    style.draw(&mut figure).map_err(undrawable)
+}
+
 /// A file ready to be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
@@ -96,12 +104,15 @@ pub fn dataset_figures(dataset: &Dataset) -> Result<Figures, Error> {
     Ok(if body.rows().len() < 2 { Vec::new() } else { figures(&body) })
 }
 
-/// The still figures of a dataset with their data, by name: the contents of the files of [`draw`]. None with fewer than two rows.
+/// The still figures of a dataset in a style, with their data, by name: the contents of the files of [`draw`]. None with fewer than two rows.
 ///
 /// # Errors
 /// As [`draw`].
-pub fn drawn(dataset: &Dataset) -> Result<Vec<(&'static str, Drawn)>, Error> {
-    dataset_figures(dataset)?.into_iter().map(|(name, figure)| Ok((name, sheet(figure.as_ref())?))).collect()
+pub fn drawn(dataset: &Dataset, style: &Style) -> Result<Vec<(&'static str, Drawn)>, Error> {
+    let draw = |(name, mut figure): (&'static str, Box<dyn Figure>)| {
+        Ok((name, style.draw(figure.as_mut()).map_err(undrawable)?))
+    };
+    dataset_figures(dataset)?.into_iter().map(draw).collect()
 }
 
 /// One still figure of a dataset as SVG: `path` or `series`; `None` for other names, and with fewer than two rows.
@@ -154,13 +165,9 @@ pub fn files<N: std::fmt::Display>(
     let mut pictures = Vec::new();
     for (name, mut figure) in figures {
         let Drawn { svg, data, caption } = format.style.draw(figure.as_mut()).map_err(undrawable)?;
+        pictures.extend(formats(&name, svg, format)?);
         let mut push =
             |ending: &str, bytes| pictures.push(Picture { name: format!("{name}.{ending}"), bytes });
-        let dots = png(&svg, format.style.png_scale(), &[]).map_err(undrawable)?;
-        let page = format.pdf.then(|| motiform_figures::pdf(&svg).map_err(undrawable)).transpose()?;
-        push("svg", svg.into_bytes());
-        push("png", dots);
-        page.into_iter().for_each(|page| push("pdf", page));
         if numbers {
             push("csv", data.into_bytes());
         }
@@ -169,4 +176,20 @@ pub fn files<N: std::fmt::Display>(
         }
     }
     Ok(pictures)
+}
+
+/// The drawing of a figure as files of this name: SVG, PNG, and PDF if requested.
+///
+/// # Errors
+/// [`Error::Figure`]: no SVG of this program.
+pub fn formats(
+    name: &dyn std::fmt::Display,
+    svg: String,
+    format: &FigureFormat,
+) -> Result<Vec<Picture>, Error> {
+    let file = |ending: &str, bytes| Picture { name: format!("{name}.{ending}"), bytes };
+    let dots = file("png", png(&svg, format.style.png_scale(), &[]).map_err(undrawable)?);
+    let page = format.pdf.then(|| motiform_figures::pdf(&svg).map_err(undrawable)).transpose()?;
+    let page = page.map(|page| file("pdf", page));
+    Ok([file("svg", svg.into_bytes()), dots].into_iter().chain(page).collect())
 }

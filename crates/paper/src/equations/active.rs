@@ -10,7 +10,6 @@ use motiform_dynamics::{
 };
 use motiform_figures::report::Claim;
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, Measured};
-use motiform_lab::draw::sheet;
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_study::Error;
 use motiform_study::initial::Uniform;
@@ -176,7 +175,7 @@ pub(super) fn claim_of(context: &Context<'_>) -> Result<(Vec<Claim>, Drawn), Err
     };
     let all = |g: [f64; 2], quartic: f64| context.each(&LENGTHS, |length| one(*length, g, quartic));
     let (free, bounded, active) = (all([1.0, 0.0], 0.0)?, all([1.0, 0.0], 1.0)?, all([0.0, -1.0], 0.0)?);
-    let figure = picture(&bounded, &active)?;
+    let figure = picture(context, &bounded, &active)?;
     Ok((vec![unbounded(&free, &bounded), simple(&bounded, &active)], figure))
 }
 
@@ -226,7 +225,7 @@ fn simple(bounded: &[Ran], active: &[Ran]) -> Claim {
     )
 }
 
-fn picture(bounded: &[Ran], active: &[Ran]) -> Result<Drawn, Error> {
+fn picture(context: &Context<'_>, bounded: &[Ran], active: &[Ran]) -> Result<Drawn, Error> {
     let series = |ran: &Ran, label: String| ErrorBarSeries {
         label,
         points: (0..)
@@ -247,5 +246,5 @@ fn picture(bounded: &[Ran], active: &[Ran]) -> Result<Drawn, Error> {
         series(&bounded[2], format!("*g*_4 = 1 with quartic potential, *L* = {}", bounded[2].length)),
         series(&active[2], format!("*g*_5 = -1, *L* = {}", active[2].length)),
     ]);
-    sheet(&figure)
+    context.sheet(figure)
 }

@@ -10,7 +10,6 @@ use motiform_dynamics::{
 };
 use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
-use motiform_lab::draw::sheet;
 use motiform_models::tensor::reduced::Reduced;
 use motiform_models::tensor::{Tensor, TensorParameters};
 use motiform_study::Error;
@@ -124,7 +123,7 @@ impl Rests {
         Line { slope, height: y0 - theory * x0 }
     }
 
-    pub(super) fn figure(&self) -> Result<ReportFigure, Error> {
+    pub(super) fn figure(&self, context: &Context<'_>) -> Result<ReportFigure, Error> {
         let theory = -1.0 / rates()[0];
         let height = self.line(theory).height;
         let point = |run: &NoisyRun| Measured { x: run.eta, y: run.mean.value, error: run.mean.error };
@@ -151,7 +150,7 @@ impl Rests {
             }]);
         let caption = "Mean rest of rectangular motion against the amplitude of explicit noise, with the slope −1/*λ*_+ that the \
                        saddle's growth rate gives.";
-        Ok(ReportFigure::new(sheet(&figure)?, caption))
+        Ok(ReportFigure::new(context.sheet(figure)?, caption))
     }
 
     pub(super) fn claims(&self) -> [Claim; 2] {

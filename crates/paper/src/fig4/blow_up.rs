@@ -14,7 +14,6 @@ use super::{at, figure, power};
 use motiform_dynamics::Outcome;
 use motiform_figures::report::{ReportFigure, Section};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
-use motiform_lab::draw::sheet;
 use motiform_study::{Error, Study};
 
 /// The point that is examined.
@@ -42,7 +41,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     };
     let approach = context.kept.once("approach of the singularity", || follow(context, &start))?;
     let law = law(&start)?;
-    section.figures.push(picture(&approach, law)?);
+    section.figures.push(picture(context, &approach, law)?);
     let (adaptive, fixed) = (times(context, &start, &ADAPTIVE)?, times(context, &start, &FIXED)?);
     let (spread, list) = compare(&adaptive, &approach);
     let (coefficient, ratio) = (context.number(approach.coefficient()), context.number(approach.ratio()));
@@ -191,7 +190,7 @@ fn bounded(context: &Context<'_>, start: &Study) -> Result<motiform_figures::rep
 }
 
 /// The sizes of the modes against the time that is left.
-fn picture(approach: &Approach, c: f64) -> Result<ReportFigure, Error> {
+fn picture(context: &Context<'_>, approach: &Approach, c: f64) -> Result<ReportFigure, Error> {
     let series = ["|z_1|", "|z_2|", "|z_3|"].iter().enumerate().map(|(index, label)| ErrorBarSeries {
         label: (*label).to_owned(),
         points: approach.sizes(index).map(|(s, size)| Measured { x: s, y: size, error: 0.0 }).collect(),
@@ -221,7 +220,7 @@ fn picture(approach: &Approach, c: f64) -> Result<ReportFigure, Error> {
             line(format!("{z2:.2}/{s}^2"), LineStyle::Dashed, 2.0, z2),
             line(format!("{z3:.2}/{s}^2"), LineStyle::Dotted, 2.0, z3),
         ]).with(series);
-    let svg = sheet(&svg)?;
+    let svg = context.sheet(svg)?;
     Ok(figure(
         svg,
         "**The region × of Fig. 4(a).** On the way to t\\* all three modes follow the power laws of a singularity.",

@@ -6,7 +6,6 @@ use super::{at, figure, power};
 use motiform_analysis::Stay;
 use motiform_figures::report::Section;
 use motiform_figures::{Chart, Drawn, ExpectedLine, LineStyle, SurvivalCurve, SurvivalStep};
-use motiform_lab::draw::sheet;
 use motiform_lab::saddle::Saddle;
 use motiform_study::Error;
 
@@ -23,7 +22,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
         found.push((*kappa2, one));
     }
     section.figures.push(figure(
-        picture(&found, runs)?,
+        picture(context, &found, runs)?,
         "**How long chaos lasts.** Every run is chaotic until it escapes; the share that is left decays at a constant rate, \
          whose inverse is the mean stay.",
     ));
@@ -31,7 +30,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     Ok(())
 }
 
-fn picture(found: &[(f64, Saddle)], runs: usize) -> Result<Drawn, Error> {
+fn picture(context: &Context<'_>, found: &[(f64, Saddle)], runs: usize) -> Result<Drawn, Error> {
     let step = |s: &motiform_analysis::SurvivalStep| SurvivalStep {
         t: s.time,
         share: s.share,
@@ -59,7 +58,7 @@ fn picture(found: &[(f64, Saddle)], runs: usize) -> Result<Drawn, Error> {
         y_label: "share not escaped".to_owned(),
         ..Chart::survival(found.iter().map(curve))
     }.with(found.iter().zip(styles).filter_map(law));
-    sheet(&figure)
+    context.sheet(figure)
 }
 
 /// The share that has not escaped at `t`.

@@ -6,7 +6,6 @@ use super::{at, figure, power};
 use motiform_analysis::Estimate;
 use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
-use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
 /// Values of kappa2.
@@ -56,7 +55,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
             saddles.extend(left(context, *kappa2)?);
         }
     }
-    section.figures.push(picture(&runs, &saddles, span)?.of_paper("4(b)"));
+    section.figures.push(picture(context, &runs, &saddles, span)?.of_paper("4(b)"));
     section.claims.extend([chaos_ends(&runs, &saddles), chaos_again(&runs), known(&runs, &saddles)]);
     section.claims.extend([instability(&saddles), neutral(&runs)]);
     Ok(())
@@ -77,6 +76,7 @@ fn left(context: &Context<'_>, kappa2: f64) -> Result<Option<Left>, Error> {
 }
 
 fn picture(
+    context: &Context<'_>,
     runs: &[Run],
     saddles: &[Left],
     span: f64,
@@ -107,7 +107,7 @@ fn picture(
         points: edge,
     }])
     .with(series);
-    let svg = sheet(&svg)?;
+    let svg = context.sheet(svg)?;
     Ok(figure(svg, "**Fig. 4(b), computed**, with the values that the paper could not get."))
 }
 

@@ -9,7 +9,7 @@ use motiform_analysis::Regime;
 use motiform_dynamics::order::ascending;
 use motiform_figures::PhaseDiagram;
 use motiform_figures::report::{Claim, Section};
-use motiform_lab::draw::{phase_diagram, sheet};
+use motiform_lab::draw::phase_diagram;
 use motiform_lab::scan::Axis;
 use motiform_study::Error;
 
@@ -92,7 +92,7 @@ fn scan(
         lines: curves.lines(),
         ..phase_diagram(&plan, &cells)?
     };
-    let drawn = figure(sheet(&svg)?, words);
+    let drawn = figure(context.sheet(svg)?, words);
     section.figures.push(if name == "fig4" { drawn.of_paper("4(a)") } else { drawn });
     Ok(places(&plan, &cells))
 }

@@ -7,7 +7,6 @@ use super::chaos;
 use motiform_analysis::Estimate;
 use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
-use motiform_lab::draw::sheet;
 use motiform_study::{Dataset, Error, Study};
 
 /// Size of the difference at the start.
@@ -30,7 +29,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let lambda = chaos::measure(context, &study)?.exponents.first().copied();
     let Some(lambda) = lambda else { return Ok(()) };
     section.figures.push(figure(
-        picture(&all, lambda)?,
+        picture(context, &all, lambda)?,
         "**Sensitive dependence.** The mean of the logarithm grows at the rate λ_1 until the difference is as large as the motion.",
     ));
     section.claims.push(rate(&all, lambda));
@@ -115,7 +114,7 @@ fn rate(all: &[Vec<f64>], lambda: Estimate) -> Claim {
     )
 }
 
-fn picture(all: &[Vec<f64>], lambda: Estimate) -> Result<Drawn, Error> {
+fn picture(context: &Context<'_>, all: &[Vec<f64>], lambda: Estimate) -> Result<Drawn, Error> {
     let rows = all.iter().map(Vec::len).max().unwrap_or(0);
     let point = |row: usize| {
         let found = mean(&logarithms(all, row));
@@ -138,5 +137,5 @@ fn picture(all: &[Vec<f64>], lambda: Estimate) -> Result<Drawn, Error> {
         points: vec![line(0.0), line(200.0)],
     }])
     .with([ErrorBarSeries { label: "distance of the shapes".to_owned(), points, joined: false }]);
-    sheet(&figure)
+    context.sheet(figure)
 }

@@ -7,7 +7,6 @@ use motiform_analysis::{Spectrum, welch, zero_one};
 use motiform_figures::palette::CATEGORIES;
 use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Chart, Drawn, SpectrumCurve};
-use motiform_lab::draw::sheet;
 use motiform_study::{Dataset, Error};
 
 /// Time between samples: the fastest oscillation has a period of some ten time units.
@@ -23,7 +22,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let length = context.choose(40_000.0, 8192.0);
     let (a, b) = (run(context, "fig5a", length)?, run(context, "fig5b", length)?);
     let (zigzag, chaos) = (spectrum(&a)?, spectrum(&b)?);
-    section.figures.push(figure(picture(&zigzag, &chaos)?, CAPTION));
+    section.figures.push(figure(picture(context, &zigzag, &chaos)?, CAPTION));
     section.claims.push(lines(&zigzag, &chaos));
     section.claims.push(test(context, &a, &b)?);
     Ok(())
@@ -48,7 +47,7 @@ fn spectrum(dataset: &Dataset) -> Result<Spectrum, Error> {
     Ok(welch(speed(dataset), DT, SEGMENT)?)
 }
 
-fn picture(zigzag: &Spectrum, chaos: &Spectrum) -> Result<Drawn, Error> {
+fn picture(context: &Context<'_>, zigzag: &Spectrum, chaos: &Spectrum) -> Result<Drawn, Error> {
     let curve = |index: usize, label: &str, spectrum: &Spectrum| SpectrumCurve {
         label: label.to_owned(),
         colour: CATEGORIES[index],
@@ -65,7 +64,7 @@ fn picture(zigzag: &Spectrum, chaos: &Spectrum) -> Result<Drawn, Error> {
         y_label: "power spectral density of the speed".to_owned(),
         ..Chart::spectra(zigzag.frequencies.clone(), curves)
     };
-    sheet(&figure)
+    context.sheet(figure)
 }
 
 /// The share of the frequencies that is needed to hold 99 % of the power.

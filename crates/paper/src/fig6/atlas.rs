@@ -6,7 +6,6 @@ use super::lengths::study;
 use motiform_diagrams::draw::{Ordinate, branch_diagram};
 use motiform_diagrams::{Branches, SpecialEntry, stretches};
 use motiform_figures::report::{Claim, ReportFigure};
-use motiform_lab::draw::sheet;
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
 use motiform_study::{Error, Stride, Towards};
 use std::sync::Arc;
@@ -59,7 +58,7 @@ impl Atlas {
     }
 
     /// The diagrams.
-    pub(super) fn figures(&self) -> Result<Vec<ReportFigure>, Error> {
+    pub(super) fn figures(&self, context: &Context<'_>) -> Result<Vec<ReportFigure>, Error> {
         let words = [
             (
                 Ordinate::Speed,
@@ -69,7 +68,7 @@ impl Atlas {
             (Ordinate::Size, "The same branches: size of the shape, which is 0 for the circle."),
         ];
         let figure = |(ordinate, caption)| {
-            let drawn = sheet(&branch_diagram(&self.plan, &self.found, ordinate)?)?;
+            let drawn = context.sheet(branch_diagram(&self.plan, &self.found, ordinate)?)?;
             Ok(ReportFigure::new(drawn, caption))
         };
         words.into_iter().map(figure).collect()

@@ -6,7 +6,6 @@ use super::onset::{Onsets, WINDOWS};
 use motiform_dynamics::VectorField as _;
 use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
-use motiform_lab::draw::sheet;
 use motiform_models::cell::{CellField, CellParameters};
 use motiform_study::Error;
 
@@ -90,7 +89,7 @@ pub(super) fn claim(context: &Context<'_>, onsets: &Onsets) -> Claim {
 }
 
 /// The neutral curves, their crossings and the windows.
-pub(super) fn figure() -> Result<ReportFigure, Error> {
+pub(super) fn figure(context: &Context<'_>) -> Result<ReportFigure, Error> {
     let curve = |n: usize| {
         let first = std::f64::consts::TAU * n as f64;
         let point = |i: u32| {
@@ -125,5 +124,5 @@ pub(super) fn figure() -> Result<ReportFigure, Error> {
             },
         ]);
     let caption = "Neutral curves of the modes of the circle, with the damping *g*_1 of long waves as a second parameter.";
-    Ok(ReportFigure::new(sheet(&figure)?, caption))
+    Ok(ReportFigure::new(context.sheet(figure)?, caption))
 }

@@ -4,7 +4,6 @@ use super::super::context::Context;
 use super::lengths::{modes_for, study};
 use motiform_analysis::Estimate;
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, Measured};
-use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
 /// Hundredths of the lengths.
@@ -35,7 +34,7 @@ impl Exponents {
         self.found.iter().find(|entry| (entry.0 - length).abs() < 1e-9).map(|entry| entry.1)
     }
 
-    pub(super) fn drawn(&self) -> Result<Drawn, Error> {
+    pub(super) fn drawn(&self, context: &Context<'_>) -> Result<Drawn, Error> {
         let point = |(x, e): &(f64, Estimate)| Measured { x: *x, y: e.value, error: e.error };
         let figure = Chart {
             caption: vec![format!(
@@ -52,6 +51,6 @@ impl Exponents {
             points: self.found.iter().map(point).collect(),
             joined: false,
         }]);
-        sheet(&figure)
+        context.sheet(figure)
     }
 }

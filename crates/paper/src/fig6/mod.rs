@@ -65,7 +65,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     claims.push(scheme::claim_of(context, &tracks)?);
     claims.extend(atlas.claims(context));
     let mut figures = pictures::all(context, &lengths, &exponents, &tracks)?;
-    figures.extend(context.drawn(&|| atlas.figures())?);
+    figures.extend(context.drawn(&|| atlas.figures(context))?);
     Ok(Section {
         title: "Fig. 6: the active cell".to_owned(),
         about: ABOUT.to_owned(),

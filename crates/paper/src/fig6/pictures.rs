@@ -8,7 +8,6 @@ use super::tracks::Track;
 use motiform_analysis::Regime;
 use motiform_figures::report::ReportFigure;
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
-use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
 /// The paper's windows.
@@ -39,34 +38,41 @@ pub(super) fn all(
     for (track, letter) in tracks.iter().zip(LETTERS) {
         figures.extend(track.figures(context, letter)?);
     }
-    figures.extend(context.drawn(&|| over_lengths(lengths, exponents))?);
+    figures.extend(context.drawn(&|| over_lengths(context, lengths, exponents))?);
     Ok(figures)
 }
 
 /// The figures over the length.
-fn over_lengths(lengths: &Lengths, exponents: &Exponents) -> Result<Vec<ReportFigure>, Error> {
+fn over_lengths(
+    context: &Context<'_>,
+    lengths: &Lengths,
+    exponents: &Exponents,
+) -> Result<Vec<ReportFigure>, Error> {
     Ok(vec![
         ReportFigure::new(
-            windows(lengths)?,
+            windows(context, lengths)?,
             "Which motion random starts lead to, over the length. Brackets: the paper's windows.",
         ),
-        ReportFigure::new(speeds(lengths)?, "Mean speed over the length (motionless shapes are left out)."),
-        ReportFigure::new(exponents.drawn()?, "Largest Lyapunov exponent in *W*_2."),
-        super::codimension::figure()?,
+        ReportFigure::new(
+            speeds(context, lengths)?,
+            "Mean speed over the length (motionless shapes are left out).",
+        ),
+        ReportFigure::new(exponents.drawn(context)?, "Largest Lyapunov exponent in *W*_2."),
+        super::codimension::figure(context)?,
     ])
 }
 
-fn windows(lengths: &Lengths) -> Result<Drawn, Error> {
+fn windows(context: &Context<'_>, lengths: &Lengths) -> Result<Drawn, Error> {
     let bracket = |(n, (from, to, style)): (usize, (f64, f64, LineStyle))| ExpectedLine {
         label: format!("*W*_{} of the paper: {from:.1} to {to:.1}", n + 1),
         style,
         points: vec![[from, 0.0], [from, 0.97], [to, 0.97], [to, 0.0]],
     };
     let lines = WINDOWS.into_iter().enumerate().map(bracket).collect();
-    strip("length *L*", &lengths.0, lines, Vec::new())
+    strip(context, "length *L*", &lengths.0, lines, Vec::new())
 }
 
-fn speeds(lengths: &Lengths) -> Result<Drawn, Error> {
+fn speeds(context: &Context<'_>, lengths: &Lengths) -> Result<Drawn, Error> {
     let series = |regime: Regime| {
         let point = |(length, summary): &(f64, motiform_lab::scan::CellSummary)| {
             let motion = summary.motions.iter().find(|motion| motion.regime == regime)?;
@@ -82,5 +88,5 @@ fn speeds(lengths: &Lengths) -> Result<Drawn, Error> {
         ..Chart::default()
     }
     .with(MOVING.into_iter().map(series).filter(|series| !series.points.is_empty()));
-    sheet(&figure)
+    context.sheet(figure)
 }

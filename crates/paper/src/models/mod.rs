@@ -26,7 +26,7 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         title: "Both models".to_owned(),
         about: ABOUT.to_owned(),
         parameters: correspondence::parameters(),
-        figures: context.drawn(&|| Ok(vec![zigzags.figure()?]))?,
+        figures: context.drawn(&|| Ok(vec![zigzags.figure(context)?]))?,
         claims,
         ..Section::default()
     })

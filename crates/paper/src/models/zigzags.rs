@@ -7,7 +7,6 @@ use motiform_analysis::{Regime, Verdict};
 use motiform_dynamics::order::ascending;
 use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, Measured};
-use motiform_lab::draw::sheet;
 use motiform_study::Error;
 
 /// Modes that are looked at.
@@ -76,7 +75,7 @@ impl Zigzags {
     }
 
     /// Mean amplitudes over the mode number.
-    pub(super) fn figure(&self) -> Result<ReportFigure, Error> {
+    pub(super) fn figure(&self, context: &Context<'_>) -> Result<ReportFigure, Error> {
         let series = |track: &Track| ErrorBarSeries {
             label: format!("*L* = {}", track.parameter("length")),
             points: (1..)
@@ -91,7 +90,7 @@ impl Zigzags {
         let caption = "Which modes of the boundary carry the zigzags of the active cell: time average of \
             |*φ_n*|. Mode 1 is no deformation of its own: it follows from the others where the boundary is \
             nearly closed.";
-        Ok(ReportFigure::new(sheet(&figure)?, caption))
+        Ok(ReportFigure::new(context.sheet(figure)?, caption))
     }
 }
 

@@ -4,14 +4,19 @@
 
 use crate::paper;
 
+use motiform_figures::Style;
 use motiform_figures::report::Verdict;
 use motiform_paper::Options;
 
 #[test]
 fn no_claim_of_simulations_one_fails() {
     let folder = tempfile::tempdir().unwrap();
-    let options =
-        Options { figures: ["fig1", "fig2", "fig3"].map(str::to_owned).to_vec(), quick: true, threads: 2 };
+    let options = Options {
+        figures: ["fig1", "fig2", "fig3"].map(str::to_owned).to_vec(),
+        quick: true,
+        threads: 2,
+        style: Style::default(),
+    };
     let report = paper::reproduced(&options, folder.path());
     assert_eq!(report.sections.len(), 3);
     for section in &report.sections {

@@ -4,13 +4,19 @@
 
 use crate::paper;
 
+use motiform_figures::Style;
 use motiform_figures::report::Verdict;
 use motiform_paper::Options;
 
 #[test]
 fn no_claim_about_figures_4_and_5_fails() {
     let folder = tempfile::tempdir().unwrap();
-    let options = Options { figures: vec!["fig4".into(), "fig5".into()], quick: true, threads: 2 };
+    let options = Options {
+        figures: vec!["fig4".into(), "fig5".into()],
+        quick: true,
+        threads: 2,
+        style: Style::default(),
+    };
     let report = paper::reproduced(&options, folder.path());
     paper::check(&report, &["fig4", "fig5"]);
     for section in &report.sections {

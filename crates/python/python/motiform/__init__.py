@@ -6,7 +6,7 @@
 >>> body.classify().regime
 >>> motiform.scan(motiform.preset("fig1"), {"kappa2": "-0.2:0.2:40", "gamma": "-0.1:0.1:40"})
 
-All quantities are in model units of time and length; parameters have the paper's names.
+All quantities are in model units of time and length, unless ``units`` are asked for (docs/units.md); parameters have the paper's names.
 """
 
 from . import cells
@@ -26,6 +26,7 @@ from .reading import chunks, read
 from .results import Accuracy, Crossings, Equilibrium, Estimate, Exponents, Motions, Outcome, Share, Spread, Verdict
 from .scans import merge, scan
 from .trajectory import Trajectory
+from .units import Units
 from .verification import Verification, verify
 
 __all__ = [
@@ -63,6 +64,7 @@ __all__ = [
     "Statistics",
     "Tensor",
     "Trajectory",
+    "Units",
     "Verdict",
     "Verification",
     "WorkersLost",

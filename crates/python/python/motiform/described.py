@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import _motiform
 from ._registry import MODELS, RUN_SETTINGS, ModelInfo, info_of
+from .units import Units, units_of
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
 D = TypeVar("D", bound="Described")
 
-_SETTINGS = frozenset({"random", *RUN_SETTINGS})
+_SETTINGS = frozenset({"random", "units", *RUN_SETTINGS})
 
 
 class Described:
@@ -65,6 +66,12 @@ class Described:
         return settings
 
     @property
+    def units(self) -> Units | None:
+        """What a unit of length and one of time are (``[figure] units`` of a study, or ``replace(units="20um,1min")``); ``None`` if
+        nothing is said."""
+        return units_of(self._study.units)
+
+    @property
     def coordinates(self) -> list[str]:
         """Names of the shape's coordinates."""
         return [name for name, _ in self._study.coordinates()]
@@ -77,7 +84,7 @@ class Described:
         raise AttributeError(f"{type(self).__name__} has no attribute or parameter {name!r}")
 
     def replace(self, *, initial: Mapping[str, float] | None = None, **changes: Any) -> Self:
-        """A copy with other parameters, run settings (``t_end``, ``rtol``, ``seed``, ...) or initial values."""
+        """A copy with other parameters, run settings (``t_end``, ``rtol``, ``seed``, ...), initial values or ``units`` (``"20um,1min"``)."""
         settings = {name: changes.pop(name) for name in list(changes) if name in _SETTINGS}
         return self._of(self._study.with_(changes, dict(initial or {}), settings))
 

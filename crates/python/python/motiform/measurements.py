@@ -8,12 +8,13 @@ import json
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from . import _motiform, plotting
+from .units import DIFFUSION, LENGTH, RATE, SPEED, TIME, Asked, Dimension, Units, chosen, converted, factor
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -81,7 +82,11 @@ class Statistics:
     first_passage: pd.DataFrame
     """``radius``, ``mean``, ``lower``, ``upper``, ``restricted``, ``limit``, ``censored``, ``starts``."""
     summary: Mapping[str, Any]
-    """Everything that is not a curve, as ``motiform statistics --json`` prints it."""
+    """Everything that is not a curve, as ``motiform statistics --json`` prints it: in model units."""
+    units: Units | None = None
+    """What a unit of length and one of time are, if the study says it."""
+    in_model_units: bool = True
+    """Whether numbers and tables are in model units: false of what :meth:`in_units` returns."""
 
     def to_xarray(self) -> xr.Dataset:
         """Displacements along ``lag``, and the correlations of each quantity along ``time_lag``."""
@@ -91,12 +96,48 @@ class Statistics:
         table = table.rename_axis(index="time_lag").stack().rename("correlation")
         return displacements.merge(table.to_frame().to_xarray())
 
-    def plot(self, what: str = "msd", ax: Axes | None = None) -> Axes:
-        """One of ``msd``, ``exponent``, ``autocorrelations``, ``speed``, ``turning_angle``, ``spectra``, ``first_passage``."""
-        return plotting.plot_statistics(self, what, ax)
+    def in_units(self, units: Asked = True) -> Statistics:
+        """A copy with numbers and tables in the units of the study, or in others (``"20um,1min"``). `summary` and the powers of spectra,
+        which are of several quantities, stay in model units."""
+        if not self.in_model_units:
+            raise ValueError(f"the statistics are in {self.units} already")
+        shown = chosen(units, self.units)
+        made = converted(self, shown, _DIMENSIONS)
+        tables: dict[str, Any] = {name: _table_in(getattr(self, name), shown, columns) for name, columns in _COLUMNS.items()}
+        rows = self.distributions["quantity"] == "speed"
+        tables["distributions"].loc[rows, ["from", "to"]] *= factor(shown, SPEED)
+        tables["distributions"].loc[rows, ["density", "lower", "upper"]] /= factor(shown, SPEED)
+        return replace(made, **tables, units=shown, in_model_units=shown is None)
+
+    def plot(self, what: str = "msd", ax: Axes | None = None, *, units: Asked = None) -> Axes:
+        """One of ``msd``, ``exponent``, ``autocorrelations``, ``speed``, ``turning_angle``, ``spectra``, ``first_passage``, in the units of
+        the study, or in those that are given."""
+        if not self.in_model_units:
+            raise ValueError("plot the statistics from which these were converted, with units")
+        shown = self.units if units is None else chosen(units, self.units)
+        return plotting.plot_statistics(self, what, ax, shown)
 
     def __repr__(self) -> str:
         return f"<statistics of {self.bodies} bodies: persistence time {self.persistence}, diffusion {self.diffusion}>"
+
+
+_DIMENSIONS: dict[str, Dimension] = {
+    "mean_speed": SPEED, "persistence": TIME, "walk_speed": SPEED, "diffusion": DIFFUSION, "late_diffusion": DIFFUSION,
+    "green_kubo": DIFFUSION, "correlation_times": TIME,
+}  # fmt: skip
+_SQUARE: Dimension = (2, 0)
+_COLUMNS: dict[str, dict[str, Dimension]] = {
+    "msd": {"lag": TIME, "msd": _SQUARE, "lower": _SQUARE, "upper": _SQUARE, "fit": _SQUARE},
+    "autocorrelations": {"lag": TIME},
+    "distributions": {"lag": TIME},
+    "spectra": {"frequency": RATE},
+    "first_passage": {"radius": LENGTH, **dict.fromkeys(("mean", "lower", "upper", "restricted", "limit"), TIME)},
+}
+
+
+def _table_in(table: pd.DataFrame, units: Units | None, columns: Mapping[str, Dimension]) -> pd.DataFrame:
+    """A copy with these columns in other units."""
+    return table.assign(**{name: table[name] * factor(units, dimension) for name, dimension in columns.items()})
 
 
 def statistics(
@@ -139,7 +180,7 @@ def _measured(entry: Mapping[str, Any]) -> Measured:
     return Measured(entry["value"], entry.get("lower", math.nan), entry.get("upper", math.nan))
 
 
-def statistics_from(text: str, tables: Sequence[tuple[str, bytes]]) -> Statistics:
+def statistics_from(text: str, tables: Sequence[tuple[str, bytes]], units: Units | None = None) -> Statistics:
     """The statistics of the native module's JSON and CSV."""
     raw = json.loads(text)
     walk = raw["persistent_walk"]
@@ -161,4 +202,5 @@ def statistics_from(text: str, tables: Sequence[tuple[str, bytes]]) -> Statistic
         frames["spectra"],
         frames["first_passage"],
         raw,
+        units,
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -29,6 +30,7 @@ from .results import (
     motions_of,
     outcome_of,
     verdict_of,
+    with_units,
 )
 from .trajectory import Floats, Trajectory, crossing_frame
 
@@ -128,7 +130,8 @@ class Model(Described):
         study = with_given(self._study, initial, {"random": random, "perturb": perturb, "seed": seed})
         remark(study)
         with Bar(progress, budget or self.info.budget, "model time") as bar:
-            return verdict_of(json.loads(_motiform.classify(study, budget, bar.callable())))
+            verdict = verdict_of(json.loads(_motiform.classify(study, budget, bar.callable())))
+        return with_units(verdict, self.units)
 
     def motions(
         self,
@@ -152,7 +155,8 @@ class Model(Described):
         remark(study)
         with Bar(progress, 100.0, "%") as bar:
             count = threads or os.cpu_count() or 1
-            return motions_of(json.loads(_motiform.motions(study, samples, budget, count, bar.callable())))
+            found = motions_of(json.loads(_motiform.motions(study, samples, budget, count, bar.callable())))
+        return replace(found, verdicts=tuple(with_units(verdict, self.units) for verdict in found.verdicts))
 
     def lyapunov(
         self,
@@ -177,7 +181,7 @@ class Model(Described):
             raw = json.loads(_motiform.lyapunov(study, count, transient, t_end, bar.callable()))
         if not raw["complete"]:
             ended_early(raw["ended"], on_end)
-        return exponents_of(raw)
+        return with_units(exponents_of(raw), self.units)
 
     def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:
         """The steady motions (at rest, straight, circular) that Newton's method finds from the circle and from random
@@ -188,7 +192,7 @@ class Model(Described):
         study = with_given(self._study, None, {"seed": seed})
         with Bar(progress, starts, "starts") as bar:
             raw = json.loads(_motiform.equilibria(study, starts, bar.callable()))
-        return [equilibrium_of(entry) for entry in raw]
+        return [with_units(equilibrium_of(entry), self.units) for entry in raw]
 
     def branches(
         self,
@@ -285,7 +289,7 @@ class Model(Described):
         counts = (bodies, threads or os.cpu_count() or 1)
         with Bar(progress, bodies, "bodies") as bar:
             text, tables, raised = _motiform.statistics(study, counts, asked(radii, threshold), bar.callable())
-        result = statistics_from(text, tables)
+        result = statistics_from(text, tables, self.units)
         if raised is not None:
             raise raised_with(raised, result)
         return result

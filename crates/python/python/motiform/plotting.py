@@ -15,6 +15,8 @@ from matplotlib.patches import Patch, Polygon
 from matplotlib.path import Path
 
 from ._registry import REGIMES, Regime
+from .units import LENGTH, RATE, SPEED, TIME, Dimension, Units, factor, label
+from .units import name as unit_name
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
     from .measurements import Statistics
     from .trajectory import Trajectory
 
-TIME = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.0, 0.9, 256)), name="time")
+TIME_COLOURS = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.0, 0.9, 256)), name="time")
 """Without the brightest colours, which are hard to see on white paper."""
 _ZIGZAG = Path([(-1.0, -0.5), (-0.5, 0.5), (0.0, -0.5), (0.5, 0.5), (1.0, -0.5)])
 _MARKERS: dict[str, Any] = {
@@ -43,24 +45,25 @@ def regime_mark(regime: Regime, size: float = 7.0) -> Line2D:
     )  # fmt: skip
 
 
-def plot_path(run: Trajectory, ax: Axes | None, outlines: int) -> Axes:
+def plot_path(run: Trajectory, ax: Axes | None, outlines: int, units: Units | None) -> Axes:
     """The path coloured by time, with outlines of the body at equal distances along it."""
     ax = plt.subplots(layout="constrained")[1] if ax is None else ax
-    path = run.position
+    size, rate = factor(units, LENGTH), factor(units, TIME)
+    path = size * run.position
     segments = np.stack((path[:-1], path[1:]), axis=1)
-    line = LineCollection(list(segments), cmap=TIME, array=run.t[:-1], linewidths=1.2, zorder=2)
+    line = LineCollection(list(segments), cmap=TIME_COLOURS, array=rate * run.t[:-1], linewidths=1.2, zorder=2)
     ax.add_collection(line)
     scale = drawn_scale(run)
     for row in _rows_along(path, outlines):
         curve = run.outline(float(run.t[row]), scale=scale)
         if curve is not None:
-            colour = line.to_rgba(run.t[row])
-            ax.add_patch(Polygon(curve, closed=True, facecolor=(*colour[:3], 0.15), edgecolor=colour, zorder=3))
+            colour = line.to_rgba(rate * run.t[row])
+            ax.add_patch(Polygon(size * curve, closed=True, facecolor=(*colour[:3], 0.15), edgecolor=colour, zorder=3))
     ax.autoscale_view()
     ax.set_aspect("equal", adjustable="datalim")
     ax.locator_params(axis="x", nbins=6)
-    ax.set(xlabel="$x$ (model length)", ylabel="$y$ (model length)")
-    ax.figure.colorbar(line, ax=ax, label="$t$ (model time)")
+    ax.set(xlabel=label("$x$", units, LENGTH), ylabel=label("$y$", units, LENGTH))
+    ax.figure.colorbar(line, ax=ax, label=label("$t$", units, TIME))
     if scale != 1.0:
         ax.set_title(f"body drawn {scale:g} times its size", fontsize="small", loc="right")
     return ax
@@ -90,19 +93,21 @@ def _rows_along(path: Any, count: int) -> list[int]:
     return sorted({min(int(place), len(path) - 1) for place in places})
 
 
-def animate(run: Trajectory, frames: int, interval: float) -> FuncAnimation:
+def animate(run: Trajectory, frames: int, interval: float, units: Units | None) -> FuncAnimation:
     """The moving body, with its trail; the view is fixed and shows the whole path."""
     if frames < 1 or len(run) == 0:
         raise ValueError(f"frames = {frames} of {len(run)} rows: give at least 1 of at least 1")
     figure, ax = plt.subplots(layout="constrained")
-    scale, path = drawn_scale(run), run.position
+    size = factor(units, LENGTH)
+    scale, path = drawn_scale(run), size * run.position
     rows = np.unique(np.linspace(0, len(run) - 1, frames).astype(int))
     (trail,) = ax.plot([], [], color="0.6", linewidth=1.0)
     body = Polygon(np.zeros((3, 2)), closed=True, facecolor="#0072b233", edgecolor="#0072b2")
     ax.add_patch(body)
-    margin = 1.5 * scale * run.radius
+    margin = 1.5 * scale * size * run.radius
     low, high = path.min(axis=0) - margin, path.max(axis=0) + margin
-    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel="$x$ (model length)", ylabel="$y$ (model length)")
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    ax.set(xlabel=label("$x$", units, LENGTH), ylabel=label("$y$", units, LENGTH))
     ax.set_aspect("equal", adjustable="box")
     ax.locator_params(axis="x", nbins=4)
     clock = ax.set_title("")
@@ -111,9 +116,10 @@ def animate(run: Trajectory, frames: int, interval: float) -> FuncAnimation:
         curve = run.outline(float(run.t[row]), scale=scale)
         body.set_visible(curve is not None)
         if curve is not None:
-            body.set_xy(curve)
+            body.set_xy(size * curve)
         trail.set_data(path[: row + 1, 0], path[: row + 1, 1])
-        clock.set_text(f"$t$ = {run.t[row]:.1f} (model time)")
+        unit = "(model time)" if units is None else unit_name(units, TIME)
+        clock.set_text(f"$t$ = {factor(units, TIME) * run.t[row]:.1f} {unit}")
         return [body, trail, clock]
 
     film = FuncAnimation(figure, show, frames=[int(row) for row in rows], interval=interval)
@@ -219,62 +225,79 @@ _STATISTICS: dict[str, tuple[str, str, str]] = {
 }  # fmt: skip
 
 
-_UNITS = {
-    "lag": "lag (model time)", "msd": "mean-square displacement (model length$^2$)", "exponent": "d ln MSD / d ln lag",
-    "correlation": "$C$(lag)/$C$(0)", "frequency": "frequency (cycles per model time)",
-    "power": "power spectral density (unit$^2$ × time)", "radius": "radius (model length)",
-    "mean": "mean first-passage time (model time)", "speed": "speed (model length per model time)",
-    "turning_angle": "turning angle (rad)",
+_AXES: dict[str, tuple[str, Dimension]] = {
+    "lag": ("lag", TIME), "msd": ("mean-square displacement", (2, 0)), "exponent": ("d ln MSD / d ln lag", (0, 0)),
+    "correlation": ("$C$(lag)/$C$(0)", (0, 0)), "radius": ("radius", LENGTH),
+    "mean": ("mean first-passage time", TIME), "speed": ("speed", SPEED),
 }  # fmt: skip
 
 
-def plot_statistics(found: Statistics, what: str, ax: Axes | None) -> Axes:
+def _axis(name: str, units: Units | None) -> tuple[str, float]:
+    """The label of an axis and the factor of its numbers. What has no single unit stays in model units."""
+    if name == "power":
+        return "power spectral density (unit$^2$ × time)", 1.0
+    if name == "frequency":
+        return f"frequency (cycles per {unit_name(units, TIME)})", factor(units, RATE)
+    if name == "turning_angle":
+        return "turning angle (rad)", 1.0
+    words, dimension = _AXES[name]
+    return label(words, units, dimension), factor(units, dimension)
+
+
+def plot_statistics(found: Statistics, what: str, ax: Axes | None, units: Units | None) -> Axes:
     """A curve per quantity with its 95 % band; displacements with the fitted walk."""
     if what not in _STATISTICS:
         raise ValueError(f"what = {what!r}: choose one of {', '.join(_STATISTICS)}")
     ax = plt.subplots(layout="constrained")[1] if ax is None else ax
     x, y, scale = _STATISTICS[what]
     if what in ("speed", "turning_angle"):
-        _plot_distribution(found, what, ax)
+        _plot_distribution(found, what, ax, units)
     else:
+        (across, by_x), (upwards, by_y) = _axis(x, units), _axis(y, units)
         table = found.msd if what == "exponent" else getattr(found, what)
         ends = ("exponent_lower", "exponent_upper") if what == "exponent" else ("lower", "upper")
         groups = table.groupby("quantity", sort=False) if "quantity" in table else [("measured", table)]
         for name, rows in groups:
-            (line,) = ax.plot(rows[x], rows[y], marker="o" if what == "first_passage" else "", ms=4, label=name)
-            ax.fill_between(rows[x], rows[ends[0]], rows[ends[1]], color=line.get_color(), alpha=0.22, lw=0)
+            at, (low, high) = by_x * rows[x], (by_y * rows[end] for end in ends)
+            (line,) = ax.plot(at, by_y * rows[y], marker="o" if what == "first_passage" else "", ms=4, label=name)
+            ax.fill_between(at, low, high, color=line.get_color(), alpha=0.22, lw=0)
         ax.set(xscale=scale, yscale="linear" if what == "exponent" else scale)
-        ax.set(xlabel=_UNITS[x], ylabel=_UNITS[y])
+        ax.set(xlabel=across, ylabel=upwards)
     if what == "msd":
-        _plot_walk(found, ax)
+        _plot_walk(found, ax, (factor(units, TIME), factor(units, (2, 0))))
     ax.legend(fontsize="small")
     return ax
 
 
-def _plot_distribution(found: Statistics, what: str, ax: Axes) -> None:
+def _plot_distribution(found: Statistics, what: str, ax: Axes, units: Units | None) -> None:
+    words, by = _axis(what, units)
     table = found.distributions[found.distributions["quantity"] == what]
     for lag, rows in table.groupby("lag", dropna=False, sort=False):
-        edges = [*rows["from"], rows["to"].iloc[-1]]
-        label = what if np.isnan(lag) else f"lag {lag:.4g}"
-        steps = ax.stairs(rows["density"], edges, label=label, baseline=None)
-        low, high = ([*rows[name], rows[name].iloc[-1]] for name in ("lower", "upper"))
+        edges = by * np.array([*rows["from"], rows["to"].iloc[-1]])
+        name = what if np.isnan(lag) else f"lag {factor(units, TIME) * lag:.4g}"
+        steps = ax.stairs(rows["density"] / by, edges, label=name, baseline=None)
+        low, high = (np.array([*rows[end], rows[end].iloc[-1]]) / by for end in ("lower", "upper"))
         ax.fill_between(edges, low, high, step="post", color=steps.get_edgecolor(), alpha=0.22, lw=0)
-    ax.set(xlabel=_UNITS[what], ylabel="probability density")
+    ax.set(xlabel=words, ylabel="probability density")
     ax.set_ylim(bottom=0.0)
 
 
-def _plot_walk(found: Statistics, ax: Axes) -> None:
+def _plot_walk(found: Statistics, ax: Axes, by: tuple[float, float]) -> None:
     lag = found.msd["lag"]
+
+    def line(x: Any, y: Any, style: str, name: str) -> None:
+        ax.plot(by[0] * x, by[1] * y, color="0.13", lw=1.0, ls=style, label=name)
+
     if found.persistence.known or found.walk_speed.known:
-        ax.plot(lag, found.msd["fit"], color="0.13", lw=1.0, label="persistent random walk")
+        line(lag, found.msd["fit"], "-", "persistent random walk")
     if found.walk_speed.known:
         early = lag[lag <= 4.0 * (found.persistence.value if found.persistence.known else np.inf)]
-        ax.plot(early, (found.walk_speed.value * early) ** 2, color="0.13", lw=1.0, ls="--", label="ballistic")
-    line = found.summary["diffusion"]["line"]
-    if found.late_diffusion.known and line:
+        line(early, (found.walk_speed.value * early) ** 2, "--", "ballistic")
+    late = found.summary["diffusion"]["line"]
+    if found.late_diffusion.known and late:
         rising = lag[lag >= found.summary["diffusion"]["lags"][0] / 4.0]
-        values = line[0] + line[1] * rising
-        ax.plot(rising[values > 0], values[values > 0], color="0.13", lw=1.0, ls=":", label="diffusive")
+        values = late[0] + late[1] * rising
+        line(rising[values > 0], values[values > 0], ":", "diffusive")
 
 
 _CURVES: dict[str, Any] = {

@@ -3,12 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
+
+from .units import LENGTH, RATE, SPEED, TIME, Asked, Dimension, Units, chosen, converted
+
+_VERDICT: dict[str, Dimension] = {
+    "time": TIME, "speed": SPEED, "turning_rate": RATE, "turning_error": RATE, "period": TIME, "drift": LENGTH, "lasted": TIME,
+    "escape_time": TIME, "saddle": RATE, "exponents": RATE, "rests": TIME,
+}  # fmt: skip
+_EXPONENTS: dict[str, Dimension] = {"values": RATE, "errors": RATE, "time": TIME, "transient": TIME}
+_EQUILIBRIUM: dict[str, Dimension] = {"speed": SPEED, "turning_rate": RATE, "eigenvalues": RATE}
+
+R = TypeVar("R")
+
+
+def with_units(result: R, units: Units | None) -> R:
+    """A result of a study with these units."""
+    return replace(result, units=units)  # type: ignore[type-var]
+
+
+def in_units(result: R, units: Asked, dimensions: dict[str, Dimension]) -> R:
+    """A copy of a result with its numbers in other units."""
+    known: Any = result
+    if not known.in_model_units:
+        raise ValueError(f"the numbers are in {known.units} already")
+    shown = chosen(units, known.units)
+    made = converted(result, shown, dimensions)
+    return replace(made, units=shown, in_model_units=shown is None)  # type: ignore[type-var]
 
 
 @dataclass(frozen=True)
@@ -127,6 +153,14 @@ class Verdict:
     """Turns from leg to leg (rad)."""
     rests: tuple[float, ...] = ()
     """Durations of the rests (model time)."""
+    units: Units | None = None
+    """What a unit of length and one of time are, if the study says it."""
+    in_model_units: bool = True
+    """Whether the numbers are in model units: false of what :meth:`in_units` returns."""
+
+    def in_units(self, units: Asked = True) -> Verdict:
+        """A copy with speeds, rates, times and lengths in the units of the study, or in others (``"20um,1min"``); all else stays as it is."""
+        return in_units(self, units, _VERDICT)
 
     def __str__(self) -> str:
         course = f", {self.course.replace('-', ' ')}" if self.course else ""
@@ -206,6 +240,14 @@ class Exponents:
     """The reason why exponents have no error."""
     dimension: Estimate | None = None
     """The Kaplan-Yorke dimension of the set of shapes, rotated copies included; None if too few exponents were computed."""
+    units: Units | None = None
+    """What a unit of length and one of time are, if the study says it."""
+    in_model_units: bool = True
+    """Whether the numbers are in model units: false of what :meth:`in_units` returns."""
+
+    def in_units(self, units: Asked = True) -> Exponents:
+        """A copy with rates and times in the units of the study, or in others (``"20um,1min"``); all else stays as it is."""
+        return in_units(self, units, _EXPONENTS)
 
     @property
     def sum(self) -> float:
@@ -257,6 +299,14 @@ class Equilibrium:
     """Sense of rotation, or direction to the field, where the model tells them apart."""
     heading: float | None = None
     """Direction of the velocity (rad from the x-axis), where rotations are no symmetry."""
+    units: Units | None = None
+    """What a unit of length and one of time are, if the study says it."""
+    in_model_units: bool = True
+    """Whether the numbers are in model units: false of what :meth:`in_units` returns."""
+
+    def in_units(self, units: Asked = True) -> Equilibrium:
+        """A copy with speed and rates in the units of the study, or in others (``"20um,1min"``); all else stays as it is."""
+        return in_units(self, units, _EQUILIBRIUM)
 
     @property
     def stable(self) -> bool:

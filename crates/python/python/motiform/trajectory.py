@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,8 @@ import pandas as pd
 
 from . import _motiform
 from .results import Outcome, outcome_of
+from .units import Asked, Dimension, Units, chosen, factor, units_of
+from .units import name as unit_name
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,7 +38,7 @@ class Trajectory:
     """A recorded motion: columns over time, in one block of memory.
 
     ``trajectory["s11"]`` and the properties below are views of that block if possible. All quantities are in
-    model units of time and length.
+    model units of time and length; `units` of :meth:`to_pandas`, :meth:`to_xarray`, :meth:`values` and :meth:`plot` converts them.
     """
 
     def __init__(self, run: _motiform.Run) -> None:
@@ -62,6 +65,23 @@ class Trajectory:
     def meaning(self, name: str) -> str:
         """The meaning of a column, with its unit."""
         return self._meanings[name]
+
+    @property
+    def units(self) -> Units | None:
+        """What a unit of length and one of time are, if the study says it."""
+        return units_of(self.manifest["plan"].get("figure", {}).get("units", ""))
+
+    def dimension(self, name: str) -> Dimension:
+        """The powers of length and time in the unit of a column: (1, -1) for a speed."""
+        return self._dimensions[name]
+
+    @cached_property
+    def _dimensions(self) -> dict[str, Dimension]:
+        return dict(zip(self._place, self._run.dimensions(), strict=True))
+
+    def values(self, name: str, units: Asked = True) -> Floats:
+        """A column in the units of the study, or in others (``"20um,1min"``); ``False``: those of the model."""
+        return self[name] * factor(chosen(units, self.units), self.dimension(name))
 
     def __getitem__(self, name: str) -> Floats:
         try:
@@ -158,21 +178,41 @@ class Trajectory:
         found = self._run.crossings()
         return None if found is None else crossing_frame(*found)
 
-    def to_pandas(self) -> pd.DataFrame:
-        """A data frame of all columns; meanings in ``frame.attrs``."""
-        return _frame(self.names, [self._meanings[name] for name in self.names], self._block)
+    def to_pandas(self, units: Asked = False) -> pd.DataFrame:
+        """A data frame of all columns; meanings in ``frame.attrs``, and the names of units where `units` are given.
 
-    def to_xarray(self) -> xr.Dataset:
-        """A dataset over the dimension ``t``, with ``long_name`` and ``units``."""
+        `units`: ``True`` for those of the study, others by their text (``"20um,1min"``).
+        """
+        shown = chosen(units, self.units)
+        if shown is None:
+            return _frame(self.names, [self._meanings[name] for name in self.names], self._block)
+        block = self._block * np.array([[factor(shown, self.dimension(name))] for name in self.names])
+        frame = _frame(self.names, [self._meaning_in(name, shown) for name in self.names], block)
+        frame.attrs["units"] = {name: unit_name(shown, self.dimension(name)) for name in self.names}
+        return frame
+
+    def to_xarray(self, units: Asked = False) -> xr.Dataset:
+        """A dataset over the dimension ``t``, with ``long_name`` and ``units``; `units` as for :meth:`to_pandas`."""
         import xarray as xr
 
-        def attrs(name: str) -> dict[str, str]:
-            meaning = self._meanings[name]
-            return {"long_name": meaning, "units": _unit(meaning)}
+        shown = chosen(units, self.units)
 
-        variables = {name: ("t", self[name], attrs(name)) for name in self._place if name != "t"}
-        times = {"t": ("t", self.t, {"long_name": "time", "units": "model time"})}
+        def attrs(name: str) -> dict[str, str]:
+            if shown is None:
+                meaning = self._meanings[name]
+                return {"long_name": meaning, "units": _unit(meaning)}
+            return {"long_name": self._meaning_in(name, shown), "units": unit_name(shown, self.dimension(name))}
+
+        columns = {name: self[name] if shown is None else self.values(name, shown) for name in self._place}
+        variables = {name: ("t", columns[name], attrs(name)) for name in self._place if name != "t"}
+        times = {"t": ("t", columns["t"], {"long_name": "time", "units": unit_name(shown, (0, 1))})}
         return xr.Dataset(variables, times, {"outcome": str(self.outcome), "plan_hash": self.manifest["plan_hash"]})
+
+    def _meaning_in(self, name: str, units: Units) -> str:
+        """The meaning of a column with its unit instead of that of the model."""
+        if name == "t":
+            return f"time ({unit_name(units, (0, 1))})"
+        return re.sub(r"\([^()]*model [^()]*\)", f"({unit_name(units, self.dimension(name))})", self._meanings[name])
 
     @cached_property
     def radius(self) -> float:
@@ -200,17 +240,20 @@ class Trajectory:
         curve = self._run.outline(row, self.radius if radius is None else radius, points)
         return None if curve is None else scale * curve + self.position[row]
 
-    def plot(self, ax: Axes | None = None, *, outlines: int = 12) -> Axes:
-        """Plots the path, with `outlines` of the body along it."""
+    def plot(self, ax: Axes | None = None, *, outlines: int = 12, units: Asked = None) -> Axes:
+        """Plots the path, with `outlines` of the body along it, in the units of the study, or in those that are given."""
         from .plotting import plot_path
 
-        return plot_path(self, ax, outlines)
+        return plot_path(self, ax, outlines, self._drawn(units))
 
-    def animate(self, *, frames: int = 120, interval: float = 40.0) -> FuncAnimation:
+    def animate(self, *, frames: int = 120, interval: float = 40.0, units: Asked = None) -> FuncAnimation:
         """An animation of the moving body; in a notebook show it with ``HTML(film.to_jshtml())``. `interval` in ms."""
         from .plotting import animate
 
-        return animate(self, frames, interval)
+        return animate(self, frames, interval, self._drawn(units))
+
+    def _drawn(self, units: Asked) -> Units | None:
+        return self.units if units is None else chosen(units, self.units)
 
     @cached_property
     def _flow(self) -> _motiform.Flow:

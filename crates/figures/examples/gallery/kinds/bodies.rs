@@ -134,6 +134,19 @@ pub(super) fn tracks() -> TrackPanels {
     }
 }
 
+pub(super) fn film_strip() -> TrackPanels {
+    let way = |t: f64| [2.0 * t, (0.7 * t).sin()];
+    let panel = |k: u32| {
+        let t = 3.0 * f64::from(k);
+        TrackPanel {
+            name: format!("*t* = {} min", 17.25 * t),
+            path: vec![axis((t - 0.7).max(0.0), t, 20).into_iter().map(way).collect()],
+            outlines: vec![ellipse(way(t), 1.0, t)],
+        }
+    };
+    TrackPanels { title: "Film strip".into(), columns: 8, panels: (0..8).map(panel).collect(), ..tracks() }
+}
+
 pub(super) fn panels() -> Panels {
     Panels::new(1, vec![Box::new(series()), Box::new(branches(false)), Box::new(bands(true))])
 }

@@ -5,7 +5,7 @@ mod maps;
 mod measurements;
 
 pub(crate) use bodies::return_map;
-use bodies::{panels, path, section, series, space_time, spectrum, tracks};
+use bodies::{film_strip, panels, path, section, series, space_time, spectrum, tracks};
 use maps::{branches, curves, phase_diagram, places, strip};
 use measurements::{bands, exponents, rest_times, survival};
 use motiform_figures::Figure;
@@ -40,6 +40,7 @@ pub(crate) fn kinds() -> Vec<Kind> {
         ("survival", Box::new(survival())),
         ("places", Box::new(places())),
         ("tracks", Box::new(tracks())),
+        ("film-strip", Box::new(film_strip())),
         ("panels", Box::new(panels())),
     ]
 }

@@ -12,7 +12,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from ..plotting import TIME
+from ..plotting import TIME_COLOURS
 from ..trajectory import Floats
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def plot_cell(cell: Cell, outlines: int, units: tuple[str, str], y_down: bool) -
     _strip(strip, film, times)
     _path(path, cell, film, times)
     path.set(xlabel=f"$x$ ({units[0]})", ylabel=f"$y$ ({units[0]})")
-    figure.colorbar(plt.cm.ScalarMappable(times, TIME), ax=path, label=f"$t$ ({units[1]})")
+    figure.colorbar(plt.cm.ScalarMappable(times, TIME_COLOURS), ax=path, label=f"$t$ ({units[1]})")
     figure.suptitle(f"cell {cell.name}")
     if y_down:
         strip.invert_yaxis()
@@ -46,7 +46,7 @@ def _strip(ax: Axes, film: list[tuple[float, Floats]], times: Normalize) -> None
     width = 1.15 * max(float(np.ptp(points, axis=0).max()) for _, points in film)
     for number, (t, points) in enumerate(film):
         middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
-        colour = TIME(times(t))
+        colour = TIME_COLOURS(times(t))
         placed = points - middle + [number * width, 0.0]
         ax.add_patch(Polygon(placed, closed=True, facecolor=(*colour[:3], 0.25), edgecolor=colour))
     ax.set(xlim=(-0.6 * width, (len(film) - 0.4) * width), ylim=(-0.6 * width, 0.6 * width))
@@ -60,10 +60,10 @@ def _path(ax: Axes, cell: Cell, film: list[tuple[float, Floats]], times: Normali
     counts = ~modes["left_out"].values
     centres = np.column_stack([modes["x"].values, modes["y"].values])[counts]
     segments = np.stack((centres[:-1], centres[1:]), axis=1)
-    line = LineCollection(list(segments), cmap=TIME, norm=times, array=modes["t"].values[counts][:-1], linewidths=1.2)
+    line = LineCollection(list(segments), cmap=TIME_COLOURS, norm=times, array=modes["t"].values[counts][:-1], linewidths=1.2)
     ax.add_collection(line)
     for t, points in film:
-        colour = TIME(times(t))
+        colour = TIME_COLOURS(times(t))
         ax.add_patch(Polygon(points, closed=True, facecolor=(*colour[:3], 0.12), edgecolor=colour, linewidth=0.8))
     ax.autoscale_view()
     ax.set_aspect("equal", adjustable="datalim")

@@ -1,0 +1,124 @@
+"""Physical units of length and time."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from typing import Any, TypeVar
+
+import numpy as np
+
+from . import _motiform
+
+Dimension = tuple[int, int]
+"""Powers of length and time: a speed has (1, -1)."""
+
+LENGTH: Dimension = (1, 0)
+TIME: Dimension = (0, 1)
+SPEED: Dimension = (1, -1)
+RATE: Dimension = (0, -1)
+DIFFUSION: Dimension = (2, -1)
+
+_MODEL = {"length": "model length", "time": "model time"}
+
+
+@dataclass(frozen=True)
+class Units:
+    """What a unit of length and one of time of a model are, such as ``Units("20um,1min")``.
+
+    ``units.factor((1, -1))`` is the factor from model units of a quantity with these powers of length and time (here a speed), and
+    ``units.name((1, -1))`` is the name of its unit, ``µm/min``.
+
+    More: docs/units.md.
+    """
+
+    text: str
+    """Both units, as study files and the command line give them."""
+    _native: _motiform.Units = field(init=False, repr=False, compare=False, hash=False)
+
+    def __post_init__(self) -> None:
+        native = _motiform.Units.parse(self.text)
+        if native is None:
+            raise ValueError("units: write what a unit of length and one of time are, such as 20um,1min")
+        object.__setattr__(self, "_native", native)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Units, (self.text,)
+
+    def factor(self, dimension: Dimension) -> float:
+        """The factor from model units of a quantity with such powers of length and time."""
+        return self._native.factor(*dimension)
+
+    def name(self, dimension: Dimension) -> str:
+        """The name of its unit; empty for a number."""
+        return "" if dimension == (0, 0) else re.sub(r"\^\{(-?\d+)\}", r"^\1", self._native.name(*dimension))
+
+    def __str__(self) -> str:
+        return self.text
+
+
+Asked = Units | str | bool | None
+"""Units that a method takes: ``True`` for those of the study, ``False`` for those of the model, others by their text."""
+
+
+def units_of(text: str) -> Units | None:
+    """The units of a study; ``None`` where they are those of the model."""
+    return Units(text) if text else None
+
+
+def chosen(asked: Asked, own: Units | None) -> Units | None:
+    """The units that a method works in; ``None`` for those of the model."""
+    if asked is True and own is None:
+        raise ValueError("units=True: the study has no units; give some, such as '20um,1min'")
+    if isinstance(asked, str):
+        return Units(asked)
+    return asked if isinstance(asked, Units) else own if asked else None
+
+
+def factor(units: Units | None, dimension: Dimension) -> float:
+    """The factor from model units; 1 without units."""
+    return 1.0 if units is None else units.factor(dimension)
+
+
+def name(units: Units | None, dimension: Dimension) -> str:
+    """The name of a unit, in model units too: ``model length per model time``."""
+    if units is not None:
+        return units.name(dimension)
+    parts = [
+        [_MODEL[of] + ("" if abs(power) == 1 else f"^{abs(power)}") for of, power in zip(_MODEL, dimension, strict=True) if sign * power > 0]
+        for sign in (1, -1)
+    ]
+    above, below = (" ".join(part) for part in parts)
+    if above and below:
+        return f"{above} per {below}"
+    return above or (f"inverse {below}" if below else "")
+
+
+def label(quantity: str, units: Units | None, dimension: Dimension) -> str:
+    """The label of an axis with its unit, exponents as Matplotlib sets them."""
+    unit = re.sub(r"\^(-?\d+)", r"$^{\1}$", name(units, dimension))
+    return f"{quantity} ({unit})" if unit else quantity
+
+
+D = TypeVar("D")
+
+
+def converted(result: D, units: Units | None, dimensions: dict[str, Dimension]) -> D:
+    """A copy of a result with the named fields in other units than those of the model. Nothing else is changed."""
+    made = {key: _scaled(getattr(result, key), factor(units, dimension)) for key, dimension in dimensions.items()}
+    return replace(result, **made)  # type: ignore[type-var]
+
+
+def _scaled(value: Any, by: float) -> Any:
+    """Numbers, and all numbers in results, arrays, tuples and mappings."""
+    if isinstance(value, (bool, str)) or value is None:
+        return value
+    if isinstance(value, (int, float, np.ndarray)):
+        return value * by
+    if isinstance(value, tuple):
+        return tuple(_scaled(entry, by) for entry in value)
+    if isinstance(value, dict):
+        return {key: _scaled(entry, by) for key, entry in value.items()}
+    if is_dataclass(value) and not isinstance(value, type):
+        return replace(value, **{part.name: _scaled(getattr(value, part.name), by) for part in fields(value)})
+    raise TypeError(f"{type(value).__name__} has no unit")

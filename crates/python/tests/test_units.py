@@ -1,0 +1,139 @@
+"""Physical units: those of the study on axes, and conversion on request."""
+
+from __future__ import annotations
+
+import pickle
+import re
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import motiform
+
+UNITS = "20um,3min"
+
+
+@pytest.fixture(autouse=True)
+def closed() -> Iterator[None]:
+    yield
+    plt.close("all")
+
+
+@pytest.fixture(scope="module")
+def body() -> motiform.Model:
+    return motiform.preset("fig5a").replace(units=UNITS)
+
+
+@pytest.fixture(scope="module")
+def run(body: motiform.Model) -> motiform.Trajectory:
+    return body.simulate(50.0, dt_out=0.5)
+
+
+def test_units_have_factors_and_names() -> None:
+    units = motiform.Units(UNITS)
+    assert units.factor((1, 0)) == 20.0 and units.factor((1, -1)) == pytest.approx(20.0 / 3.0)
+    names = [units.name(dimension) for dimension in ((1, 0), (0, 1), (1, -1), (0, -1), (2, -1), (0, 0))]
+    assert names == ["µm", "min", "µm/min", "1/min", "µm^2/min", ""]
+    assert pickle.loads(pickle.dumps(units)) == units != motiform.Units("20um,1min")
+    for bad in ("", "20um", "20,3", "-1um,1min"):
+        with pytest.raises(ValueError, match="20um,1min"):
+            motiform.Units(bad)
+
+
+def test_a_study_keeps_its_units(body: motiform.Model, run: motiform.Trajectory, tmp_path: Path) -> None:
+    assert motiform.preset("fig5a").units is None and str(body.units) == UNITS
+    path = tmp_path / "study.toml"
+    path.write_text(body.to_toml(), encoding="utf-8")
+    assert motiform.study(path).units == body.units == pickle.loads(pickle.dumps(body)).units
+    assert run.units == body.units == pickle.loads(pickle.dumps(run)).units
+    with pytest.raises(ValueError, match="20um,1min"):
+        body.replace(units="20")
+
+
+def test_columns_are_in_model_units_unless_others_are_asked_for(run: motiform.Trajectory) -> None:
+    plain = motiform.preset("fig5a").simulate(50.0, dt_out=0.5)
+    assert np.array_equal(plain._block, run._block, equal_nan=True)
+    assert np.array_equal(run.to_pandas().to_numpy(), run._block.T, equal_nan=True)
+    frame = run.to_pandas(units=True)
+    expected = {"t": 3.0, "x": 20.0, "v1": 20.0 / 3.0, "s11": 20.0, "speed": 20.0 / 3.0, "turning_rate": 1.0 / 3.0}
+    for name, by in expected.items():
+        np.testing.assert_allclose(frame[name], by * run[name], rtol=1e-14)
+        np.testing.assert_array_equal(frame[name], run.values(name))
+    assert frame.attrs["units"]["speed"] == "µm/min" and "(µm/min)" in frame.attrs["meanings"]["speed"]
+    assert not any("model" in meaning for meaning in frame.attrs["meanings"].values())
+    # the speed of the table is that of its places, in any units
+    fine = run.to_pandas(units="7mm,2h")
+    step = np.hypot(np.diff(fine["x"]), np.diff(fine["y"])) / np.diff(fine["t"])
+    np.testing.assert_allclose(step.mean(), fine["speed"].mean(), rtol=0.01)
+    data = run.to_xarray(units=True)
+    assert data.t.attrs["units"] == "min" and data.speed.attrs["units"] == "µm/min"
+    np.testing.assert_allclose(data.speed, 20.0 / 3.0 * run["speed"])
+    with pytest.raises(ValueError, match="the study has no units"):
+        plain.to_pandas(units=True)
+    assert plain.values("t", "1um,4s")[-1] == 200.0
+
+
+def test_the_cell_has_dimensions_too() -> None:
+    run = motiform.preset("fig6a").simulate(2.0, transient=0.0, dt_out=1.0)
+    named = {name: run.dimension(name) for name in ("c2", "mode2", "length", "area", "closure_residual")}
+    assert named == {"c2": (1, 0), "mode2": (1, 0), "length": (1, 0), "area": (2, 0), "closure_residual": (0, 0)}
+
+
+def test_axes_are_those_of_the_study(run: motiform.Trajectory) -> None:
+    ax = run.plot()
+    assert ax.get_xlabel() == "$x$ (µm)" and ax.figure.axes[1].get_ylabel() == "$t$ (min)"
+    plain = run.plot(units=False)
+    assert plain.get_xlabel() == "$x$ (model length)"
+    np.testing.assert_allclose(ax.dataLim.get_points(), 20.0 * plain.dataLim.get_points(), rtol=1e-12)
+    assert run.plot(units="1mm,1h").get_ylabel() == "$y$ (mm)"
+    film = run.animate(frames=3)
+    film._draw_was_started = True
+    film._draw_frame(100)  # the row of the time 50
+    (drawn,) = film._fig.axes
+    assert drawn.get_xlabel() == "$x$ (µm)" and drawn.get_title() == "$t$ = 150.0 min"
+
+
+def test_results_are_converted_on_request(body: motiform.Model) -> None:
+    verdict = body.classify()
+    other = verdict.in_units()
+    assert verdict.in_model_units and not other.in_model_units and verdict.units == other.units == body.units
+    assert verdict.period is not None and other.period == pytest.approx(3.0 * verdict.period)
+    assert verdict.speed is not None and other.speed is not None
+    assert other.speed.mean == pytest.approx(20.0 / 3.0 * verdict.speed.mean)
+    assert other.drift == pytest.approx(20.0 * (verdict.drift or 0.0)) and other.swing == verdict.swing
+    assert (verdict.regime, verdict.why) == (other.regime, other.why)
+    with pytest.raises(ValueError, match="already"):
+        other.in_units()
+    exponents = body.lyapunov(2, t_end=200.0)
+    np.testing.assert_allclose(exponents.in_units("1um,2s").values, exponents.values / 2.0)
+    steady = body.equilibria(starts=5)[0]
+    np.testing.assert_allclose(steady.in_units().eigenvalues, steady.eigenvalues / 3.0)
+    with pytest.raises(ValueError, match="the study has no units"):
+        motiform.preset("fig5a").classify().in_units()
+
+
+def test_statistics_are_those_that_the_program_prints(binary: Path) -> None:
+    walk = motiform.Tensor(gamma=1.0, kappa2=2.0, kappa3=2.0).replace(units=UNITS)
+    found = walk.statistics(10, t_end=100.0, noise=0.3)
+    other = found.in_units()
+    words = "statistics tensor --set gamma=1 --set kappa2=2 --set kappa3=2 --noise 0.3 --t-end 100 --bodies 10".split()
+    text = subprocess.run([binary, *words, "--units", UNITS], check=True, capture_output=True, encoding="utf-8").stdout
+    printed = re.search(r"speed +mean ([\d.]+)", text)
+    assert printed is not None, text
+    assert float(printed[1]) == pytest.approx(other.mean_speed.value, rel=1e-3)
+    assert other.mean_speed.value == pytest.approx(20.0 / 3.0 * found.mean_speed.value)
+    np.testing.assert_allclose(other.msd["msd"], 400.0 * found.msd["msd"])
+    np.testing.assert_allclose(other.msd["exponent"], found.msd["exponent"])
+    np.testing.assert_allclose(other.first_passage["radius"], 20.0 * found.first_passage["radius"])
+    speed = other.distributions[other.distributions["quantity"] == "speed"]
+    assert (speed["density"] * (speed["to"] - speed["from"])).sum() == pytest.approx(1.0)
+    ax = found.plot()
+    assert ax.get_xlabel() == "lag (min)" and ax.get_ylabel() == "mean-square displacement (µm$^{2}$)"
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), other.msd["msd"])
+    assert found.plot("spectra").get_xlabel() == "frequency (cycles per min)"
+    assert found.plot("speed", units=False).get_xlabel() == "speed (model length per model time)"
+    assert found.plot("first_passage").get_ylabel() == "mean first-passage time (min)"
