@@ -2,7 +2,22 @@
 
 use crate::{CellFit, CellTrack};
 use motiform_store::columns::{Column, Values};
-use motiform_tracks::modes::FrameModes;
+use motiform_study::Quantity;
+use motiform_study::quantity::{coefficient, frame};
+use motiform_tracks::Form;
+use motiform_tracks::modes::{FrameModes, RadiusFit};
+
+/// Real and imaginary parts of z2 to z5.
+const MODES: [&Quantity; 8] = [
+    &frame::Z2_RE,
+    &frame::Z2_IM,
+    &frame::Z3_RE,
+    &frame::Z3_IM,
+    &frame::Z4_RE,
+    &frame::Z4_IM,
+    &frame::Z5_RE,
+    &frame::Z5_IM,
+];
 
 /// The modes of all frames: cell, frame, time, centre, mean radius, z2 to z5 with the standard errors of z2 and z3, area, and what is wrong.
 #[must_use]
@@ -17,62 +32,47 @@ pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
     };
     let flags =
         |frame: &FrameModes| frame.flags.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
-    let mut columns = vec![
-        Column::new("cell", "name of the cell", text(&|cell, _| cell.name.clone())),
-        Column::new(
-            "frame",
-            "number of the frame",
-            Values::Whole(rows.iter().map(|row| row.1.frame).collect()),
-        ),
-        Column::new("t", "time", number(&|_, frame| Some(frame.t))),
-        Column::new("x", "centre of the modes", number(&|_, frame| Some(frame.radius.as_ref()?.centre[0]))),
-        Column::new("y", "centre of the modes", number(&|_, frame| Some(frame.radius.as_ref()?.centre[1]))),
-        Column::new("r0", "mean radius", number(&|_, frame| Some(frame.radius.as_ref()?.r0))),
-        Column::new("area", "area of the outline", number(&|_, frame| Some(frame.area))),
-        Column::new("perimeter", "length of the outline", number(&|_, frame| Some(frame.perimeter))),
-        Column::new(
-            "aspect_ratio",
-            "longer over shorter axis",
-            number(&|_, frame| Some(frame.form?.aspect_ratio)),
-        ),
-        Column::new(
-            "solidity",
-            "area over that of the convex hull",
-            number(&|_, frame| Some(frame.form?.solidity)),
-        ),
-        Column::new(
-            "circularity",
-            "4 pi area/perimeter^2",
-            number(&|_, frame| Some(frame.form?.circularity)),
-        ),
-        Column::new("centroid_x", "centroid of the area", number(&|_, frame| Some(frame.centroid[0]))),
-        Column::new("centroid_y", "centroid of the area", number(&|_, frame| Some(frame.centroid[1]))),
-        Column::new("sigma", "noise of a vertex", number(&|_, frame| Some(frame.radius.as_ref()?.sigma))),
-    ];
-    for n in 2..=5_usize {
-        for (part, name) in ["re", "im"].into_iter().enumerate() {
-            let read =
-                move |_: &CellTrack, frame: &FrameModes| frame.radius.as_ref()?.z.get(n - 2).map(|z| z[part]);
-            columns.push(Column::new(&format!("z{n}_{name}"), "mode of the outline", number(&read)));
-        }
-    }
-    for (place, name) in ["z2_error", "z3_error"].into_iter().enumerate() {
-        let read = move |cell: &CellTrack, frame: &FrameModes| {
+    let radius = |read: fn(&RadiusFit) -> f64| number(&move |_, frame| frame.radius.as_ref().map(read));
+    let form = |read: fn(Form) -> f64| number(&move |_, frame| frame.form.map(read));
+    let of_frame = |read: fn(&FrameModes) -> f64| number(&move |_, frame| Some(read(frame)));
+    let whole = |read: fn(&FrameModes) -> i64| Values::Whole(rows.iter().map(|row| read(row.1)).collect());
+    let mode =
+        |place: usize| number(&move |_, frame| frame.radius.as_ref()?.z.get(place / 2).map(|z| z[place % 2]));
+    // after X, Y, R0
+    let error = |at: usize| {
+        number(&move |cell, frame| {
             let fit = frame.radius.as_ref()?;
-            let at = 3 + 2 * place; // after X, Y, R0
             Some(fit.covariance(cell.modes.sigma.unwrap_or(fit.sigma), at, at).sqrt())
-        };
-        columns.push(Column::new(name, "standard error of the real part", number(&read)));
-    }
-    columns.push(Column::new("left_out", "1 where the frame does not count", {
-        Values::Whole(
-            rows.iter().map(|row| i64::from(row.1.is_left_out() || row.1.radius.is_none())).collect(),
-        )
-    }));
-    columns.push(Column::new("seen", "1 where place and form of the outline count", {
-        Values::Whole(rows.iter().map(|row| i64::from(row.1.is_seen())).collect())
-    }));
-    columns.push(Column::new("flags", "what is wrong with the frame", text(&|_, frame| flags(frame))));
+        })
+    };
+    let mut columns = vec![
+        Column::of_data(&frame::CELL, text(&|cell, _| cell.name.clone())),
+        Column::of_data(&frame::FRAME, whole(|frame| frame.frame)),
+        Column::of_data(&frame::T, of_frame(|frame| frame.t)),
+        Column::of_data(&frame::X, radius(|fit| fit.centre[0])),
+        Column::of_data(&frame::Y, radius(|fit| fit.centre[1])),
+        Column::of_data(&frame::R0, radius(|fit| fit.r0)),
+        Column::of_data(&frame::AREA, of_frame(|frame| frame.area)),
+        Column::of_data(&frame::PERIMETER, of_frame(|frame| frame.perimeter)),
+        Column::of_data(&frame::ASPECT_RATIO, form(|form| form.aspect_ratio)),
+        Column::of_data(&frame::SOLIDITY, form(|form| form.solidity)),
+        Column::of_data(&frame::CIRCULARITY, form(|form| form.circularity)),
+        Column::of_data(&frame::CENTROID_X, of_frame(|frame| frame.centroid[0])),
+        Column::of_data(&frame::CENTROID_Y, of_frame(|frame| frame.centroid[1])),
+        Column::of_data(&frame::SIGMA, radius(|fit| fit.sigma)),
+    ];
+    let modes = MODES.into_iter().enumerate();
+    columns.extend(modes.map(|(place, quantity)| Column::of_data(quantity, mode(place))));
+    columns.extend([
+        Column::of_data(&frame::Z2_ERROR, error(3)),
+        Column::of_data(&frame::Z3_ERROR, error(5)),
+        Column::of_data(
+            &frame::LEFT_OUT,
+            whole(|frame| i64::from(frame.is_left_out() || frame.radius.is_none())),
+        ),
+        Column::of_data(&frame::SEEN, whole(|frame| i64::from(frame.is_seen()))),
+        Column::of_data(&frame::FLAGS, text(&|_, frame| flags(frame))),
+    ]);
     columns
 }
 
@@ -98,33 +98,19 @@ pub fn coefficient_columns(fits: &[CellFit]) -> Vec<Column> {
         };
         Values::Number(rows.iter().map(of).collect())
     };
+    let names = rows.iter().map(|row| row.0.name.clone()).collect();
+    let terms = rows.iter().map(|row| row.1.name.clone()).collect();
+    let imaginary = rows.iter().map(|row| i64::from(row.1.imaginary)).collect();
+    let weak = rows.iter().map(|row| row.2.unwrap_or(f64::NAN)).collect();
     vec![
-        Column::new(
-            "cell",
-            "name of the cell",
-            Values::Text(rows.iter().map(|row| row.0.name.clone()).collect()),
-        ),
-        Column::new("term", "the term", Values::Text(rows.iter().map(|row| row.1.name.clone()).collect())),
-        Column::new("imaginary", "1 for the imaginary part", {
-            Values::Whole(rows.iter().map(|row| i64::from(row.1.imaginary)).collect())
-        }),
-        Column::new("value", "the coefficient", number(&|estimate| estimate.value)),
-        Column::new(
-            "error",
-            "standard error from the expected information",
-            error(&|estimate| estimate.error),
-        ),
-        Column::new(
-            "robust_error",
-            "standard error from the scatter of the scores",
-            error(&|estimate| estimate.robust),
-        ),
-        Column::new("low", "lower end of the 95 % interval", error(&|estimate| estimate.interval[0])),
-        Column::new("high", "upper end of the 95 % interval", error(&|estimate| estimate.interval[1])),
-        Column::new(
-            "weak_form",
-            "the coefficient by the weak form, a check of sign and order of magnitude",
-            Values::Number(rows.iter().map(|row| row.2.unwrap_or(f64::NAN)).collect()),
-        ),
+        Column::of_data(&coefficient::CELL, Values::Text(names)),
+        Column::of_data(&coefficient::TERM, Values::Text(terms)),
+        Column::of_data(&coefficient::IMAGINARY, Values::Whole(imaginary)),
+        Column::of_data(&coefficient::VALUE, number(&|estimate| estimate.value)),
+        Column::of_data(&coefficient::ERROR, error(&|estimate| estimate.error)),
+        Column::of_data(&coefficient::ROBUST_ERROR, error(&|estimate| estimate.robust)),
+        Column::of_data(&coefficient::LOW, error(&|estimate| estimate.interval[0])),
+        Column::of_data(&coefficient::HIGH, error(&|estimate| estimate.interval[1])),
+        Column::of_data(&coefficient::WEAK_FORM, Values::Number(weak)),
     ]
 }

@@ -1,6 +1,7 @@
 //! Units of the data, as they stand beside numbers.
 
 use crate::Sample;
+use motiform_study::{Dimension, Quantity};
 
 /// Units of lengths and times.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -9,7 +10,7 @@ pub struct Units {
     pub length: String,
     /// Of times; `frame` where the interval is unknown.
     pub time: String,
-    /// Whether y points down in the images: figures then show what the images show.
+    /// `true` if y points down in the images: figures then do the same.
     pub y_down: bool,
 }
 
@@ -32,15 +33,22 @@ impl Units {
         Self { length, ..self }
     }
 
-    /// Unit of speeds.
+    /// The unit of a dimension; empty where there is none.
     #[must_use]
-    pub fn speed(&self) -> String {
-        format!("{}/{}", self.length, self.time)
+    pub fn unit(&self, dimension: Dimension) -> String {
+        dimension.unit([&self.length, &self.time])
     }
 
-    /// Unit of diffusion coefficients.
+    /// A label with its unit.
     #[must_use]
-    pub fn diffusion(&self) -> String {
-        format!("{}^2/{}", self.length, self.time)
+    pub fn label(&self, label: &str, dimension: Dimension) -> String {
+        let unit = self.unit(dimension);
+        if unit.is_empty() { label.to_owned() } else { format!("{label} ({unit})") }
+    }
+
+    /// The label of a quantity with its unit.
+    #[must_use]
+    pub fn axis(&self, quantity: &Quantity) -> String {
+        self.label(quantity.symbol, quantity.dimension)
     }
 }

@@ -1,11 +1,12 @@
-//! How much work may be spent on orbits.
+//! The allowance of work on orbits.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Steps of the flow along orbits that may be spent on branches or curves ([`super::Family::allowance`]): on one after the other, so that what they lead to is the same each time.
+/// Steps of the flow along orbits that may be spent on branches or curves ([`super::Family::allowance`]): on one after the other, so that
+/// what they lead to is the same each time.
 ///
-/// The count is of steps, not of seconds: the same work has the same result on every machine. What is begun is finished: an allowance is exceeded by the work of one
-/// step along a branch at most.
+/// The count is of steps, not of seconds: the same work has the same result on every machine. What is begun is finished: an allowance is
+/// exceeded by the work of one step along a branch at most.
 #[derive(Debug)]
 pub struct Allowance {
     left: AtomicU64,
@@ -23,13 +24,13 @@ impl Allowance {
         self.left.store(self.left().saturating_sub(steps), Ordering::Relaxed);
     }
 
-    /// What is left.
+    /// The rest of it.
     #[must_use]
     pub fn left(&self) -> u64 {
         self.left.load(Ordering::Relaxed)
     }
 
-    /// Whether nothing is left.
+    /// Returns `true` if nothing is left.
     #[must_use]
     pub fn is_spent(&self) -> bool {
         self.left() == 0

@@ -13,7 +13,8 @@ use motiform_dynamics::Watch;
 /// Distances from the special point at which the new branch is looked for, in the units of [`Settings`].
 const DISTANCES: [f64; 7] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002, 0.00004];
 
-/// How much nearer the branch is looked at again, and the ratios of the two changes of the parameter where it begins: this one to the power
+/// Factor by which the branch is examined nearer to its beginning, and the ratios of the two changes of the parameter where it begins: this
+/// one to the power
 /// 1 or 2, within a factor 2.
 const NEARER: f64 = 8.0;
 const RATIOS: std::ops::RangeInclusive<f64> = 0.5 * NEARER..=2.0 * NEARER * NEARER;
@@ -21,7 +22,8 @@ const RATIOS: std::ops::RangeInclusive<f64> = 0.5 * NEARER..=2.0 * NEARER * NEAR
 /// Least change of the parameter that tells anything, in tolerances of Newton's method.
 const SEEN: f64 = 100.0;
 
-/// A special point: its unknowns, a direction that a new branch leaves in, and in how many directions deviations grow on that branch at first.
+/// A special point: its unknowns, a direction that a new branch leaves in, and in how many directions deviations grow on that branch at
+/// first.
 pub(super) struct Begin<'b> {
     origin: &'b [f64],
     direction: &'b [f64],
@@ -77,8 +79,8 @@ pub(super) fn follow<P: Problem>(
     Tracer::beside(problem, (origin, direction, distance), settings, watch).map_err(|_| nothing())
 }
 
-/// Whether nothing happens between the special point and the first point of a new branch: the parameter changes with the distance from the
-/// special point, or with its square, and as many deviations grow nearer to it.
+/// Returns `true` if nothing happens between the special point and the first point of a new branch: the parameter changes with the distance
+/// from the special point, or with its square, and as many deviations grow nearer to it.
 fn is_beginning<P: Problem>(
     tracer: &Tracer<P>,
     (origin, direction, distance): (&[f64], &[f64], f64),
@@ -100,7 +102,7 @@ fn is_beginning<P: Problem>(
             .is_some_and(|levels| growing(&levels, problem.noise(&levels)).contains(&tracer.growing()))
 }
 
-/// How many levels grow: at least, and with those that are 0 within the error `noise`.
+/// Number of growing levels: at least, and with those that are 0 within the error `noise`.
 fn growing(levels: &[Vec<Level>], noise: f64) -> std::ops::RangeInclusive<usize> {
     let above = |least: f64| levels.iter().flatten().filter(|level| level.growth > least).count();
     above(noise)..=above(-noise)

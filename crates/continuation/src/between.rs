@@ -51,7 +51,7 @@ fn middle<P: Problem>(
     Ok(Place { x, local, tangent, levels, arclength: step.old.arclength + s, certificate: None })
 }
 
-/// What Newton's method finds there.
+/// The solution of Newton's method there.
 fn solution<P: Problem>(
     problem: &P,
     &Step { old, new, length, .. }: &Step<'_, P::Local>,

@@ -9,7 +9,7 @@ use super::smooth::{Number, Smooth};
 use motiform_dynamics::Watch;
 use std::cell::RefCell;
 
-/// What vanishes at a special point.
+/// The function that vanishes at a special point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Test {
     /// `dp/ds`.
@@ -48,8 +48,9 @@ pub(super) struct Bracket {
 /// Part of the step that stretches keep from special points.
 pub(super) const BESIDE: f64 = 1e-3;
 
-/// What changes its sign between special points that are known, at these lengths: as many deviations must grow before each of them as beyond the one
-/// before, and the slope must have the same sign. The slope comes first. Where a test seems to change its sign twice, solutions between decide.
+/// The sign changes between special points that are known, at these lengths: as many deviations must grow before each of them as beyond the
+/// one before, and the slope must have the same sign. The slope comes first. Where a test seems to change its sign twice, solutions between
+/// decide.
 pub(super) fn brackets<P: Problem>(
     problem: &P,
     step: &Step<'_, P::Local>,
@@ -78,8 +79,8 @@ pub(super) fn brackets<P: Problem>(
     out
 }
 
-/// A level that lies beyond 0 by no more than this part of its values at both ends touches 0: so it does where branches cross at which it is an even
-/// function of the length.
+/// A level that lies beyond 0 by no more than this part of its values at both ends touches 0: so it does where branches cross at which it
+/// is an even function of the length.
 const TOUCHES: f64 = 1e-5;
 
 /// Part of a step.
@@ -90,7 +91,7 @@ struct Stretch<'s, P: Problem> {
     high: (f64, &'s Place<P::Local>),
     is_whole: bool,
     watch: &'s dyn Watch,
-    /// What was seen between them: several functions are looked at in the same places.
+    /// Solutions between them: several functions are evaluated in the same places.
     seen: RefCell<Vec<(f64, Option<Seen>)>>,
 }
 
@@ -98,7 +99,7 @@ struct Stretch<'s, P: Problem> {
 type Seen = (f64, Vec<Vec<Level>>);
 
 impl<P: Problem> Stretch<'_, P> {
-    /// What changes its sign on it.
+    /// The sign changes on it.
     fn add(&self, out: &mut Vec<Bracket>) {
         let before = out.len();
         for class in 0..self.low.1.levels.len() {
@@ -148,7 +149,7 @@ impl<P: Problem> Stretch<'_, P> {
         self.problem.noise(&self.low.1.levels).max(self.problem.noise(&self.high.1.levels))
     }
 
-    /// What is seen at a length; nothing where there is no solution.
+    /// The solution at a length; nothing where there is none.
     fn seen(&self, s: f64) -> Option<Seen> {
         let known = self.seen.borrow().iter().find(|one| one.0 == s).map(|one| one.1.clone());
         known.unwrap_or_else(|| {
@@ -159,7 +160,8 @@ impl<P: Problem> Stretch<'_, P> {
         })
     }
 
-    /// Tests that have the same signs at both ends and others between: where `value`, which vanishes with them, seems to change its sign twice.
+    /// Tests that have the same signs at both ends and others between: where `value`, which vanishes with them, seems to change its sign
+    /// twice.
     fn twice(&self, value: &Value<'_>, tests: &[Test], out: &mut Vec<Bracket>) {
         let of = |place: &Place<P::Local>| value(place.slope(), &place.levels);
         let unit = of(self.low.1);
@@ -189,8 +191,8 @@ impl<P: Problem> Stretch<'_, P> {
             let slope = before.tangent.last().copied().unwrap_or(f64::NAN);
             (-before.length, relative(value(slope, &before.levels)))
         });
-        // beyond a special point the function has the other sign, and says nothing about its course here; near an end of the step the vertex of a
-        // parabola from one step to the next may lie outside
+        // beyond a special point the function has the other sign, and says nothing about its course here; near an end of the step the
+        // vertex of a parabola from one step to the next may lie outside
         let near = self.near_end(tests);
         let third = before.filter(|third| third.1 > 0.0 && near.is_none()).or_else(|| {
             let s = near.unwrap_or(middle);
@@ -207,13 +209,14 @@ impl<P: Problem> Stretch<'_, P> {
     }
 }
 
-/// A test that falls below this part of its value over a step may change its sign twice before the end; it is looked at this part of the way.
+/// A test that falls below this part of its value over a step may change its sign twice before the end; it is looked at this part of the
+/// way.
 const FALLS: f64 = 0.5;
 const LATE: f64 = 0.9;
 
 impl<P: Problem> Stretch<'_, P> {
-    /// A place near an end at which a test may be beyond a sign change, and back at the end: where it would vanish if it went on as on the step before,
-    /// or late on a step over which it falls.
+    /// A place near an end at which a test may be beyond a sign change, and back at the end: where it would vanish if it went on as on the
+    /// step before, or late on a step over which it falls.
     fn near_end(&self, tests: &[Test]) -> Option<f64> {
         let length = self.high.0 - self.low.0;
         let early = |&test: &Test| {
@@ -239,10 +242,11 @@ fn number(value: f64) -> Number {
     (value.signum(), value.abs().ln())
 }
 
-/// Slopes below so many times the accuracy of the solutions may be noise: towards a connection the parameter converges and the branch goes on.
+/// Slopes below so many times the accuracy of the solutions may be noise: towards a connection the parameter converges and the branch goes
+/// on.
 const LEVEL: f64 = 10.0;
 
-/// Whether the parameter hardly changes over a step.
+/// Returns `true` if the parameter hardly changes over a step.
 fn is_level<P: Problem>(problem: &P, step: &Step<'_, P::Local>) -> bool {
     let slope = step.old.slope().abs().max(step.new.slope().abs());
     let width = problem.weights(&step.old.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());

@@ -15,8 +15,8 @@ const DIFFERENCE: f64 = 1e-5;
 ///
 /// `F(x) + b psi = 0`, `DF(x)^T psi = 0`, `psi . psi = 1`.
 ///
-/// Next to a branch point the equations of a branch themselves are nearly singular, and the more so the smaller the angle between the branches; these are
-/// regular. `None` where they have no solution nearby.
+/// Next to a branch point the equations of a branch themselves are nearly singular, and the more so the smaller the angle between the
+/// branches; these are regular. `None` where they have no solution nearby.
 ///
 /// Source: Moore (1980), Numer. Funct. Anal. Optim. 2, 441; Griewank and Reddien (1984), SIAM J. Numer. Anal. 21, 176.
 pub(super) fn branch_point<P: Equations>(problem: &P, x: &[f64], watch: &dyn Watch) -> Option<Vec<f64>> {

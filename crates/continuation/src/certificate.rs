@@ -1,9 +1,9 @@
-//! What shows that a special point is one.
+//! The evidence for a special point.
 
 use super::normal_form::NormalForm;
 use serde::{Deserialize, Serialize};
 
-/// What vanishes at a special point.
+/// The function that vanishes at a special point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -17,14 +17,14 @@ pub enum TestFunction {
 /// The evidence for a special point: the test function that changes its sign there, how close to 0 it was brought, and how fast it passes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
-    /// What vanishes.
+    /// The function that vanishes.
     pub test: TestFunction,
     /// Its value at the point.
     pub residual: f64,
-    /// Its derivative by the length along the branch (in the units of [`super::Settings`]), from a solution nearby: where it is not 0 the test
-    /// function passes 0 transversally, and the point is of the generic kind.
+    /// Its derivative by the length along the branch (in the units of [`super::Settings`]), from a solution nearby: where it is not 0 the
+    /// test function passes 0 transversally, and the point is of the generic kind.
     pub transversality: f64,
-    /// How far the parameter may be away: from the residual, from the errors of the test function and of Newton's method.
+    /// Bound of the error of the parameter: from the residual, from the errors of the test function and of Newton's method.
     pub error: f64,
     /// The leading coefficient of the normal form, where the point is one at which it says what begins. (That of a Hopf bifurcation is in
     /// [`super::Hopf`].)
@@ -44,8 +44,8 @@ pub(super) struct Passing {
 }
 
 impl Certificate {
-    /// The certificate of the point `at`, from the solution `beside` it. The test function has the error `noise`, the parameter of each solution
-    /// the error `solved`.
+    /// The certificate of the point `at`, from the solution `beside` it. The test function has the error `noise`, the parameter of each
+    /// solution the error `solved`.
     pub(super) fn of(test: TestFunction, at: Passing, beside: Passing, noise: f64, solved: f64) -> Self {
         let by = |change: f64| change / (beside.s - at.s);
         let (transversality, bend) = (by(beside.value - at.value), by(beside.slope - at.slope));

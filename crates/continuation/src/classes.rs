@@ -4,15 +4,16 @@ use motiform_analysis::linear::{add, apply, basis, complement, dot, norm};
 use motiform_analysis::{Isotropy, mean_over_rotations};
 use motiform_dynamics::Equivariant;
 
-/// The part of its size up to which a shape counts as equal to its image at a turning point, which Newton's method places less well across the branch than along it.
+/// The part of its size up to which a shape counts as equal to its image at a turning point, which Newton's method places less well across
+/// the branch than along it.
 pub(super) const GAINED: f64 = 1e-4;
 
-/// What all shapes of a branch have in common.
+/// The symmetry that all shapes of a branch have in common.
 #[derive(Clone, Debug)]
 pub(super) struct Classes {
     /// Order of the rotations that leave the shapes unchanged.
     pub(super) folds: usize,
-    /// Whether every rotation leaves them unchanged.
+    /// `true` if every rotation leaves them unchanged.
     pub(super) circle: bool,
     /// The angle of `R(angle) M`, which leaves the shapes unchanged, if they have a mirror axis.
     pub(super) axis: Option<f64>,
@@ -66,7 +67,8 @@ impl Classes {
         }
     }
 
-    /// Column `j` of `A P + rest (1 - P)`, with `P` the projection on the deviations that keep all symmetry; `A` itself where there is none.
+    /// Column `j` of `A P + rest (1 - P)`, with `P` the projection on the deviations that keep all symmetry; `A` itself where there is
+    /// none.
     pub(super) fn kept<B: Equivariant + ?Sized>(
         &self,
         body: &B,
@@ -88,7 +90,7 @@ impl Classes {
         out
     }
 
-    /// Whether a deviation breaks rotations of the shape.
+    /// Returns `true` if a deviation breaks rotations of the shape.
     pub(super) fn breaks_rotations<B: Equivariant + ?Sized>(&self, body: &B, deviation: &[f64]) -> bool {
         if self.circle {
             return true;

@@ -1,4 +1,4 @@
-//! Whether two motions are the same up to the symmetry and time.
+//! Comparison of two motions up to the symmetry and time.
 
 use super::point::Motion;
 use super::shooting::shape_after;
@@ -15,7 +15,7 @@ const NOTHING: f64 = 1e-12;
 /// Places along an orbit at which it is compared.
 const PLACES: usize = 200;
 
-/// Whether two motions of one body are images of each other under rotations, the mirror and shifts of time, up to the part
+/// Returns `true` if two motions of one body are images of each other under rotations, the mirror and shifts of time, up to the part
 /// `tolerance` of their size.
 ///
 /// # Checked by  tests/all/continuation.rs: copies of one orbit, and different ones of the same period

@@ -15,7 +15,7 @@ pub(super) const TIGHT: f64 = 1e-11;
 pub(super) struct Corrected<L> {
     /// The unknowns.
     pub(super) x: Vec<f64>,
-    /// What was computed beside them: one Newton step, shorter than the tolerance, lies between.
+    /// Results computed beside them: one Newton step, shorter than the tolerance, lies between.
     pub(super) local: L,
     /// Length of the first step.
     pub(super) first: f64,

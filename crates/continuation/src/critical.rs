@@ -6,7 +6,7 @@ use super::special::Special;
 /// Levels closer than this part of the largest one are the same.
 const TWINS: f64 = 1e-12;
 
-/// What is critical along a curve.
+/// The critical condition along a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Condition {
     /// An eigenvalue 0, or a multiplier +1.
@@ -22,7 +22,7 @@ pub(super) enum Condition {
 pub(super) struct Critical {
     pub(super) condition: Condition,
     pub(super) class: usize,
-    /// Whether the levels are those of multipliers.
+    /// `true` if the levels are those of multipliers.
     pub(super) orbits: bool,
     /// The unit of levels.
     pub(super) rate: f64,
@@ -33,6 +33,8 @@ pub(super) struct Critical {
 pub(super) struct Reading {
     /// Vanishes where the condition holds, and is smooth there.
     pub(super) value: f64,
+    /// Distance of the critical multiplier from where it belongs (of a pair: its mean growth); of eigenvalues in units of the rate of the equations.
+    pub(super) off: f64,
     /// Of a pair: `omega^2`, or the cosine of the angle. They pass 0, or +-1, where the pair becomes real.
     pub(super) angle: f64,
     /// The ranks of the critical levels in their class.
@@ -40,7 +42,7 @@ pub(super) struct Reading {
 }
 
 impl Critical {
-    /// What is critical at a special point.
+    /// The critical condition at a special point.
     pub(super) fn of(
         special: Special,
         levels: &[Vec<Level>],
@@ -108,7 +110,8 @@ impl Critical {
                 (other, im) => re * (other * other + im * im),
             },
         };
-        Some(Reading { value, angle: 0.0, members: vec![first] })
+        let off = size(&first) / if self.orbits { 1.0 } else { self.rate };
+        Some(Reading { value, off, angle: 0.0, members: vec![first] })
     }
 
     /// The mean growth of the pair.
@@ -123,15 +126,15 @@ impl Critical {
                 let angle = if self.orbits { libm::cos(level.angle) } else { level.angle * level.angle };
                 let twin = levels.iter().position(|other| other.angle == -level.angle);
                 let members = std::iter::once(rank).chain(twin).collect();
-                all.push(Reading { value: level.growth, angle, members });
+                all.push(self.growing(level.growth, angle, members));
             }
         }
-        let off = |reading: &Reading| {
+        let away = |reading: &Reading| {
             let (value, turned) =
                 (reading.value / self.rate, (reading.angle - angle).abs() / (self.rate * self.rate));
             value * value + turned * (1.0 + turned)
         };
-        all.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))
+        all.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     fn real_pair(&self, levels: &[Level], a: usize, b: usize) -> Option<Reading> {
@@ -139,13 +142,18 @@ impl Critical {
         let value = 0.5 * (levels[a].growth + levels[b].growth);
         let members = vec![a, b];
         if !self.orbits {
-            return Some(Reading { value, angle: -0.25 * (x - y) * (x - y), members });
+            return Some(self.growing(value, -0.25 * (x - y) * (x - y), members));
         }
-        (x * y > 0.0).then(|| Reading { value, angle: 0.5 * (x + y) / (x * y).sqrt(), members })
+        (x * y > 0.0).then(|| self.growing(value, 0.5 * (x + y) / (x * y).sqrt(), members))
     }
 
-    /// A number that changes its sign with every eigenvalue but the critical ones that keeps the motion's symmetry and passes 0, and is smooth:
-    /// the product of `lambda / |(lambda, omega)|` over real ones, `|lambda|^2 / (|lambda|^2 + omega^2)` over pairs.
+    fn growing(&self, value: f64, angle: f64, members: Vec<usize>) -> Reading {
+        let off = value.abs() / if self.orbits { 1.0 } else { self.rate };
+        Reading { value, off, angle, members }
+    }
+
+    /// A number that changes its sign with every eigenvalue but the critical ones that keeps the motion's symmetry and passes 0, and is
+    /// smooth: the product of `lambda / |(lambda, omega)|` over real ones, `|lambda|^2 / (|lambda|^2 + omega^2)` over pairs.
     pub(super) fn poles(&self, levels: &[Vec<Level>], reading: &Reading) -> f64 {
         let own = |rank: usize| self.class == 0 && reading.members.contains(&rank);
         let square = reading.angle.abs();

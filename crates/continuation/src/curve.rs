@@ -26,17 +26,17 @@ pub struct CurvePoint {
     pub arclength: f64,
     /// The motion, with its eigenvalues or multipliers.
     pub motion: Motion,
-    /// How many directions of the reduced motion grow, the critical ones left out.
+    /// Number of growing directions of the reduced motion, the critical ones left out.
     pub unstable: usize,
-    /// What is critical; for a Hopf bifurcation with its frequency and its first Lyapunov coefficient here.
+    /// The critical condition; for a Hopf bifurcation with its frequency and its first Lyapunov coefficient here.
     pub special: Special,
-    /// What else happens, if the point was solved for as one of codimension two.
+    /// The further degeneracy, if the point was solved for as one of codimension two.
     pub degenerate: Option<Degenerate>,
-    /// What is left of the condition that holds along the curve: the product of the two eigenvalues closest to 0 (of multipliers, less the critical one), or
-    /// the mean growth of the critical pair.
+    /// The residual of the condition that holds along the curve: the product of the two eigenvalues closest to 0 (of multipliers, less the
+    /// critical one), or the mean growth of the critical pair.
     pub residual: f64,
-    /// The slope of the condition across the curve, by the length in the units of [`Settings`]: where it is not 0 the condition passes 0 there, and
-    /// the point is `residual / transversality` away from where it does.
+    /// The slope of the condition across the curve, by the length in the units of [`Settings`]: where it is not 0 the condition passes 0
+    /// there, and the point is `residual / transversality` away from where it does.
     pub transversality: f64,
 }
 

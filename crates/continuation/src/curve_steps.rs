@@ -15,6 +15,12 @@ const CORRECTION: f64 = 1e-3;
 /// shrinking steps do not come back to the same place.
 const SHORTER: f64 = 0.35;
 
+/// A point is one of the curve only where its critical multiplier is as close to where it belongs: what the condition leaves at ordinary points is below 1e-6.
+const RESOLVED: f64 = 1e-4;
+
+/// Where that fails after a step as short as this, the condition is not resolved any more.
+const SHORT: f64 = 1e-3;
+
 /// Least cosine of the angle between successive tangents.
 const STRAIGHT: f64 = 0.9;
 
@@ -34,7 +40,7 @@ pub(super) struct Event<L> {
     pub(super) kind: Degenerate,
     /// The parameters, where they are extrapolated.
     pub(super) at: Option<[f64; 2]>,
-    /// Whether the curve ends there.
+    /// `true` if the curve ends there.
     pub(super) ends: bool,
 }
 
@@ -44,6 +50,12 @@ impl<P: Problem> CurveTracer<P> {
         loop {
             let length = self.step;
             let why = match self.at(length, watch) {
+                Ok((Spot { reading, .. }, _)) if reading.off > RESOLVED => {
+                    if length <= SHORT {
+                        return Err(End::Lost { off: reading.off });
+                    }
+                    Obstruction::Newton
+                }
                 Ok((spot, off)) if self.is_straight(&spot) => {
                     let factor = libm::cbrt(CORRECTION / off.abs().max(1e-12)).clamp(SHORTER, 1.5);
                     self.step =

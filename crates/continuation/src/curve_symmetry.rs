@@ -20,15 +20,16 @@ const BESIDE: f64 = 1e-2;
 type At = (f64, Vec<f64>);
 
 impl<L> Event<L> {
-    /// Whether a sign change of the same step is due to the symmetry gained here. Near this point everything that belongs to the symmetry vanishes, and signs are
-    /// those of rounding; a sign change that could not be located is taken for one of these.
+    /// Returns `true` if a sign change of the same step is due to the symmetry gained here. Near this point everything that belongs to the
+    /// symmetry vanishes, and signs are those of rounding; a sign change that could not be located is taken for one of these.
     pub(super) fn explains(&self, other: &Self, length: f64) -> bool {
         other.kind == Degenerate::Unresolved || (other.s - self.s).abs() < BESIDE * length
     }
 }
 
 impl<P: Problem> CurveTracer<P> {
-    /// The place before `new` at which the motion gains a symmetry: a part of its shape (the unknowns that rotations mix) changes its sign there.
+    /// The place before `new` at which the motion gains a symmetry: a part of its shape (the unknowns that rotations mix) changes its sign
+    /// there.
     ///
     /// Other branches cross there, so that the equations are singular: the place is the middle of the last solutions on both sides.
     pub(super) fn symmetric(

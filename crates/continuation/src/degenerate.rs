@@ -30,8 +30,8 @@ pub enum Degenerate {
     },
     /// Two different kinds of critical multipliers at once.
     DoublyCritical,
-    /// The motion gains a symmetry: a part of its shape vanishes, and every eigenvalue that belongs to the symmetry is critical at once. Where the parameters turn
-    /// back, the curve goes on with images of itself, and ends; so does one of pairs.
+    /// The motion gains a symmetry: a part of its shape vanishes, and every eigenvalue that belongs to the symmetry is critical at once.
+    /// Where the parameters turn back, the curve goes on with images of itself, and ends; so does one of pairs.
     GainsSymmetry,
     /// One of them, seen between two points of the curve and not located.
     Unresolved,
@@ -57,7 +57,7 @@ impl Degenerate {
         }
     }
 
-    /// What is looked for along curves of this kind: what does not come was not found.
+    /// The points that are sought along curves of this kind: one that does not come was not found.
     #[must_use]
     pub fn sought(special: Special, orbits: bool) -> Vec<Self> {
         match (special, orbits) {
@@ -76,13 +76,13 @@ impl Degenerate {
     }
 }
 
-/// What changes its sign at such a point.
+/// The value that changes its sign at such a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Sign {
     /// The direction of the parameters, against the one at the beginning of the step.
     Turn,
-    /// The first Lyapunov coefficient, multiplied by what makes it finite where another eigenvalue vanishes: at a zero-Hopf point it has a pole, and changes its sign
-    /// without being 0.
+    /// The first Lyapunov coefficient, multiplied by what makes it finite where another eigenvalue vanishes: at a zero-Hopf point it has a
+    /// pole, and changes its sign without being 0.
     Lyapunov,
     /// `omega^2`, or the cosine of the angle, less this.
     Angle(f64),
@@ -137,7 +137,7 @@ impl Sign {
         out
     }
 
-    /// Whether the critical pair becomes real where it vanishes.
+    /// Returns `true` if the critical pair becomes real where it vanishes.
     pub(super) fn ends(self, critical: &Critical) -> bool {
         matches!(self, Self::Angle(value) if !critical.orbits || value.abs() == 1.0)
     }
@@ -157,13 +157,14 @@ impl Sign {
         }
     }
 
-    /// Whether the sign of the value is known: a coefficient may be smaller than its error.
+    /// Returns `true` if the sign of the value is known: a coefficient may be smaller than its error.
     pub(super) fn is_known(self, seen: &Seen<'_>) -> bool {
         !matches!(self, Self::Lyapunov)
             || first_lyapunov_of(seen).is_some_and(|found| found.is_negative().is_some())
     }
 
-    /// Whether the point where the value vanishes is what it stands for: the coefficient itself must vanish, not what it is multiplied with.
+    /// Returns `true` if the point where the value vanishes is what it stands for: the coefficient itself must vanish, not what it is
+    /// multiplied with.
     pub(super) fn holds(self, at: &Seen<'_>, ends: [&Seen<'_>; 2]) -> bool {
         if !matches!(self, Self::Lyapunov) {
             return true;
@@ -172,7 +173,7 @@ impl Sign {
         size(at) < VANISHES * size(ends[0]).max(size(ends[1]))
     }
 
-    /// How many levels grow, for the signs of levels: it must change too.
+    /// Number of growing levels, for the signs of levels: it must change too.
     pub(super) fn count(self, critical: &Critical, seen: &Seen<'_>) -> Option<usize> {
         let others = || critical.others(seen.levels, seen.reading);
         match self {

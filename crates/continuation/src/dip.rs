@@ -9,7 +9,7 @@ const FLAT: f64 = 0.9;
 /// Least part of the way by which places differ.
 const APART: f64 = 1e-6;
 
-/// What is seen at a place.
+/// The observation at a place.
 pub(super) enum Look {
     /// It is beyond a sign change.
     Beyond,
@@ -17,8 +17,8 @@ pub(super) enum Look {
     Value(f64),
 }
 
-/// A place between `from` and `to` beyond a sign change of a function that is positive at both: near its lowest value, by parabolas through three
-/// values; `None` if there is none, as far as a few looks show. `third` is a further value, inside or outside.
+/// A place between `from` and `to` beyond a sign change of a function that is positive at both: near its lowest value, by parabolas through
+/// three values; `None` if there is none, as far as a few looks show. `third` is a further value, inside or outside.
 pub(super) fn dip(
     [from, to]: [(f64, f64); 2],
     third: (f64, f64),
@@ -41,8 +41,8 @@ pub(super) fn dip(
     None
 }
 
-/// The vertex of the parabola through the lowest value and its neighbours, where that is inside and new, and whether the parabola falls no further there. (A lowest
-/// value below 0 is that of a sign change within rounding.)
+/// The vertex of the parabola through the lowest value and its neighbours, where that is inside and new, and whether the parabola falls no
+/// further there. (A lowest value below 0 is that of a sign change within rounding.)
 fn lowest(points: &mut [(f64, f64)], (from, to): (f64, f64)) -> Option<(f64, bool)> {
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let inside = |i: &usize| (from..=to).contains(&points[*i].0);

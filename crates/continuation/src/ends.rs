@@ -26,12 +26,12 @@ const SAME: f64 = 1e-6;
 /// Where a branch ends on a step, and why.
 pub(super) type Limit<L> = Option<(Place<L>, End)>;
 
-/// Whether a branch may turn back here: where another one goes on through the point it is no fold.
+/// Returns `true` if a branch may turn back here: where another one goes on through the point it is no fold.
 fn turns(special: Special) -> bool {
     matches!(special, Special::Fold | Special::BranchPoint)
 }
 
-/// Whether the second of two special points is the first one, found by the slope of the parameter.
+/// Returns `true` if the second of two special points is the first one, found by the slope of the parameter.
 fn is_better<L>(found: &[(Place<L>, Special)], first: usize, other: usize, length: f64) -> bool {
     let [first, other] = [first, other].map(|place| &found[place].0);
     let by_slope = |place: &Place<L>| {
@@ -69,7 +69,7 @@ impl<P: Problem> Tracer<P> {
         Ok(same.then_some((at, End::Closed)))
     }
 
-    /// Whether the shape has left every bound.
+    /// Ends a branch whose shape has left every bound.
     pub(super) fn check(&self, new: &Place<P::Local>) -> Result<(), End> {
         let size = self.problem.size(&new.x);
         if size > self.settings.largest_size { Err(End::BlowUp { size }) } else { Ok(()) }
@@ -81,7 +81,10 @@ impl<P: Problem> Tracer<P> {
             return end;
         }
         let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
-        let resonant = || self.periods.algebraic(Algebraic::Resonant)?.through(saddle());
+        let resonant = || {
+            let found = self.periods.algebraic(Algebraic::Resonant)?.through(saddle())?;
+            Some(Connection { joins: self.joins(), ..found })
+        };
         let on_a_circle = || {
             let found = self.periods.algebraic(Algebraic::SquareRoot)?;
             let side = (self.place.parameter() - found.parameter).signum();
@@ -99,33 +102,36 @@ impl<P: Problem> Tracer<P> {
         let found = self.periods.oscillating(&saddle.rates)?.through(Some(saddle))?;
         // all solutions that are fitted may be off by the same
         let error = found.error + self.problem.accuracy() * self.settings.width();
-        let joins = match self.passages().map(|passages| passages.joins) {
-            Some(Joins::Images) => Joins::Images,
-            _ => Joins::Itself,
-        };
+        // beside a saddle-focus the orbit passes it in turns that may look like other equilibria: these are no evidence
+        let joins = self.joins().filter(|joins| *joins != Joins::Different);
         Some(Connection { error, joins, ..found })
+    }
+
+    /// How the saddles that the orbit is seen to pass are related.
+    fn joins(&self) -> Option<Joins> {
+        self.passages().map(|passages| passages.joins)
     }
 
     fn passages(&self) -> Option<Passages> {
         self.problem.passages(&self.place.x, &self.place.local)
     }
 
-    /// The connection ahead by the logarithmic law, with the saddles that the orbit passes. `None` where the law is not theirs, or several are passed and
-    /// not all of them clearly.
+    /// The connection ahead by the logarithmic law, with the saddles that the orbit passes. `None` where the law is not theirs, or several
+    /// are passed and not all of them clearly.
     fn certain(&self, connection: Connection) -> Option<Connection> {
         let passages = self.passages();
         if let Some(several) = passages.as_ref().filter(|passages| passages.joins == Joins::Different) {
             return connection.past(several);
         }
-        let joins = passages.as_ref().map_or(Joins::Itself, |passages| passages.joins);
+        let joins = passages.as_ref().map(|passages| passages.joins);
         let of_one = connection.clone().through(self.problem.saddle(&self.place.x, &self.place.local));
         let found = of_one.or_else(|| connection.past(passages.as_ref()?))?;
         Some(Connection { joins, ..found })
     }
 
-    /// The end of the branch at the first special point where the motion gains a symmetry: it is a special point of the motion that has it. What was found beyond belongs to
-    /// images of the branch; what was found as near as the symmetry can be told is the same point. (With five axes or more, say, another
-    /// growth vanishes as the third power of the distance, and round-off places it.)
+    /// The end of the branch at the first special point where the motion gains a symmetry: it is a special point of the motion that has it.
+    /// Points beyond belong to images of the branch; those as near as the symmetry can be told are the same point. (With
+    /// five axes or more, say, another growth vanishes as the third power of the distance, and round-off places it.)
     pub(super) fn meets(&self, length: f64, changes: &mut Changes<P::Local>) -> Option<End> {
         let gains = |(place, (at, special)): (usize, &(Place<P::Local>, Special))| {
             // where the parameter does not turn back the place is found by itself, and as well as any other
@@ -158,7 +164,7 @@ impl<P: Problem> Tracer<P> {
         Some(end)
     }
 
-    /// Whether the orbits shrink to an equilibrium before `new`. The parameter has an extreme value there, as at a fold.
+    /// The end of orbits that shrink to an equilibrium before `new`. The parameter has an extreme value there, as at a fold.
     pub(super) fn shrinks(&self, new: &Place<P::Local>, found: &[(Place<P::Local>, Special)]) -> Option<End> {
         let (before, now) = (self.problem.swing(&self.place.local)?, self.problem.swing(&new.local)?);
         if dot(&before, &now) >= 0.0 {
@@ -169,7 +175,7 @@ impl<P: Problem> Tracer<P> {
         Some(End::Shrinks { parameter: at.parameter(), time: at.x[time] })
     }
 
-    /// Whether the branch of orbits ends at the present place.
+    /// Ends a branch of orbits that ends at the present place.
     pub(super) fn ends(&mut self) -> Result<(), End> {
         let Some(time) = self.problem.time().map(|place| (self.place.x[place], self.place.tangent[place]))
         else {

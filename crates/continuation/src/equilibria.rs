@@ -21,11 +21,12 @@ use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
 use nalgebra::DMatrix;
 
-/// The unit of the shape is at least this part of its own size: a branch that begins small keeps the steps of its beginning until it has grown
-/// to four times that.
+/// The unit of the shape is at least this part of its own size: a branch that begins small keeps the steps of its beginning until it has
+/// grown to four times that.
 const GROWN: f64 = 0.25;
 
-/// Distances at which members of a family with one value of the parameter are looked for, in sizes of the shape, and the part of the range within which it is one value.
+/// Distances at which members of a family with one value of the parameter are looked for, in sizes of the shape, and the part of the range
+/// within which it is one value.
 const FAMILY: [f64; 2] = [0.05, 0.1];
 const SAME_PARAMETER: f64 = 1e-7;
 
@@ -133,7 +134,8 @@ impl Problem for Equilibria<'_> {
     }
 
     fn noise(&self, levels: &[Vec<Level>]) -> f64 {
-        // that of the solutions, as rates change by their own size over a shape's; fast modes have no part in the slow ones: of the slow half
+        // that of the solutions, as rates change by their own size over a shape's; fast modes have no part in the slow ones: of the slow
+        // half
         let mut sizes: Vec<f64> =
             levels.iter().flatten().map(|level| level.growth.hypot(level.angle)).collect();
         ascending(&mut sizes);
@@ -235,8 +237,8 @@ fn rate(body: &dyn Equivariant, shape: &[f64]) -> Vec<f64> {
 }
 
 impl Equilibria<'_> {
-    /// The equations, in their units. What breaks the symmetry of the shape is left to itself, `du = 0`: where such a deviation is critical the equations
-    /// of the motion itself stay regular.
+    /// The equations, in their units. What breaks the symmetry of the shape is left to itself, `du = 0`: where such a deviation is critical
+    /// the equations of the motion itself stay regular.
     fn fill(&self, shape: &[f64], omega: f64, sides: &[Sides], local: &Local) -> Linear {
         let (dim, body) = (self.dim, local.body.as_ref());
         let mut spin = vec![0.0; dim];
@@ -274,7 +276,8 @@ impl Equilibria<'_> {
         Some(Self { bodies: self.bodies, classes, dim: self.dim, size: self.size, units: self.units, widths })
     }
 
-    /// Whether motions in the direction `vector` exist for the same parameter, at two distances: beside a pitchfork the parameter changes as the square of the distance.
+    /// Returns `true` if motions in the direction `vector` exist for the same parameter, at two distances: beside a pitchfork the parameter
+    /// changes as the square of the distance.
     fn is_one_of_a_family(&self, x: &[f64], vector: &[f64]) -> bool {
         let Some(free) = self.free(x) else { return false };
         let weights = free.weights(x);

@@ -27,7 +27,7 @@ pub trait Family: Sync {
     /// [`Error::NoBody`] where there is none, with the reason.
     fn at(&self, parameter: f64) -> Result<Box<dyn Equivariant>>;
 
-    /// What may be spent on orbits of these bodies; `None`: whatever it takes.
+    /// The allowance for orbits of these bodies; `None`: whatever it takes.
     fn allowance(&self) -> Option<&Allowance> {
         None
     }
@@ -69,7 +69,7 @@ pub(super) enum Bodies<'f> {
 }
 
 impl<'f> Bodies<'f> {
-    /// What may be spent on orbits.
+    /// The allowance for orbits.
     pub(super) fn allowance(self) -> Option<&'f Allowance> {
         match self {
             Self::One(family) => family.allowance(),
@@ -116,8 +116,9 @@ pub(super) struct Sides {
 }
 
 impl Neighbours {
-    /// The body whose parameters are the last of `x`, varied over these widths, for shapes of this unit, with neighbours so close that the central difference has about ten digits: more
-    /// than a Newton step needs, whose residual is exact. At the end of what the model allows the difference is one-sided.
+    /// The body whose parameters are the last of `x`, varied over these widths, for shapes of this unit, with neighbours so close that the
+    /// central difference has about ten digits: more than a Newton step needs, whose residual is exact. At the end of what the model allows
+    /// the difference is one-sided.
     pub(super) fn of(
         bodies: Bodies<'_>,
         x: &[f64],

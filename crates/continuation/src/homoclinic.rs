@@ -1,6 +1,6 @@
 //! A connection of saddles, with themselves or one with the next, in which a branch of orbits ends.
 
-use super::joins::{Joins, Passed};
+use super::joins::{Joins, Passed, words};
 use super::passages::Passages;
 use motiform_analysis::RelativeEquilibrium;
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Part up to which a rate of the saddle is that of the law: the fitted rate comes near to it slowly.
 pub(super) const RATES: f64 = 0.3;
 
-/// How the time `T` of an orbit grows with the parameter `p`.
+/// The law by which the time `T` of an orbit grows with the parameter `p`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum PeriodLaw {
@@ -24,7 +24,8 @@ pub enum PeriodLaw {
         amplitude: f64,
     },
     /// `p = p0 + amplitude exp(-rate T) cos(frequency T + phase)` to leading order: the saddle's leading eigenvalues are the complex pair
-    /// `+-rate +- i frequency`, slower than the leading eigenvalue of the other side (Shilnikov). Folds follow one another after `pi / frequency`.
+    /// `+-rate +- i frequency`, slower than the leading eigenvalue of the other side (Shilnikov). Folds follow one another after `pi /
+    /// frequency`.
     ///
     /// Source: Glendinning and Sparrow (1984), J. Stat. Phys. 35, 645.
     Oscillating {
@@ -40,15 +41,15 @@ pub enum PeriodLaw {
     },
 }
 
-/// What an orbit approaches where its period grows without bound.
+/// The limit of an orbit where its period grows without bound.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum ConnectionKind {
     /// The leading eigenvalues of the saddle are real, growing and decaying ones of different size.
     Saddle,
-    /// A complex pair of the saddle leads on one side (Shilnikov). Where the pair is slower than the leading eigenvalue of the other side there are
-    /// infinitely many periodic orbits beside the connection.
+    /// A complex pair of the saddle leads on one side (Shilnikov). Where the pair is slower than the leading eigenvalue of the other side
+    /// there are infinitely many periodic orbits beside the connection.
     SaddleFocus,
     /// Growth and decay at the saddle are equal.
     Resonant,
@@ -77,31 +78,33 @@ impl ConnectionKind {
 pub struct Connection {
     /// The parameter `p0` of the connection.
     pub parameter: f64,
-    /// What remains between it and the last point of the branch.
+    /// The distance between it and the last point of the branch.
     pub remaining: f64,
-    /// How far `parameter` may be away.
+    /// Bound of the error of `parameter`.
     #[serde(default)]
     pub error: f64,
-    /// How the time of the orbit grows (half the period for a zigzag).
+    /// The law of the time of the orbit (half the period for a zigzag).
     pub law: PeriodLaw,
     /// The relative equilibrium that the orbit passes closest by, at the last point.
     pub saddle: Option<RelativeEquilibrium>,
-    /// The eigenvalues `(re, im)` of the saddle in the directions that keep the symmetry of the orbit's shapes; empty where these are not told from the others.
+    /// The eigenvalues `(re, im)` of the saddle in the directions that keep the symmetry of the orbit's shapes; empty where these are not
+    /// told from the others.
     #[serde(default)]
     pub rates: Vec<(f64, f64)>,
-    /// How the saddles that the orbit passes are related.
+    /// The relation of the saddles that the orbit passes; `None` where the orbit is not seen to pass any: at a saddle-node there is none on
+    /// this side.
     #[serde(default)]
-    pub joins: Joins,
+    pub joins: Option<Joins>,
     /// The saddles of a heteroclinic cycle in their order; empty for other connections.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub passed: Vec<Passed>,
 }
 
 impl Connection {
-    /// What the orbit approaches: from its law, and from the leading eigenvalues of the saddle.
+    /// The limit of the orbit: from its law, and from the leading eigenvalues of the saddle.
     #[must_use]
     pub fn kind(&self) -> ConnectionKind {
-        if self.joins == Joins::Different {
+        if self.joins == Some(Joins::Different) {
             return ConnectionKind::Cycle;
         }
         match self.law {
@@ -115,16 +118,27 @@ impl Connection {
         }
     }
 
-    /// The slowest eigenvalues `(re, |im|)` of the saddle that grow and that decay, in the directions that keep the symmetry of the orbit's shapes.
+    /// The name of such an end: `homoclinic` or `heteroclinic`; `connection` where the orbit is not seen to pass the saddles.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match (self.joins, self.law) {
+            (Some(Joins::Images | Joins::Different), _) => "heteroclinic",
+            (Some(Joins::Itself), _) | (None, PeriodLaw::SquareRoot { .. }) => "homoclinic",
+            (None, _) => "connection",
+        }
+    }
+
+    /// The slowest eigenvalues `(re, |im|)` of the saddle that grow and that decay, in the directions that keep the symmetry of the orbit's
+    /// shapes.
     #[must_use]
     pub fn sides(&self) -> Option<[(f64, f64); 2]> {
         leading_sides(&self.rates)
     }
 
-    /// The saddle quantity: the sum of the real parts of the slowest growing and decaying eigenvalues; `None` where they are not known, at a saddle-node, and
-    /// for a cycle of several saddles ([`Passed::quantity`]).
-    /// Where the leading eigenvalues are real and their sum is negative, one stable orbit meets the connection; where it is positive, the orbit
-    /// is unstable. Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2.
+    /// The saddle quantity: the sum of the real parts of the slowest growing and decaying eigenvalues; `None` where they are not known, at
+    /// a saddle-node, and for a cycle of several saddles ([`Passed::quantity`]).
+    /// Where the leading eigenvalues are real and their sum is negative, one stable orbit meets the connection; where it is positive, the
+    /// orbit is unstable. Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2.
     #[must_use]
     pub fn quantity(&self) -> Option<f64> {
         let of_one = !matches!(self.kind(), ConnectionKind::SaddleNode | ConnectionKind::Cycle);
@@ -139,9 +153,9 @@ impl Connection {
         values.iter().map(|value| value.0).min_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
-    /// The connection through this saddle, the relative equilibrium that the orbit passes closest by. `None` unless deviations from it grow in some
-    /// directions and decay in others, and one of their rates is that of the law (a resonant law has two rates of one size): otherwise the
-    /// period grows for another reason, as in a canard explosion, and the branch goes on.
+    /// The connection through this saddle, the relative equilibrium that the orbit passes closest by. `None` unless deviations from it grow
+    /// in some directions and decay in others, and one of their rates is that of the law (a resonant law has two rates of one size):
+    /// otherwise the period grows for another reason, as in a canard explosion, and the branch goes on.
     pub(super) fn through(self, saddle: Option<Saddle>) -> Option<Self> {
         let Saddle { found, rates } = saddle?;
         let all = if rates.is_empty() { &found.eigenvalues } else { &rates };
@@ -171,9 +185,10 @@ impl Connection {
 
     /// The connection of the saddles that an orbit passes; `None` unless each passage is clear and the law is theirs.
     ///
-    /// An orbit that the parameter's distance `d` from the connection keeps away from a saddle, or from the next one's stable manifold, by a distance in proportion to d stays there for
-    /// `T_i = const - ln d / |lambda_i|`, with a growing eigenvalue of the first or a decaying one of the second. Near the others `ln d` enters with factors of its own, so that `T = sum T_i` alone grows
-    /// with a rate that belongs to no eigenvalue; but with the share `T_i / T` the law's rate is `|lambda_i| T_i / T` for one of them.
+    /// An orbit that the parameter's distance `d` from the connection keeps away from a saddle, or from the next one's stable manifold, by
+    /// a distance in proportion to d stays there for `T_i = const - ln d / |lambda_i|`, with a growing eigenvalue of the first or a
+    /// decaying one of the second. Near the others `ln d` enters with factors of its own, so that `T = sum T_i` alone grows with a rate
+    /// that belongs to no eigenvalue; but with the share `T_i / T` the law's rate is `|lambda_i| T_i / T` for one of them.
     ///
     /// Source: the maps along a cycle: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2.
     pub(super) fn past(self, passages: &Passages) -> Option<Self> {
@@ -203,7 +218,7 @@ impl Connection {
         };
         let error = self.error.max(apart * self.remaining); // what remains is in proportion to the rate
         let (saddle, rates) = (Some(longest.saddle.found.clone()), longest.saddle.rates.clone());
-        Some(Self { saddle, rates, error, joins: passages.joins, passed, ..self })
+        Some(Self { saddle, rates, error, joins: Some(passages.joins), passed, ..self })
     }
 
     /// For a cycle the product of `-decaying / growing` over its saddles: above 1 the orbits that meet it are stable.
@@ -216,8 +231,8 @@ impl Connection {
     }
 
     /// A saddle-node on a circle at the square-root law: beyond it, at the distances d and 4 d, `equilibrium` finds one whose slowest real
-    /// eigenvalue grows as the square root, `lambda = L sqrt(d)`. In the normal form `x' = d + x^2` the orbit takes the time `pi / sqrt(d)`, and
-    /// `lambda = 2 sqrt(d)`: `amplitude L` is 2 pi, or a multiple where the orbit passes several images of the place.
+    /// eigenvalue grows as the square root, `lambda = L sqrt(d)`. In the normal form `x' = d + x^2` the orbit takes the time `pi /
+    /// sqrt(d)`, and `lambda = 2 sqrt(d)`: `amplitude L` is 2 pi, or a multiple where the orbit passes several images of the place.
     ///
     /// Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 7.1.
     pub(super) fn at_fold(
@@ -242,19 +257,19 @@ impl Connection {
 
 impl std::fmt::Display for Connection {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (place, with) = (stated(self.parameter, self.error), self.joins.words());
+        let (place, with) = (stated(self.parameter, self.error), words(self.joins));
         match self.kind() {
             ConnectionKind::Saddle => {
-                write!(f, "the orbit approaches a connection of a saddle with {with} at {place}")
+                write!(f, "the orbit approaches a connection of a saddle{with} at {place}")
             }
             ConnectionKind::SaddleFocus => {
                 write!(
                     f,
-                    "the orbit approaches a connection of a saddle-focus with {with} (Shilnikov) at {place}"
+                    "the orbit approaches a connection of a saddle-focus{with} (Shilnikov) at {place}"
                 )
             }
             ConnectionKind::Resonant => {
-                write!(f, "the orbit approaches a resonant connection of a saddle with itself at {place}")
+                write!(f, "the orbit approaches a resonant connection of a saddle{with} at {place}")
             }
             ConnectionKind::SaddleNode => {
                 write!(
@@ -296,8 +311,8 @@ impl std::fmt::Display for Connection {
     }
 }
 
-/// The relative equilibrium that an orbit passes closest by, and its eigenvalues in the directions that keep the symmetry of the orbit's shapes (none
-/// where these are not told from the others).
+/// The relative equilibrium that an orbit passes closest by, and its eigenvalues in the directions that keep the symmetry of the orbit's
+/// shapes (none where these are not told from the others).
 pub(super) struct Saddle {
     pub(super) found: RelativeEquilibrium,
     pub(super) rates: Vec<(f64, f64)>,

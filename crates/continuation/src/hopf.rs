@@ -145,9 +145,9 @@ const SAME: f64 = 1e-7;
 /// The first Lyapunov coefficient of the reduced motion at a Hopf bifurcation, for a critical vector of length 1:
 /// `l1 = Re( <p, C(q,q,q*)> - 2 <p, B(q, A^-1 B(q,q*))> + <p, B(q*, (2 i omega - A)^-1 B(q,q))> ) / (2 omega)`.
 ///
-/// Its error is the difference of two results from steps of different size, and of those for two shapes that differ by `solved`, the error of the solution: near a double
-/// eigenvalue 0, and where a part of the shape vanishes, the latter is the larger one. Where two pairs have the same frequency (a rotating and a standing
-/// oscillation of a symmetric shape) one coefficient says nothing.
+/// Its error is the difference of two results from steps of different size, and of those for two shapes that differ by `solved`, the error
+/// of the solution: near a double eigenvalue 0, and where a part of the shape vanishes, the latter is the larger one. Where two pairs have
+/// the same frequency (a rotating and a standing oscillation of a symmetric shape) one coefficient says nothing.
 ///
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, eq. (5.62).
 ///
@@ -193,7 +193,7 @@ fn at_shape(
     if found.value.is_finite() && found.error.is_finite() { Ok(found) } else { Err(Undetermined::Obstructed) }
 }
 
-/// How many eigenvalues are the critical one.
+/// Number of eigenvalues that are the critical one.
 fn copies(a: &DMatrix<Complex<f64>>, frequency: f64) -> usize {
     let columns: Vec<Vec<f64>> =
         a.column_iter().map(|column| column.iter().map(|z| z.re).collect()).collect();

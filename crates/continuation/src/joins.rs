@@ -1,14 +1,13 @@
-//! How the saddles of a connection are related.
+//! The relation of the saddles of a connection.
 
 use motiform_analysis::RelativeEquilibrium;
 use serde::{Deserialize, Serialize};
 
-/// How the saddles that an orbit passes in its period are related.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// The relation of the saddles that an orbit passes in its period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Joins {
     /// It is one saddle, up to rotations: a homoclinic connection.
-    #[default]
     Itself,
     /// They are mirror images: a heteroclinic connection of a saddle with its image.
     Images,
@@ -27,20 +26,15 @@ impl Joins {
         }
     }
 
-    /// Whether it is a homoclinic or a heteroclinic connection.
-    #[must_use]
-    pub const fn kind(self) -> &'static str {
-        match self {
-            Self::Itself => "homoclinic",
-            Self::Images | Self::Different => "heteroclinic",
-        }
-    }
 
-    pub(super) const fn words(self) -> &'static str {
-        match self {
-            Self::Images => "its mirror image",
-            Self::Itself | Self::Different => "itself",
-        }
+}
+
+/// The words of what a saddle is connected with.
+pub(super) const fn words(joins: Option<Joins>) -> &'static str {
+    match joins {
+        Some(Joins::Images) => " with its mirror image",
+        Some(Joins::Itself) => " with itself",
+        Some(Joins::Different) | None => "",
     }
 }
 

@@ -62,8 +62,8 @@ impl Group<'_> {
         out
     }
 
-    /// The image under the mirror number `k`; `None` where the shape has no mirror axis. A mirror reverses the turning rate, which follows the
-    /// shape.
+    /// The image under the mirror number `k`; `None` where the shape has no mirror axis. A mirror reverses the turning rate, which follows
+    /// the shape.
     fn reflected(&self, k: usize, x: &[f64]) -> Option<Vec<f64>> {
         let mut out = x.to_vec();
         self.body.mirror(&mut out[..self.dim]);
@@ -85,7 +85,7 @@ impl Group<'_> {
         (length(&longest) > SAME).then(|| scaled(longest, weights)).flatten()
     }
 
-    /// Whether a rotation or mirror of the shape takes `a` to `b`.
+    /// Returns `true` if a rotation or mirror of the shape takes `a` to `b`.
     fn has_image(&self, a: &[f64], b: &[f64]) -> bool {
         let is = |image: &[f64]| {
             let mut rest = image[..self.dim].to_vec();

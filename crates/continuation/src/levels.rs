@@ -19,7 +19,7 @@ impl Level {
 /// A growth of fewer errors than this is not told from 0 where it should vanish: at special points.
 pub(super) const CLEAR: f64 = 100.0;
 
-/// How many levels grow.
+/// Number of growing levels.
 pub(super) fn unstable(levels: &[Vec<Level>]) -> usize {
     levels.iter().flatten().filter(|level| level.growth > 0.0).count()
 }

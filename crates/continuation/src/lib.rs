@@ -83,7 +83,7 @@ pub use homoclinic::{Connection, ConnectionKind, PeriodLaw, stated};
 pub use joins::{Joins, Passed};
 pub use normal_form::{Coefficient, NormalForm, Undetermined};
 pub use path::{OrbitPath, path};
-pub use point::{End, Motion, Point};
+pub use point::{End, Motion, Point, nine};
 pub use settings::Settings;
 pub use special::{Broken, Hopf, Special};
 pub use switch::switch;

@@ -15,7 +15,7 @@ use motiform_dynamics::Watch;
 /// Most solutions on the way to a special point.
 const TRIES: usize = 60;
 
-/// What changes on a step.
+/// The changes on a step.
 pub(super) struct Changes<L> {
     /// The special points, in their order.
     pub(super) found: Vec<(Place<L>, Special)>,
@@ -26,7 +26,7 @@ pub(super) struct Changes<L> {
 /// The watch stopped the computation.
 pub(super) struct Stopped;
 
-/// How often what lies between special points is looked at.
+/// Rounds of examination between special points.
 const ROUNDS: usize = 6;
 
 /// The special points on a step: until as many deviations grow before each of them as beyond the one before.
@@ -91,8 +91,8 @@ fn add<P: Problem>(
     Ok(())
 }
 
-/// Gives a point where branches cross the tangent of this one, which the equations there do not tell from that of the other: the mean of those at
-/// both ends of the step.
+/// Gives a point where branches cross the tangent of this one, which the equations there do not tell from that of the other: the mean of
+/// those at both ends of the step.
 fn keep_course<P: Problem>(problem: &P, step: &Step<'_, P::Local>, at: &mut Place<P::Local>) {
     let part = (at.arclength - step.old.arclength) / step.length;
     let mean = step.old.tangent.iter().zip(&step.new.tangent).map(|(a, b)| a + part * (b - a)).collect();
@@ -104,7 +104,8 @@ fn keep_course<P: Problem>(problem: &P, step: &Step<'_, P::Local>, at: &mut Plac
 /// Part of the step by which the equations of a branch point may move it.
 const MOVED: f64 = 0.1;
 
-/// The place where branches cross, solved for; as it is, where that fails. (For orbits the second derivatives would cost more than they bring.)
+/// The place where branches cross, solved for; as it is, where that fails. (For orbits the second derivatives would cost more than they
+/// bring.)
 fn solved<P: Problem>(
     problem: &P,
     step: &Step<'_, P::Local>,
@@ -137,7 +138,7 @@ fn solved<P: Problem>(
     better().unwrap_or(at)
 }
 
-/// What shows that a test vanishes at a place.
+/// The evidence that a test vanishes at a place.
 fn certified<P: Problem>(
     problem: &P,
     step: &Step<'_, P::Local>,
@@ -163,8 +164,8 @@ fn normal_form<P: Problem>(problem: &P, x: &[f64], special: Special) -> Option<N
     asked(special).map(|(order, doubled)| problem.normal_form(x, order, doubled))
 }
 
-/// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point. (Where a branch is
-/// stiff the two tests place one point at lengths that differ by far more than the solutions' accuracy.)
+/// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point. (Where a
+/// branch is stiff the two tests place one point at lengths that differ by far more than the solutions' accuracy.)
 fn without_folds<L>(found: &mut Vec<(Place<L>, Special)>) {
     let folds: Vec<f64> =
         found.iter().filter(|one| one.1 == Special::Fold).map(|one| one.0.arclength).collect();
@@ -178,9 +179,9 @@ fn without_folds<L>(found: &mut Vec<(Place<L>, Special)>) {
     }
 }
 
-/// Where a level vanishes and the equations leave one direction only, no branches cross: that direction leaves the parameter as it is, and the branch
-/// turns back. (Along a canard the slope is smaller than its error over most of the branch: there the level shows the fold, and the sign of the slope
-/// may not.)
+/// Where a level vanishes and the equations leave one direction only, no branches cross: that direction leaves the parameter as it is, and
+/// the branch turns back. (Along a canard the slope is smaller than its error over most of the branch: there the level shows the fold, and
+/// the sign of the slope may not.)
 fn name_folds<P: Problem>(problem: &P, found: &mut [(Place<P::Local>, Special)]) {
     for (at, special) in found.iter_mut().filter(|one| one.1 == Special::BranchPoint) {
         if is_alone(problem, at) {
@@ -198,7 +199,7 @@ fn kind<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> Special {
     }
 }
 
-/// Whether the equations leave two directions to first order.
+/// Returns `true` if the equations leave two directions to first order.
 fn crosses<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
     !crossing(problem.linear(&at.local), &problem.weights(&at.x)).is_empty()
 }
@@ -212,13 +213,14 @@ fn second<P: Problem>(problem: &P, at: &Place<P::Local>) -> Option<(f64, f64)> {
 /// Where the second part is smaller than this part of the next one, two branches may cross nearby.
 const NEARLY: f64 = 1e-3;
 
-/// Whether the equations leave one direction only, and clearly so: no other branch crosses here.
+/// Returns `true` if the equations leave one direction only, and clearly so: no other branch crosses here.
 fn is_alone<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
     second(problem, at).is_some_and(|(second, next)| second > NEARLY * next)
 }
 
-/// Whether the place where a branch turns back may be beside a crossing. Solutions are exact to about the tolerance of the equations, but next to a
-/// crossing, at a distance s, the slope is known up to the tolerance divided by s: the place where it vanishes is off by the root of the tolerance.
+/// Returns `true` if the place where a branch turns back may be beside a crossing. Solutions are exact to about the tolerance of the
+/// equations, but next to a crossing, at a distance s, the slope is known up to the tolerance divided by s: the place where it vanishes is
+/// off by the root of the tolerance.
 fn nearly_crosses<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> bool {
     let nearly = |(second, next): (f64, f64)| second < NEARLY * next;
     matches!(test, Test::Slope) && !crosses(problem, at) && second(problem, at).is_some_and(nearly)
@@ -244,7 +246,8 @@ fn at_crossing<P: Problem>(
 /// Part of a step within which points of one kind are one.
 const ONE: f64 = 1e-4;
 
-/// Whether another test has led to the same point. (The length at which a point lies that was solved for is that of the place from which it was.)
+/// Returns `true` if another test has led to the same point. (The length at which a point lies that was solved for is that of the place
+/// from which it was.)
 fn is_known<P: Problem>(
     problem: &P,
     found: &[(Place<P::Local>, Special)],
@@ -263,8 +266,8 @@ fn is_known<P: Problem>(
 /// Least part of the values at both ends of a bracket that is not 0.
 const VANISHING: f64 = 0.1;
 
-/// Whether a test is small on both sides of `s`. Over a gap between two branches it changes its sign without passing 0. (Next to a crossing the slope is that of
-/// round-off: then the sides tell.)
+/// Returns `true` if a test is small on both sides of `s`. Over a gap between two branches it changes its sign without passing 0. (Next to
+/// a crossing the slope is that of round-off: then the sides tell.)
 fn vanishes_beside<P: Problem>(
     problem: &P,
     step: &Step<'_, P::Local>,

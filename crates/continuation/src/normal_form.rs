@@ -1,4 +1,4 @@
-//! What is known of the leading coefficient of a normal form.
+//! The leading coefficient of a normal form, as far as it is known.
 
 use super::special::Special;
 use serde::{Deserialize, Serialize};
@@ -11,12 +11,12 @@ const CLEAR: f64 = 3.0;
 pub struct Coefficient {
     /// Its value.
     pub value: f64,
-    /// How far it may be away: the difference of two results with steps of different size.
+    /// Bound of its error: the difference of two results with steps of different size.
     pub error: f64,
 }
 
 impl Coefficient {
-    /// Whether it is below 0; `None` where it is not three times its error.
+    /// Returns `Some(true)` if it is below 0; `None` where it is not three times its error.
     #[must_use]
     pub fn is_negative(self) -> Option<bool> {
         (self.value.abs() > CLEAR * self.error).then_some(self.value < 0.0)
@@ -52,13 +52,15 @@ impl std::fmt::Display for Undetermined {
     }
 }
 
-/// What is known of the leading coefficient of the normal form `xi' = c xi^n` at a special point, with time in the model's units and `xi` the size
-/// of the critical deviation: the Euclidean norm of the shape, of an orbit its root mean square over the period, normal to the flow and
-/// the group. `n` is 2 at folds and where branches cross, 3 where a symmetry is broken. At a doubling of the period (or of half the period) the
-/// deviation is that of the orbit of twice the time; multiplied by that time, `c` is the coefficient of its return map.
-/// For `n = 2` the sign of `xi`, and so that of `c`, is free: `c` is positive. For `n = 3` what begins is stable in the critical direction where `c` is negative.
+/// The leading coefficient, as far as it is known, of the normal form `xi' = c xi^n` at a special point, with time in the model's units and
+/// `xi` the size of the critical deviation: the Euclidean norm of the shape, of an orbit its root mean square over the period, normal to
+/// the flow and the group. `n` is 2 at folds and where branches cross, 3 where a symmetry is broken. At a doubling of the period (or of
+/// half the period) the deviation is that of the orbit of twice the time; multiplied by that time, `c` is the coefficient of its return
+/// map. For `n = 2` the sign of `xi`, and so that of `c`, is free: `c` is positive. For `n = 3` what begins is stable in the critical
+/// direction where `c` is negative.
 ///
-/// Source: Kuznetsov (2004), sections 5.4 and 7.3; per time as in Kuznetsov, Govaerts, Doedel and Dhooge (2005), SIAM J. Numer. Anal. 43, 1407.
+/// Source: Kuznetsov (2004), sections 5.4 and 7.3; per time as in Kuznetsov, Govaerts, Doedel and Dhooge (2005), SIAM J. Numer. Anal. 43,
+/// 1407.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NormalForm {
@@ -85,8 +87,8 @@ impl From<Result<Coefficient, Undetermined>> for NormalForm {
     }
 }
 
-/// The order of the leading term, and whether it is that of orbits of twice the time, at a special point; `None` where no coefficient is computed
-/// here.
+/// The order of the leading term, and whether it is that of orbits of twice the time, at a special point; `None` where no coefficient is
+/// computed here.
 pub(super) const fn asked(special: Special) -> Option<(Order, bool)> {
     match special {
         Special::Fold | Special::BranchPoint => Some((Order::Second, false)),

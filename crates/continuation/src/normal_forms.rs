@@ -118,8 +118,8 @@ fn free<'f>(problem: &Orbits<'f>, x: &[f64], doubled: bool) -> Option<(Orbits<'f
     Some((free, out))
 }
 
-/// The root mean square over the period of a deviation `v` of the unknowns, normal to the flow and the group, and its error: the difference from the mean
-/// over half of the places. (The rule of trapezoids: of a periodic function it converges faster than any power.)
+/// The root mean square over the period of a deviation `v` of the unknowns, normal to the flow and the group, and its error: the difference
+/// from the mean over half of the places. (The rule of trapezoids: of a periodic function it converges faster than any power.)
 fn size_along(orbits: &Orbits<'_>, x: &[f64], v: &[f64]) -> Option<Size> {
     let neighbours = Neighbours::of(orbits.bodies, x, &orbits.widths, orbits.length).ok()?;
     let (parts, rows) = (orbits.parts, orbits.parts * orbits.dim);

@@ -29,7 +29,11 @@ const GROWTH: f64 = 1000.0;
 /// Least part of the size of a shape by which it changes along an orbit that is none of an equilibrium.
 const EXTENDED: f64 = 100.0 * GAINED;
 
-/// Error of orbits, and of the logarithms of their multipliers near the unit circle, by the flow of ordinary models and by that of stiff ones.
+/// An orbit has a mirror axis where its shapes change by more than this multiple of what they may differ from their images by.
+const BEYOND: f64 = 10.0;
+
+/// Error of orbits, and of the logarithms of their multipliers near the unit circle, by the flow of ordinary models and by that of stiff
+/// ones.
 const EXPLICIT: f64 = 1e-10;
 const STIFF: f64 = 1e-8;
 
@@ -47,7 +51,7 @@ pub(super) struct Orbits<'f> {
     /// Number of nodes.
     pub(super) parts: usize,
     pub(super) mirrored: bool,
-    /// Whether the angle is an unknown.
+    /// `true` if the angle is an unknown.
     pub(super) turns: bool,
     pub(super) size: f64,
     /// The unit of shapes that the equations have.
@@ -83,7 +87,8 @@ impl Orbits<'_> {
         if self.turns { x[self.parts * self.dim + 1] } else { 0.0 }
     }
 
-    /// The eigenvalues of a relative equilibrium in the directions that keep the mirror axis of the orbit's shapes; none where the shapes have rotations.
+    /// The eigenvalues of a relative equilibrium in the directions that keep the mirror axis of the orbit's shapes; none where the shapes
+    /// have rotations.
     pub(super) fn kept_rates(&self, body: &dyn Equivariant, at: &RelativeEquilibrium) -> Vec<(f64, f64)> {
         if self.classes.folds > 1 || self.classes.circle {
             return Vec::new();
@@ -332,6 +337,11 @@ impl Problem for Orbits<'_> {
     fn gains(&self, x: &[f64], local: &Local, same: f64) -> Option<(Broken, Vec<f64>)> {
         let body = local.body.as_ref();
         let nodes: Vec<&[f64]> = (0..self.parts).map(|i| self.node(x, i)).collect();
+        let rate = reduced_rates(local).iter().map(|rate| norm(rate)).fold(0.0, f64::max);
+        let amplitude = rate * self.span(x) * self.parts as f64 / std::f64::consts::TAU;
+        if amplitude < BEYOND * same * self.size {
+            return None; // it shrinks to an equilibrium, whose axis is none of the orbit
+        }
         let found = Classes::within(body, &nodes, same);
         if found.axis.is_some() && self.classes.axis.is_none() {
             let mut symmetric = x.to_vec();

@@ -1,7 +1,6 @@
-//! How the parameter oscillates towards a connection of a saddle-focus with itself.
+//! Oscillation of the parameter towards a connection of a saddle-focus with itself.
 
 use super::homoclinic::{Connection, PeriodLaw, leading_sides};
-use super::joins::Joins;
 use super::periods::{NEAR, Periods};
 use motiform_analysis::linear::solve;
 
@@ -14,18 +13,18 @@ const HALF_TURNS: f64 = 4.0;
 /// The branch must have turned so often in these half turns.
 const FOLDS: usize = 3;
 
-/// What the fit leaves, as a part of the amplitude.
+/// The residual of a good fit, as a part of the amplitude.
 const AGREE: f64 = 0.1;
 
 impl Periods {
-    /// The connection with a saddle-focus ahead, where the parameter has converged to [`NEAR`] over the last [`HALF_TURNS`] of its leading pair
-    /// `+-rate +- i frequency`, and there is
+    /// The connection with a saddle-focus ahead, where the parameter has converged to [`NEAR`] over the last [`HALF_TURNS`] of its leading
+    /// pair `+-rate +- i frequency`, and there is
     ///
     /// `p = p0 + exp(-rate T) (a cos(frequency T) + b sin(frequency T))`
     ///
-    /// with the rate and the frequency of the saddle: `p0`, `a` and `b` are fitted, every point with the weight `exp(rate T)`. `None` where the pair is not the slowest of all, or
-    /// the branch does not turn back as it should. The error is the difference from the same fit one half turn earlier, and what the
-    /// fit leaves.
+    /// with the rate and the frequency of the saddle: `p0`, `a` and `b` are fitted, every point with the weight `exp(rate T)`. `None` where
+    /// the pair is not the slowest of all, or the branch does not turn back as it should. The error is the difference from the same fit one
+    /// half turn earlier, and what the fit leaves.
     ///
     /// Source: Glendinning and Sparrow (1984), J. Stat. Phys. 35, 645.
     pub(super) fn oscillating(&self, rates: &[(f64, f64)]) -> Option<Connection> {
@@ -42,12 +41,12 @@ impl Periods {
             law: PeriodLaw::Oscillating { rate: pair.0, frequency: pair.1 },
             saddle: None,
             rates: Vec::new(),
-            joins: Joins::Itself,
+            joins: None,
             passed: Vec::new(),
         })
     }
 
-    /// Whether the parameter, with this unit, hardly changes any more over the last times.
+    /// Returns `true` if the parameter, with this unit, hardly changes any more over the last times.
     pub(super) fn has_converged(&self, unit: f64) -> bool {
         let Some(&(end, parameter, _)) = self.points.last() else { return false };
         let late = self.points.iter().rev().take_while(|point| point.0 > 0.7 * end);

@@ -19,7 +19,8 @@ pub(super) struct Oscillation {
     /// The critical vector `q`.
     pub(super) re: Vec<f64>,
     pub(super) im: Vec<f64>,
-    /// Whether the oscillation swings the shape from one side of its mirror axis to the other: after half the period it is its mirror image.
+    /// `true` if the oscillation swings the shape from one side of its mirror axis to the other: after half the period it is its mirror
+    /// image.
     pub(super) mirrored: bool,
     /// The part of `2 pi / w` after which it is back but for a rotation by the angle `turned`, or for the mirror.
     pub(super) part: f64,
@@ -53,8 +54,9 @@ impl Oscillation {
     }
 }
 
-/// The least part of the period after which an oscillation `Re(q e^(i w t))` about a shape with `n` rotations is back but for one of them, and its angle:
-/// `R(2 pi / n) q = e^(i phi) q`, so that the rotation number `k` is a shift of time by `k phi / w`. `None` where the oscillation keeps the rotations.
+/// The least part of the period after which an oscillation `Re(q e^(i w t))` about a shape with `n` rotations is back but for one of them,
+/// and its angle: `R(2 pi / n) q = e^(i phi) q`, so that the rotation number `k` is a shift of time by `k phi / w`. `None` where the
+/// oscillation keeps the rotations.
 fn turned_part(body: &dyn Equivariant, classes: &Classes, (re, im): (&[f64], &[f64])) -> Option<(f64, f64)> {
     if classes.folds < 2 || classes.circle || !body.symmetry().rotations {
         return None;
@@ -74,7 +76,7 @@ fn turned_part(body: &dyn Equivariant, classes: &Classes, (re, im): (&[f64], &[f
     parts.min().map(|(part, k)| (part as f64 / classes.folds as f64, k as f64 * angle))
 }
 
-/// Whether a shape has a mirror axis and the deviation is odd under it.
+/// Returns `true` if a shape has a mirror axis and the deviation is odd under it.
 fn is_odd(classes: &Classes, deviation: &[f64]) -> bool {
     let even = |basis: &Vec<Vec<f64>>| basis.iter().map(|v| dot(v, deviation).abs()).fold(0.0, f64::max);
     classes.axis.is_some() && even(&classes.bases[0]) < EVEN * norm(deviation)

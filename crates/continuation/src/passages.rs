@@ -35,31 +35,31 @@ pub(super) struct Passage {
     pub(super) saddle: Saddle,
     /// Part of the time of all passages.
     pub(super) share: f64,
-    /// Whether the distance falls and grows again as eigenvalues of the equilibrium say.
+    /// `true` if the distance falls and grows again as eigenvalues of the equilibrium say.
     is_clear: bool,
 }
 
-/// What an orbit passes on its way.
+/// The equilibria that an orbit passes on its way.
 pub(super) struct Passages {
     /// The passages, in their order.
     pub(super) all: Vec<Passage>,
-    /// How their equilibria are related.
+    /// The relation of their equilibria.
     pub(super) joins: Joins,
 }
 
 impl Passages {
-    /// Whether each of them is by a saddle, and they take most of the time.
+    /// Returns `true` if each of them is by a saddle, and they take most of the time.
     pub(super) fn is_clear(&self) -> bool {
         self.all.iter().all(|passage| passage.is_clear)
     }
 }
 
 impl Orbits<'_> {
-    /// The equilibria that the orbit passes: one is looked for by Newton's method from every shape at which the orbit is slower than just before and
-    /// just after. `None` where there is no passage, or they take less than half of the time.
+    /// The equilibria that the orbit passes: one is looked for by Newton's method from every shape at which the orbit is slower than just
+    /// before and just after. `None` where there is no passage, or they take less than half of the time.
     ///
-    /// Beside a saddle the distance falls as `exp(-s t)` on the way in and grows as `exp(u t)` on the way out, with a decaying eigenvalue of real part `-s` and a growing
-    /// one `u`: a passage is clear where both rates are measured along the orbit.
+    /// Beside a saddle the distance falls as `exp(-s t)` on the way in and grows as `exp(u t)` on the way out, with a decaying eigenvalue
+    /// of real part `-s` and a growing one `u`: a passage is clear where both rates are measured along the orbit.
     pub(super) fn passed(&self, x: &[f64], local: &Local, watch: &dyn Watch) -> Option<Passages> {
         let way = Way::of(self, x, local, watch)?;
         let mut found: Vec<(RangeInclusive<isize>, Passage)> = Vec::new();
@@ -78,7 +78,7 @@ impl Orbits<'_> {
     }
 }
 
-/// How the equilibria that an orbit passes are related; `None` without any.
+/// The relation of the equilibria that an orbit passes; `None` without any.
 fn joins(body: &dyn Equivariant, mirrored: bool, all: &[Passage]) -> Option<Joins> {
     let first = &all.first()?.saddle.found;
     let mut image = first.clone();
@@ -137,7 +137,7 @@ impl<'w> Way<'w> {
         (0..count).filter(is_slow).collect()
     }
 
-    /// Whether a shape lies in a passage, which may begin before the first shape or end after the last one.
+    /// Returns `true` if a shape lies in a passage, which may begin before the first shape or end after the last one.
     fn is_within(&self, place: usize, during: &RangeInclusive<isize>) -> bool {
         let count = self.shapes.len().cast_signed();
         [-count, 0, count].iter().any(|turn| during.contains(&(place.cast_signed() + turn)))

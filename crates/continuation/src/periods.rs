@@ -1,7 +1,6 @@
-//! How the period of an orbit grows towards a connection.
+//! The growth of the period of an orbit towards a connection.
 
 use super::homoclinic::{Connection, PeriodLaw};
-use super::joins::Joins;
 use motiform_analysis::linear::solve;
 
 /// Laws by which the distance to a connection falls as a power of the time: `|p - p0| ~ 1/T^k`.
@@ -72,14 +71,14 @@ impl Periods {
             law: PeriodLaw::Logarithmic { rate },
             saddle: None,
             rates: Vec::new(),
-            joins: Joins::Itself,
+            joins: None,
             passed: Vec::new(),
         })
     }
 
-    /// The connection ahead by one of the algebraic laws, for a branch whose flow cannot be resolved any further, or whose time has become very
-    /// long: there the distance falls so slowly that a branch never comes near. Of the fits to the last half of the times the one that its
-    /// points lie on best: the very last points carry the most round-off.
+    /// The connection ahead by one of the algebraic laws, for a branch whose flow cannot be resolved any further, or whose time has become
+    /// very long: there the distance falls so slowly that a branch never comes near. Of the fits to the last half of the times the one that
+    /// its points lie on best: the very last points carry the most round-off.
     pub(super) fn algebraic(&self, law: Algebraic) -> Option<Connection> {
         let longest = self.points.last()?.0;
         let late = (0..self.points.len()).filter(|&i| self.points[i].0 > 0.5 * longest);
@@ -128,7 +127,7 @@ impl Periods {
             law,
             saddle: None,
             rates: Vec::new(),
-            joins: Joins::Itself,
+            joins: None,
             passed: Vec::new(),
         };
         (leads && worst < 1e-3).then_some((connection, worst))

@@ -1,4 +1,4 @@
-//! What a branch is made of.
+//! The points of a branch.
 
 use super::certificate::Certificate;
 use super::homoclinic::Connection;
@@ -68,20 +68,20 @@ pub struct Point {
     pub arclength: f64,
     /// The motion, with its eigenvalues or multipliers.
     pub motion: Motion,
-    /// How many directions of the reduced motion grow: 0 if it is stable. At a special point that is the count of those that are not
+    /// Number of growing directions of the reduced motion: 0 if it is stable. At a special point that is the count of those that are not
     /// critical.
     pub unstable: usize,
     /// Derivative of the parameter by the length along the branch: it changes its sign at a fold.
     pub slope: f64,
-    /// What happens here, if the point was solved for as a special one.
+    /// The kind of special point, if it was solved for as one.
     pub special: Option<Special>,
-    /// What shows that the point is a special one; `None` at ordinary points, and where it was not solved for.
+    /// The evidence for a special point; `None` at ordinary points, and where it was not solved for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<Certificate>,
 }
 
 impl Point {
-    /// Whether small deviations die out.
+    /// Returns `true` if small deviations die out.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.unstable == 0 && self.special.is_none()
@@ -100,6 +100,12 @@ pub enum End {
     Degenerate {
         /// Its kind.
         kind: super::Degenerate,
+    },
+    /// A curve of special points comes to where its condition is not resolved any more: multipliers change so much with the parameters, close to a connection
+    /// of saddles, that round-off decides whether one is critical. The last point is one where it still is.
+    Lost {
+        /// How far the critical multiplier, or eigenvalue in units of the rate of the equations, was from where it belongs after the shortest step that was tried.
+        off: f64,
     },
     /// As many points as were asked for.
     PointLimit,
@@ -126,7 +132,8 @@ pub enum End {
         /// The time reached.
         time: f64,
     },
-    /// The motion gains a symmetry: the branch meets its own images at a motion of more symmetry. The last point, a pitchfork of that motion, lies there.
+    /// The motion gains a symmetry: the branch meets its own images at a motion of more symmetry. The last point, a pitchfork of that
+    /// motion, lies there.
     Meets {
         /// The parameter there.
         parameter: f64,
@@ -188,6 +195,9 @@ impl std::fmt::Display for End {
             Self::RangeLeft => write!(f, "the parameter left its range"),
             Self::Closed => write!(f, "the branch came back to its start"),
             Self::Degenerate { kind } => write!(f, "the curve ends: {}", kind.name()),
+            Self::Lost { off } => {
+                write!(f, "the critical multiplier is not resolved any more: after the shortest step it is off by {off:.1e}")
+            }
             Self::PointLimit => write!(f, "as many points as were asked for"),
             Self::Spent => write!(f, "the steps along orbits that were allowed are spent"),
             Self::Stopped => write!(f, "stopped from outside"),
@@ -207,11 +217,18 @@ impl std::fmt::Display for End {
                         "the same orbit, shifted by half a period",
                     ),
                 };
-                write!(f, "{meets} at {parameter:.9}; beyond, the branch is {beyond}")
+                write!(f, "{meets} at {}; beyond, the branch is {beyond}", nine(*parameter))
             }
             Self::Shrinks { parameter, .. } => {
-                write!(f, "the orbit shrinks to an equilibrium at {parameter:.9}")
+                write!(f, "the orbit shrinks to an equilibrium at {}", nine(*parameter))
             }
         }
     }
+}
+
+/// A parameter to nine decimals, and 0 without a sign.
+#[must_use]
+pub fn nine(parameter: f64) -> String {
+    let text = format!("{parameter:.9}");
+    if text.trim_start_matches(['-', '0', '.']).is_empty() { "0.000000000".to_owned() } else { text }
 }

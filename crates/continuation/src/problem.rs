@@ -28,7 +28,7 @@ impl From<Error> for Failure {
 
 /// The equations at one place: `equations(x + dx) = residual + matrix dx`.
 pub(super) struct Linear {
-    /// What the equations leave; zeros in the rows that fix the neutral directions.
+    /// The residual of the equations; zeros in the rows that fix the neutral directions.
     pub(super) residual: Vec<f64>,
     /// Their derivatives: one row fewer than unknowns (two fewer over two parameters).
     pub(super) matrix: DMatrix<f64>,
@@ -36,7 +36,7 @@ pub(super) struct Linear {
 
 /// Equations with fewer of them than unknowns. The parameters are the last unknowns.
 pub(super) trait Equations {
-    /// What was computed along with the equations at one place.
+    /// Results computed along with the equations at one place.
     type Local;
 
     /// The equations at `x`.
@@ -51,7 +51,7 @@ pub(super) trait Equations {
     /// Restores what symmetry makes exact.
     fn tidy(&self, _x: &mut [f64]) {}
 
-    /// Whether `x` is a solution that makes sense.
+    /// Returns `true` if `x` is a solution that makes sense.
     fn is_sound(&self, x: &[f64]) -> bool {
         x.iter().all(|value| value.is_finite())
     }
@@ -62,7 +62,8 @@ pub(super) trait Problem: Equations {
     /// Growth of the reduced deviations, class by class, largest first.
     fn levels(&self, x: &[f64], local: &Self::Local) -> Option<Vec<Vec<Level>>>;
 
-    /// The error of solutions, in the units of [`Equations::weights`]: what the equations themselves are exact to, not what Newton's method leaves.
+    /// The error of solutions, in the units of [`Equations::weights`]: what the equations themselves are exact to, not what Newton's method
+    /// leaves.
     fn accuracy(&self) -> f64;
 
     /// The same for the shapes in the model's units.
@@ -83,7 +84,7 @@ pub(super) trait Problem: Equations {
         self.noise(levels) * (tolerance / TIGHT).max(1.0)
     }
 
-    /// What happens where a level of class `class` vanishes, and the branch does not turn back.
+    /// The kind of special point where a level of class `class` vanishes, and the branch does not turn back.
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special;
 
     /// The motion, as the caller receives it.
@@ -108,7 +109,7 @@ pub(super) trait Problem: Equations {
         1.0
     }
 
-    /// Whether the work that may be done is done.
+    /// Returns `true` if the work that may be done is done.
     fn is_spent(&self) -> bool {
         false
     }
@@ -118,13 +119,13 @@ pub(super) trait Problem: Equations {
         None
     }
 
-    /// The symmetry that the motion at `x` has up to the part `same` of its size and the branch has not, and the same unknowns with that symmetry of the shapes exact. There the
-    /// parameter turns back, and the branch goes on with its own images.
+    /// The symmetry that the motion at `x` has up to the part `same` of its size and the branch has not, and the same unknowns with that
+    /// symmetry of the shapes exact. There the parameter turns back, and the branch goes on with its own images.
     fn gains(&self, _x: &[f64], _local: &Self::Local, _same: f64) -> Option<(Broken, Vec<f64>)> {
         None
     }
 
-    /// How fast the reduced shapes of an orbit change, all nodes together: it changes its sign where an orbit shrinks to nothing and
+    /// The rate of change of the reduced shapes of an orbit, all nodes together: it changes its sign where an orbit shrinks to nothing and
     /// the branch goes on with the same orbits, half a period later.
     fn swing(&self, _local: &Self::Local) -> Option<Vec<f64>> {
         None
@@ -135,7 +136,7 @@ pub(super) trait Problem: Equations {
         None
     }
 
-    /// What an orbit passes on its way.
+    /// The equilibria that an orbit passes on its way.
     fn passages(&self, _x: &[f64], _local: &Self::Local) -> Option<Passages> {
         None
     }

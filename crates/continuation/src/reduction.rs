@@ -20,11 +20,11 @@ pub(super) struct System<'s> {
     pub(super) size: &'s dyn Fn(&[f64]) -> Option<Size>,
     /// `<p, q>`, from a left and a right null vector, multiplied by the time over which `F` is a return map.
     pub(super) pairing: &'s dyn Fn(&[f64], &[f64]) -> Size,
-    /// Whether all critical directions are images of each other under the symmetry.
+    /// `true` if all critical directions are images of each other under the symmetry.
     pub(super) alike: bool,
     /// The unit of the unknowns' differences.
     pub(super) unit: f64,
-    /// How often the step is doubled, at least three times.
+    /// Number of doublings of the step, at least three.
     pub(super) doublings: usize,
 }
 
@@ -53,8 +53,8 @@ const DIRECTIONS: usize = 4;
 ///
 /// `1/2 psi . D^2 F[v, v]`, or `1/6 psi . (D^3 F[v, v, v] + 3 D^2 F[v, w])` with `DF w = -D^2 F[v, v]`.
 ///
-/// The derivatives of `DF` along `v` are differences of fourth order, from steps that are doubled several times; two of their results make one of sixth
-/// order, and the two of these that differ least, the coefficient and its error.
+/// The derivatives of `DF` along `v` are differences of fourth order, from steps that are doubled several times; two of their results make
+/// one of sixth order, and the two of these that differ least, the coefficient and its error.
 pub(super) fn leading(system: &System<'_>, order: Order) -> NormalForm {
     reduced(system).and_then(|reduced| reduced.leading(order)).into()
 }
@@ -261,13 +261,14 @@ impl Reduced<'_> {
     }
 }
 
-/// Largest ratio of the difference that the next shorter steps make to the error: shorter steps give more rounding, four times as much each time.
+/// Largest ratio of the difference that the next shorter steps make to the error: shorter steps give more rounding, four times as much each
+/// time.
 const ROUNDING: f64 = 8.0;
 
 /// From results of fourth order with steps that are doubled: those of sixth order, and of these the first of the two that differ least.
 ///
-/// Long steps may agree by chance: the last two differ by something that no longer step confirms, so they are not chosen, and where shorter steps differ by more
-/// than rounding explains, that is the error.
+/// Long steps may agree by chance: the last two differ by something that no longer step confirms, so they are not chosen, and where shorter
+/// steps differ by more than rounding explains, that is the error.
 pub(super) fn extrapolated(fourth: &[f64]) -> Coefficient {
     let sixth: Vec<f64> = fourth.windows(2).map(|pair| pair[0] + (pair[0] - pair[1]) / 15.0).collect();
     let apart: Vec<f64> = sixth.windows(2).map(|pair| (pair[0] - pair[1]).abs()).collect();

@@ -1,4 +1,4 @@
-//! How a branch is followed.
+//! Settings of the continuation of a branch.
 
 use super::tracer::TOLERANCE;
 use motiform_analysis::periodic::Flow;
@@ -6,7 +6,7 @@ use motiform_analysis::{Error, Result};
 use motiform_dynamics::StepControl;
 use motiform_dynamics::steppers::{DOP853, Method};
 
-/// How a branch is followed.
+/// Settings of the continuation of a branch.
 ///
 /// Lengths along a branch are measured with the parameter in units of the width of the range, shapes in units of the first shape's
 /// size (root mean square over the nodes of an orbit), turning rates and angles in radians, and the period in units of itself.

@@ -14,7 +14,7 @@ use motiform_dynamics::{Equivariant, Integration, Outcome, Request, Semilinear, 
 /// A shape that grows by this factor, or to so many units of shapes, has left every bound.
 const UNBOUND: f64 = 1e6;
 
-/// What the flow over one part of an orbit gives.
+/// The flow over one part of an orbit.
 pub(super) struct Segment {
     /// The shape at its end.
     pub(super) end: Vec<f64>,
@@ -48,8 +48,8 @@ pub(super) fn segment(
     Ok(read(neighbours, orbit.state(), dim, taken(orbit.as_ref())))
 }
 
-/// The flow from each of the nodes, each over `span`, with all its derivatives. The integration goes on from one to the next with the step that it has: at
-/// the start of a vector that is 0 the first step would be far too short, and a dozen steps be spent on making it longer.
+/// The flow from each of the nodes, each over `span`, with all its derivatives. The integration goes on from one to the next with the step
+/// that it has: at the start of a vector that is 0 the first step would be far too short, and a dozen steps be spent on making it longer.
 pub(super) fn segments<'x>(
     neighbours: &Neighbours,
     nodes: impl Iterator<Item = &'x [f64]>,
@@ -94,7 +94,7 @@ fn taken(orbit: &(dyn Integration + '_)) -> u64 {
     work.steps + work.rejected
 }
 
-/// What the end of a variation says that took so many steps.
+/// The reading of the end of a variation that took so many steps.
 fn read(neighbours: &Neighbours, end: &[f64], dim: usize, steps: u64) -> Segment {
     let (shape, vectors) = end.split_at(dim);
     let (tangents, by_parameter) = vectors.split_at(dim * dim);
@@ -104,7 +104,8 @@ fn read(neighbours: &Neighbours, end: &[f64], dim: usize, steps: u64) -> Segment
     Segment { end: shape.to_vec(), slope, tangents, by_parameter: by_parameter.to_vec(), steps }
 }
 
-/// The same by the implicit method, whose steps do not shorten with the stiff parts of vectors, from the first step to try; and the step that it would take next.
+/// The same by the implicit method, whose steps do not shorten with the stiff parts of vectors, from the first step to try; and the step
+/// that it would take next.
 fn stiff_segment(
     neighbours: &Neighbours,
     start: &[f64],

@@ -3,8 +3,8 @@
 use super::levels::Level;
 use std::f64::consts::{PI, TAU};
 
-/// What vanishes where a level is critical. Levels ranked by their growth have kinks where they change places and where a pair becomes real; these
-/// functions of the matrix have none.
+/// The function that vanishes where a level is critical. Levels ranked by their growth have kinks where they change places and where a pair
+/// becomes real; these functions of the matrix have none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Smooth {
     /// `prod_j lambda_j`, or `prod_j (mu_j - 1)` for multipliers.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize, de};
 /// A name of the list below. (Not spelled out in the field: serde would take it for text borrowed from its input.)
 type Name = &'static str;
 
-/// What happens at a special point.
+/// The kind of a special point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Special {
@@ -14,13 +14,13 @@ pub enum Special {
     Fold,
     /// A real eigenvalue 0 (multiplier +1) in a direction that breaks a symmetry of the motion: two symmetric copies branch off.
     Pitchfork {
-        /// What the branch that leaves does without.
+        /// The symmetry that the branch that leaves does not have.
         breaks: Broken,
     },
     /// A real eigenvalue 0 (multiplier +1) that keeps all symmetry, where the branch does not turn back: another one crosses it.
     BranchPoint,
-    /// A real eigenvalue 0 at which a whole family of motions exists for this one value of the parameter: the equations regain a symmetry there. So a body in a field
-    /// may move in every direction where the field vanishes.
+    /// A real eigenvalue 0 at which a whole family of motions exists for this one value of the parameter: the equations regain a symmetry
+    /// there. So a body in a field may move in every direction where the field vanishes.
     Continuum,
     /// A pair of imaginary eigenvalues: an oscillation of the shape begins.
     Hopf(Hopf),
@@ -76,7 +76,8 @@ impl Broken {
 pub struct Hopf {
     /// Imaginary part of the critical eigenvalues (rad per model time).
     pub frequency: f64,
-    /// The part of `2 pi / frequency` after which the oscillation is back but for a rotation: below 1 where it breaks rotations of the shape.
+    /// The part of `2 pi / frequency` after which the oscillation is back but for a rotation: below 1 where it breaks rotations of the
+    /// shape.
     #[serde(default = "whole")]
     pub part: f64,
     /// The first Lyapunov coefficient, for a critical vector of length 1: below 0 the orbits that begin are stable (supercritical),
@@ -98,7 +99,8 @@ impl Hopf {
         std::f64::consts::TAU / self.frequency * self.part
     }
 
-    /// Whether the orbits that begin are stable within the directions that are critical; `None` where the coefficient's error does not say so.
+    /// Returns `Some(true)` if the orbits that begin are stable within the directions that are critical; `None` where the coefficient's error
+    /// does not say so.
     #[must_use]
     pub fn is_supercritical(&self) -> Option<bool> {
         self.first_lyapunov.coefficient()?.is_negative()

@@ -13,7 +13,8 @@ use motiform_dynamics::order::ascending;
 /// the step.
 const CORRECTION: f64 = 1e-3;
 
-/// A step is given up where the first correction is longer than this part of it: what is found there may belong to another branch that comes near.
+/// A step is given up where the first correction is longer than this part of it: what is found there may belong to another branch that
+/// comes near.
 const ASTRAY: f64 = 0.1;
 
 /// Part of the size of levels below which a real one says that another branch may be near.
@@ -81,8 +82,8 @@ impl<P: Problem> Tracer<P> {
         Ok((new, first))
     }
 
-    /// Gives growths within their error the signs that they have at the present place: they change where they are clear again. (Towards a motion of more symmetry growths vanish as
-    /// powers of the distance, and have the same signs beyond.)
+    /// Gives growths within their error the signs that they have at the present place: they change where they are clear again. (Towards a
+    /// motion of more symmetry growths vanish as powers of the distance, and have the same signs beyond.)
     fn keep_unclear_signs(&self, new: &mut Place<P::Local>) {
         // levels are those of the last but one solution of Newton's method
         let noise = self.problem.unclear(&new.levels, self.settings.tolerance);
@@ -94,8 +95,8 @@ impl<P: Problem> Tracer<P> {
         }
     }
 
-    /// Whether a real level of deviations that keep the symmetry is so small that another branch may be near. (Of equilibria: long orbits are not known well enough for
-    /// the step back.)
+    /// Returns `true` if a real level of deviations that keep the symmetry is so small that another branch may be near. (Of equilibria:
+    /// long orbits are not known well enough for the step back.)
     fn is_near_crossing(&self, new: &Place<P::Local>) -> bool {
         if self.problem.time().is_some() {
             return false;
@@ -111,9 +112,10 @@ impl<P: Problem> Tracer<P> {
         near(&self.place) || near(new)
     }
 
-    /// Whether the step back from `new` finds the present place, however it is guessed. Where branches cross at a small angle, a step may lead from one to the other, whose directions are the
-    /// same to within the correction of a step; the step back then stays on the other one. Where the branches are closer than the bend of the step, the guess that
-    /// has it may find the present place from either, and the one along the tangent alone decides.
+    /// Returns `true` if the step back from `new` finds the present place, however it is guessed. Where branches cross at a small angle, a
+    /// step may lead from one to the other, whose directions are the same to within the correction of a step; the step back then stays on
+    /// the other one. Where the branches are closer than the bend of the step, the guess that has it may find the present place from
+    /// either, and the one along the tangent alone decides.
     fn leads_back(&self, new: &Place<P::Local>, length: f64, watch: &dyn Watch) -> bool {
         self.finds_back(new, 0.5 * length, watch)
             && (!self.rebounds(new, length) || self.finds_back(new, 0.0, watch))
@@ -132,8 +134,9 @@ impl<P: Problem> Tracer<P> {
             .map(|(x, (t, before))| x + bend * (t - before / turned))
             .collect();
         let apart = |x: &[f64]| old.x.iter().zip(x).map(|(a, b)| a - b).collect::<Vec<f64>>();
+        // the length of the tangent is 1 in the units of its own place
         let along =
-            product(&weights, &new.tangent, &apart(&guess)) / product(&weights, &new.tangent, &new.tangent); // its length is 1 in the units of its own place
+            product(&weights, &new.tangent, &apart(&guess)) / product(&weights, &new.tangent, &new.tangent);
         guess.iter_mut().zip(&new.tangent).for_each(|(x, t)| *x += along * t);
         match correct(&self.problem, guess, &row, self.settings.tolerance, watch) {
             Ok(found) => {
@@ -144,8 +147,8 @@ impl<P: Problem> Tracer<P> {
         }
     }
 
-    /// Whether a real level that keeps the symmetry has the sign at `new` that it has at the present place, and about the size with which it would be beyond 0 if it went on as on the step
-    /// before: two branches that cross have levels of opposite signs.
+    /// Returns `true` if a real level that keeps the symmetry has the sign at `new` that it has at the present place, and about the size
+    /// with which it would be beyond 0 if it went on as on the step before: two branches that cross have levels of opposite signs.
     fn rebounds(&self, new: &Place<P::Local>, length: f64) -> bool {
         let Some(before) = &self.before else { return false };
         let first = |levels: &'_ [Vec<Level>]| levels.first().cloned().unwrap_or_default();

@@ -33,7 +33,8 @@ const NODES: usize = 8;
 /// the parameter, so the sign of [`Settings::first_step`] means nothing here.
 ///
 /// # Errors
-/// [`Error::NotOnABranch`](motiform_analysis::Error::NotOnABranch) if there is no new branch within reach of the point; settings out of range.
+/// [`Error::NotOnABranch`](motiform_analysis::Error::NotOnABranch) if there is no new branch within reach of the point; settings out of
+/// range.
 pub fn switch<'f>(
     family: &'f dyn Family,
     point: &Point,
@@ -70,7 +71,8 @@ pub fn switch<'f>(
 /// Slopes that differ by less than this may be of one branch.
 const TURNS: f64 = 1e-6;
 
-/// What the equations do not see to first order: the direction along the parameter, and those that leave the parameter as it is.
+/// The directions that the equations do not see to first order: the direction along the parameter, and those that leave the parameter as it
+/// is.
 fn unseen<P: Problem>(problem: &P, x: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
     let local = problem.local(x, &()).ok()?;
     let weights = problem.weights(x);
@@ -89,8 +91,8 @@ fn unseen<P: Problem>(problem: &P, x: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>
     Some((along.clone(), others?))
 }
 
-/// A direction of the new branch: the tangent of the branches that cross at a branch point which is not that of the point's own branch, known
-/// by its slope; elsewhere what the equations do not see to first order, and leaves the parameter as it is.
+/// A direction of the new branch: the tangent of the branches that cross at a branch point which is not that of the point's own branch,
+/// known by its slope; elsewhere what the equations do not see to first order, and leaves the parameter as it is.
 fn direction<P: Problem>(problem: &P, x: &[f64], point: &Point) -> Option<Vec<f64>> {
     if point.special == Some(Special::BranchPoint) {
         let slope = |v: &Vec<f64>| (v.last().copied().unwrap_or(0.0).abs() - point.slope.abs()).abs();

@@ -61,7 +61,7 @@ struct Plane {
     b: Vec<f64>,
     /// The left null vector.
     psi: Vec<f64>,
-    /// What the equations leave along it.
+    /// The residual of the equations along it.
     here: f64,
 }
 

@@ -189,8 +189,8 @@ impl<P: Problem> Tracer<P> {
         last.map_or_else(|| self.ends(), Err)
     }
 
-    /// What changes on the way to `new`. Where a change cannot be located, shorter steps are tried: a step over a gap between two branches seems to
-    /// be one of a branch, while shorter ones fail before it or turn with the branch.
+    /// The changes on the way to `new`. Where a change cannot be located, shorter steps are tried: a step over a gap between two branches
+    /// seems to be one of a branch, while shorter ones fail before it or turn with the branch.
     fn examine(
         &mut self,
         mut new: Place<P::Local>,
@@ -252,7 +252,8 @@ impl<P: Problem> Tracer<P> {
         self.before = None;
     }
 
-    /// How many levels grow at a special point, those left out that are as close to 0 as the critical one was brought, or not told from 0.
+    /// Number of growing levels at a special point, those left out that are as close to 0 as the critical one was brought, or not told from
+    /// 0.
     fn beside_critical(&self, place: &Place<P::Local>) -> usize {
         let least = place.levels.first().into_iter().flatten().map(|level| level.growth.abs());
         let residual = match place.certificate {

@@ -23,9 +23,9 @@ impl<P: Problem> CurveTracer<P> {
 
     /// The point of codimension two where the orbits shrink to nothing before `new`, and its parameters.
     ///
-    /// Beyond it their speeds have the other sign. A curve of folds ends so at a Bautin point, one of tori where the multipliers tend to 1 at a
-    /// zero-Hopf point, elsewhere at a double Hopf point. The parameters are even functions of the size: they are extrapolated by polynomials in its square,
-    /// because the equations themselves are singular there.
+    /// Beyond it their speeds have the other sign. A curve of folds ends so at a Bautin point, one of tori where the multipliers tend to 1
+    /// at a zero-Hopf point, elsewhere at a double Hopf point. The parameters are even functions of the size: they are extrapolated by
+    /// polynomials in its square, because the equations themselves are singular there.
     ///
     /// Source: Kuznetsov (2004), sections 8.3, 8.5 and 8.6.
     pub(super) fn shrinks(&self, new: &Spot<P::Local>) -> Option<(Degenerate, [f64; 2])> {

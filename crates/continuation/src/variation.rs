@@ -16,7 +16,8 @@ impl<'n> Variation<'n> {
         Self { tangent: Tangent::new(body, body.dim() + neighbours.sides.len()), neighbours }
     }
 
-    /// The state at the start of a part: the shape, the unit vectors in the unit of shapes, and 0: errors of all of them are controlled alike.
+    /// The state at the start of a part: the shape, the unit vectors in the unit of shapes, and 0: errors of all of them are controlled
+    /// alike.
     pub(super) fn start(&self, shape: &[f64], out: &mut Vec<f64>) {
         let dim = shape.len();
         out.clear();

@@ -1,5 +1,5 @@
-//! Bifurcation diagrams from a plan, with their files, figures and pages: [`branches`] of motions along a parameter, [`curves`] of special points over two
-//! parameters, and the [`atlas`] of a plane, which has both.
+//! Bifurcation diagrams from a plan, with their files, figures and pages: [`branches`] of motions along a parameter, [`curves`] of special
+//! points over two parameters, and the [`atlas`] of a plane, which has both.
 
 pub mod atlas;
 pub mod branches;
@@ -9,6 +9,6 @@ mod verify;
 pub use branches::{
     Allowance, BranchEnd, BranchFolder, Branches, Coefficient, Followed, Keep, Leg, Link, Origin, Reading,
     Sample, SpecialEntry, columns, draw, follow, follow_kept, follow_within, is_stable, path, settle, starts,
-    stated, stretches, summary, sweep,
+    nine, stated, stretches, summary, sweep,
 };
 pub use verify::Verification;

@@ -11,20 +11,20 @@ use motiform_study::Error;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// What was found of a result.
+/// The findings of a verification.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verification {
     /// Its files, compared with the inventory.
     pub audit: Audit,
-    /// What else was checked, in a sentence.
+    /// The other checks, in a sentence.
     pub checked: &'static str,
-    /// What was computed again, and what is not the same.
+    /// Numbers that were computed again, and those that are not the same.
     pub found: Repeated,
 }
 
 impl Verification {
-    /// Checks digests and plan hashes, and computes numbers again where this costs no more than computing them did: all of them with `all`, otherwise a
-    /// sample. `None` if the watch stopped it.
+    /// Checks digests and plan hashes, and computes numbers again where this costs no more than computing them did: all of them with `all`,
+    /// otherwise a sample. `None` if the watch stopped it.
     ///
     /// # Errors
     /// [`Error::Store`] for a folder without an inventory, or one that cannot be read.
@@ -57,7 +57,7 @@ impl Verification {
         Ok(found.map(|found| Self { audit, checked, found }))
     }
 
-    /// Whether everything is as it was written, and the same when computed again.
+    /// Returns `true` if everything is as it was written, and the same when computed again.
     #[must_use]
     pub fn is_intact(&self) -> bool {
         self.audit.changed.is_empty() && self.audit.missing.is_empty() && self.found.different.is_empty()

@@ -5,6 +5,7 @@ use motiform_store::{
 };
 use motiform_study::dataset::{Dataset, Manifest};
 use motiform_study::plan::pretty;
+use motiform_study::quantity::state::{RISING, SPEED, T, TURNING_RATE, X, Y};
 use motiform_study::{Error, input};
 use std::path::{Path, PathBuf};
 
@@ -76,13 +77,13 @@ pub fn read_dataset_by(
     let trajectory = read(&mut manifest, &path)?;
     let observables = model.observables().iter().map(|observable| observable.name);
     let coordinates = model.coordinates().iter().map(|coordinate| coordinate.name);
-    let derived = ["t", "x", "y", "speed", "turning_rate"].into_iter();
+    let derived = [&T, &X, &Y, &SPEED, &TURNING_RATE].map(|quantity| quantity.name).into_iter();
     require(&trajectory, &path, derived.chain(coordinates).chain(observables))?;
     let Some(path) = table_path(folder, "crossings") else {
         return Ok(Dataset { manifest, trajectory, crossings: None });
     };
     let crossings = read_table(&path)?;
-    require(&crossings, &path, ["t", "x", "y", "rising"])?;
+    require(&crossings, &path, [&T, &X, &Y, &RISING].map(|quantity| quantity.name))?;
     Ok(Dataset { manifest, trajectory, crossings: Some(crossings) })
 }
 

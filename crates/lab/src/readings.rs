@@ -2,11 +2,11 @@
 
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
 use motiform_dynamics::{Model, Trajectory};
-use motiform_store::table::Table;
+use motiform_store::table::{Column, Table};
 use motiform_study::Dimension;
 use motiform_study::plan::{Computation, Named};
+use motiform_study::quantity::state::{RISING, SPEED, T, TURNING_RATE, X, Y};
 use motiform_study::study::ReturnMapSettings;
-use motiform_study::units::{LENGTH, RATE, SPEED, TIME};
 
 /// The trajectory as a table, with derived quantities.
 pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, c: &Computation) -> Table {
@@ -19,36 +19,28 @@ pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, c: &Computation
 
 /// The columns of a trajectory, without rows.
 pub(crate) fn columns(model: &dyn Model) -> Table {
-    let mut table = Table::default();
-    let mut push = |name: &str, meaning: &'static str| table.push(name, meaning, Vec::new());
-    push("t", "model time");
-    push("x", "position of the centre of mass (model length)");
-    push("y", "position of the centre of mass (model length)");
-    model.coordinates().iter().for_each(|coordinate| push(coordinate.name, coordinate.meaning));
-    push("speed", "|v| (model length per model time)");
-    push(
-        "turning_rate",
-        "d(heading)/dt (rad per model time); undefined at rest, and where noise leaves the velocity no derivative",
-    );
-    model.observables().iter().for_each(|observable| push(observable.name, observable.meaning));
-    model.measures().iter().for_each(|measure| push(measure.name, measure.meaning));
-    table
+    let of = |quantity| Column::of(quantity, Vec::new());
+    let column = |name: &str, meaning: &'static str| Column::new(name, meaning, Vec::new());
+    let coordinates =
+        model.coordinates().iter().map(|coordinate| column(coordinate.name, coordinate.meaning));
+    let observed = model.observables().iter().chain(model.measures());
+    let all = [&T, &X, &Y].map(of).into_iter().chain(coordinates).chain([&SPEED, &TURNING_RATE].map(of));
+    Table { columns: all.chain(observed.map(|observed| column(observed.name, observed.meaning))).collect() }
 }
 
-/// The dimension of a column of a trajectory; none of other names. A shape is a deviation of the outline and has that of its size.
+/// The dimension of a column of a trajectory; that of a number for other names. A shape is a deviation of the outline and has that of its size.
 #[must_use]
 pub fn dimension(model: &dyn Model, column: &str) -> Dimension {
-    let seen = model.observables().iter().chain(model.measures()).find(|known| known.name == column);
-    let place = model.coordinates().iter().position(|known| known.name == column);
-    match (column, place, seen) {
-        ("t", ..) => TIME,
-        ("x" | "y", ..) => LENGTH,
-        ("speed", ..) => SPEED,
-        ("turning_rate", ..) => RATE,
-        (_, Some(place), _) if place < model.velocities() => SPEED,
-        (_, Some(_), _) => [model.observables().iter().map(|size| size.length).max().unwrap_or(0), 0],
-        (_, None, Some(seen)) => [seen.length, 0],
-        (_, None, None) => [0, 0],
+    if let Some(known) = [&T, &X, &Y, &SPEED, &TURNING_RATE].into_iter().find(|known| known.name == column) {
+        return known.dimension;
+    }
+    if let Some(seen) = model.observables().iter().chain(model.measures()).find(|known| known.name == column) {
+        return Dimension::of(seen.length, 0);
+    }
+    match model.coordinates().iter().position(|known| known.name == column) {
+        Some(place) if place < model.velocities() => Dimension::SPEED,
+        Some(_) => Dimension::of(model.observables().iter().map(|size| size.length).max().unwrap_or(0), 0),
+        None => Dimension::NUMBER,
     }
 }
 
@@ -113,11 +105,7 @@ pub(crate) struct Crossings {
 
 impl Crossings {
     pub(crate) fn new(map: &ReturnMapSettings) -> Self {
-        let mut table = Table::default();
-        table.push("t", "time of the crossing", Vec::new());
-        table.push("x", "x where the path crosses the segment", Vec::new());
-        table.push("y", "y of the segment, to round-off", Vec::new());
-        table.push("rising", "1 where y grows, 0 where it falls", Vec::new());
+        let table = Table::of(&[&T, &X, &Y, &RISING], vec![Vec::new(); 4]);
         Self { span: [map.x_min, map.x_max], table }
     }
 

@@ -15,9 +15,6 @@ use serde_json::{Value, json};
 /// # Errors
 /// A preset or a model that fails its own checks.
 pub fn registry() -> Result<Value, Error> {
-    let named = |entries: &[(&str, &str)]| -> Vec<Value> {
-        entries.iter().map(|(name, meaning)| json!({ "name": name, "meaning": meaning })).collect()
-    };
     Ok(json!({
         "version": dataset::VERSION,
         "models": MODELS.iter().map(entry).collect::<Result<Vec<_>, _>>()?,
@@ -27,7 +24,7 @@ pub fn registry() -> Result<Value, Error> {
         "regimes": Regime::ALL.map(regime),
         "attractors": Attractor::ALL.map(Attractor::name),
         "courses": Course::ALL.map(Course::name),
-        "numbers": named(&NUMBERS.map(|(name, meaning, _)| (name, meaning))),
+        "numbers": NUMBERS.map(|of| json!({ "name": of.name, "meaning": of.described(), "unit": of.dimension.words() })),
     }))
 }
 

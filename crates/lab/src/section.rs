@@ -4,8 +4,9 @@ use crate::simulate::after_transient;
 use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Direction, InPlane, Model, Request, Section, Trajectory};
-use motiform_store::table::Table;
+use motiform_store::table::{Column, Table};
 use motiform_study::plan::check;
+use motiform_study::quantity::state::{RISING, T, X, Y};
 use motiform_study::{Ending, Error, Plan};
 
 /// The crossings of `coordinate = value` (a coordinate of the shape, or `x`, `y`) while the plan records: a table with
@@ -76,14 +77,11 @@ fn table(model: &dyn Model, trajectory: &Trajectory) -> Table {
         }
     }
     let place = |back: usize| found.iter().map(|c| c.state[c.state.len() - back]).collect();
-    let mut table = Table::default();
-    table.push("t", "time of the crossing", found.iter().map(|c| c.t).collect());
-    table.push("x", "position of the centre of mass (model length)", place(2));
-    table.push("y", "position of the centre of mass (model length)", place(1));
+    let mut table = Table::of(&[&T, &X, &Y], vec![found.iter().map(|c| c.t).collect(), place(2), place(1)]);
     for (coordinate, values) in model.coordinates().iter().zip(columns) {
         table.push(coordinate.name, coordinate.meaning, values);
     }
     let rising = found.iter().map(|c| f64::from(u8::from(c.rising))).collect();
-    table.push("rising", "1 where the coordinate grows, 0 where it falls", rising);
+    table.columns.push(Column::of(&RISING, rising));
     table
 }

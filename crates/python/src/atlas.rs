@@ -96,7 +96,7 @@ pub(crate) fn read_atlas(path: PathBuf) -> PyResult<Atlas> {
 
 #[pymethods]
 impl Atlas {
-    /// What the command line prints with `--json`.
+    /// The JSON of the command line.
     fn summary(&self) -> PyResult<String> {
         serde_json::to_string(&atlas_summary(&self.0)).map_err(of_json)
     }

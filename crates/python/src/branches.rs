@@ -16,8 +16,8 @@ use std::path::PathBuf;
 /// The summary as JSON, the points as CSV (every digit), and what a signal or the callable raised: then not all is followed.
 type Followed<'py> = (String, Bound<'py, PyBytes>, Option<PyErr>);
 
-/// Direction, longest step, first step, tolerance, steady motions alone.
-type Steps<'s> = (&'s str, Option<f64>, Option<f64>, Option<f64>, bool);
+/// Direction, longest step, first step, tolerance; steady motions alone, and orbits that begin on stable motions alone.
+type Steps<'s> = (&'s str, Option<f64>, Option<f64>, Option<f64>, (bool, bool));
 
 /// The branches of the motion that a study's start settles on, or of that at a point of an earlier result.
 #[pyfunction]
@@ -39,9 +39,9 @@ pub(crate) fn follow_branches<'py>(
         point.put(&mut study).map_err(python)?;
         given = Some(point.given);
     }
-    let (direction, branch_step, first_step, tolerance, steady) = steps;
+    let (direction, branch_step, first_step, tolerance, (steady, from_stable)) = steps;
     let direction = Towards::find(direction).map_err(python)?;
-    let stride = Stride { first_step, branch_step, tolerance, direction, steady };
+    let stride = Stride { first_step, branch_step, tolerance, direction, steady, from_stable };
     let along = Along { name, from, to };
     let settings = BranchSettings { origin, points, branches, stride, given, ..BranchSettings::over(along) };
     let study = study.perturbed().map_err(python)?.0;

@@ -101,7 +101,7 @@ impl Sample {
         py.detach(|| OutlineFile::new(&path, true)?.write(&chosen)).map(drop).map_err(of_cells)
     }
 
-    /// How these cells move, as JSON; those that an interruption left out are missing.
+    /// The observed motions of these cells, as JSON; those that an interruption left out are missing.
     #[pyo3(signature = (names, progress=None))]
     fn observe(
         &self,

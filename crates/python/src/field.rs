@@ -9,7 +9,8 @@ use crate::study::set_run;
 use crate::watch::Caller;
 use motiform_dynamics::{Section, StepControl};
 use motiform_lab::given::{Flow, Recording, Settings, Span, exponents, record, tracks};
-use motiform_store::table::Table;
+use motiform_store::quantity::state::{RISING, T};
+use motiform_store::table::{Column, Table};
 use motiform_study::Ending;
 use motiform_study::study::RunSettings;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -201,13 +202,12 @@ impl Field {
 
     fn crossings(&self, found: &Recording) -> Table {
         let crossings = found.trajectory.crossings();
-        let mut table = Table::default();
-        table.push("t", "time of the crossing", crossings.iter().map(|crossing| crossing.t).collect());
+        let mut table = Table::of(&[&T], vec![crossings.iter().map(|crossing| crossing.t).collect()]);
         for (place, name) in self.names.iter().enumerate() {
             table.push(name, name.clone(), crossings.iter().map(|crossing| crossing.state[place]).collect());
         }
         let rising = crossings.iter().map(|crossing| f64::from(u8::from(crossing.rising))).collect();
-        table.push("rising", "1 where the coordinate grows, 0 where it falls", rising);
+        table.columns.push(Column::of(&RISING, rising));
         table
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A compiled function cannot be called otherwise. Rust cannot check that an address is that of a function with this signature, that the
 //! function stays within the lengths it was told, or that several threads may call it: the caller in Python promises it
-//! (`motiform.Field` says so), as with every function that `ctypes` or `scipy.LowLevelCallable` calls. What can be checked is: an address is not 0, and slices have the
+//! (`motiform.Field` says so), as with every function that `ctypes` or `scipy.LowLevelCallable` calls. What can be checked is: an address
+//! is not 0, and slices have the
 //! lengths that were promised to the function. Tests: tests/test_fields.py.
 
 #![allow(unsafe_code, reason = "a call of a compiled function; see above")]
@@ -31,7 +32,8 @@ impl Address {
 
     /// Calls the function.
     fn call(self, t: f64, x: &[f64], parameters: &[f64], out: &mut [f64]) {
-        // SAFETY: function pointers and addresses have one size on all targets of this package, and the address is not 0, so this is a value of the
+        // SAFETY: function pointers and addresses have one size on all targets of this package, and the address is not 0, so this is a
+        // value of the
         // type. That there is a function with this signature is the promise of the caller.
         let function = unsafe { std::mem::transmute::<usize, Function>(self.0.get()) };
         // SAFETY: the pointers are those of slices that live during the call; `out` is not shared. The promised lengths are those of

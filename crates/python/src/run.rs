@@ -7,7 +7,7 @@ use motiform_dynamics::{Model, Outline};
 use motiform_lab::readings::dimension;
 use motiform_lab::{draw, naming};
 use motiform_store::table::Table;
-use motiform_study::{Dataset, Manifest};
+use motiform_study::{Dataset, Dimension, Manifest};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -115,8 +115,11 @@ impl Run {
     /// The powers of length and time of each column.
     fn dimensions(&self) -> PyResult<Vec<(i8, i8)>> {
         let model = self.model()?;
-        let of = |name: &String| dimension(model, name).into();
-        Ok(self.table.names.iter().map(of).collect())
+        let powers = |name: &String| match dimension(model, name) {
+            Dimension::Powers { length, time, .. } => (length, time),
+            Dimension::Mixed => (0, 0),
+        };
+        Ok(self.table.names.iter().map(powers).collect())
     }
 
     /// The same for the crossings of the return map, if there is one.
@@ -129,13 +132,13 @@ impl Run {
         serde_json::to_string(&self.manifest).map_err(of_json)
     }
 
-    /// Whether the run reached its end.
+    /// `true` if the run reached its end.
     #[getter]
     fn complete(&self) -> bool {
         self.manifest.outcome.is_complete()
     }
 
-    /// How the run ended, as text.
+    /// The end of the run, as text.
     #[getter]
     fn ended(&self) -> String {
         self.manifest.outcome.to_string()

@@ -11,7 +11,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
 
-/// The summary as JSON, the tables by name as CSV (every digit), and what a signal or the callable raised: then not all bodies are finished.
+/// The summary as JSON, the tables by name as CSV (every digit), and what a signal or the callable raised: then not all bodies are
+/// finished.
 type Measured<'py> = (String, Vec<(&'static str, Bound<'py, PyBytes>)>, Option<PyErr>);
 
 /// Radii of discs; quantity and threshold of residence times.

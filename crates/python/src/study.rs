@@ -4,7 +4,7 @@ use crate::errors::{of_keywords, python};
 use motiform_dynamics::model::Coordinate;
 use motiform_models::ModelInfo;
 use motiform_study::study::RunSettings;
-use motiform_study::units::Units;
+use motiform_study::Shown;
 use motiform_study::{Error, Random, presets, remarks};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -53,7 +53,7 @@ impl Study {
         Ok(Self(study))
     }
 
-    /// What is allowed and probably not meant, where these parameters are varied: a sentence each.
+    /// Remarks on what is allowed and probably not meant, where these parameters are varied: a sentence each.
     fn remarks(&self, varied: Vec<String>) -> PyResult<Vec<String>> {
         let varied: Vec<&str> = varied.iter().map(String::as_str).collect();
         remarks(&self.0, &varied).map_err(python)
@@ -208,7 +208,7 @@ fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) 
         "random" => study.random = Some(random(value)?),
         "units" => {
             let text: String = value.extract()?;
-            Units::parse(&text).map_err(of_keywords)?;
+            Shown::parse(&text).map_err(of_keywords)?;
             study.figure.units = text;
         }
         "perturb" => study.perturb = number(name, value)?,

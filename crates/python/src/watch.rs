@@ -17,7 +17,7 @@ pub(crate) struct Caller {
     stop: AtomicBool,
     last: Mutex<Instant>,
     error: Mutex<Option<PyErr>>,
-    /// Whether the working thread checks signals itself; otherwise another thread does.
+    /// `true` if the working thread checks signals itself; otherwise another thread does.
     own: bool,
 }
 

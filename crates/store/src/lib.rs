@@ -28,6 +28,7 @@ mod kind;
 mod lock;
 mod mend;
 mod place;
+pub mod quantity;
 mod replace;
 mod single;
 mod staged;
@@ -49,6 +50,7 @@ pub use inventory::{INVENTORY, Inventory, is_figure};
 pub use journal::{Journal, WORK, end_of_work};
 pub use kind::Kind;
 pub use mend::mend;
+pub use quantity::{Dimension, Quantity};
 pub use single::StagedFile;
 pub use staged::Staged;
 #[cfg(feature = "formats")]

@@ -194,7 +194,7 @@ pub(crate) fn written(definition: &Definition, values: &[(String, f64)]) -> Stri
     text
 }
 
-/// Whether nothing but a value is known of a parameter.
+/// Returns `true` if nothing but a value is known of a parameter.
 fn is_bare(parameter: &ParameterDefinition) -> bool {
     parameter.range.is_none() && parameter.symbol.is_empty() && parameter.text.is_empty()
 }

@@ -49,14 +49,14 @@ pub fn samples(study: &Study, asked: Option<u64>) -> u64 {
     }
 }
 
-/// How much is followed.
+/// Bounds of the work.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AtlasSettings {
     /// Most lines across boundaries.
     pub lines: usize,
     /// Most branches on a line.
     pub branches: usize,
-    /// Whether steady motions alone are followed. `None`: for stiff models, whose orbits take long.
+    /// `true` to follow steady motions alone. `None`: for stiff models, whose orbits take long.
     pub steady: Option<bool>,
 }
 
@@ -82,7 +82,7 @@ pub struct AtlasComputation {
     pub branches: usize,
     /// Most steps of the flow along the orbits of a line.
     pub line_steps: u64,
-    /// How branches are followed.
+    /// Steps along branches.
     pub stride: Stride,
     /// A start in the plane: lines have its method, and their own parameters and initial states.
     pub start: Computation,
@@ -221,7 +221,7 @@ impl AtlasPlan {
 /// Most points of a branch or curve to each side.
 const POINTS: usize = 400;
 
-/// How far a line goes to both sides of its start, as a part of the range: the boundary that it is for is next to it.
+/// The reach of a line to both sides of its start, as a part of the range: the boundary that it is for is next to it.
 const REACH: f64 = 0.15;
 
 fn middle(axis: &Axis) -> f64 {

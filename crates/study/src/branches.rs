@@ -50,7 +50,7 @@ pub struct BranchSettings {
     pub samples: usize,
     /// Steps, tolerance, sides, and whether orbits are followed.
     pub stride: Stride,
-    /// What the start is, if it was taken from an earlier result; otherwise it is simulated.
+    /// The kind of the start, if it was taken from an earlier result; otherwise it is simulated.
     pub given: Option<Given>,
 }
 
@@ -64,6 +64,7 @@ impl BranchSettings {
             tolerance: None,
             direction: Towards::Both,
             steady: false,
+            from_stable: false,
         };
         Self { along, origin: None, points: 2000, branches: 8, samples: 0, stride, given: None }
     }
@@ -91,7 +92,7 @@ pub struct BranchComputation {
     /// Steps, tolerance, sides, and whether orbits are followed.
     #[serde(default, skip_serializing_if = "Stride::is_default")]
     pub stride: Stride,
-    /// What the start is, if it was taken from an earlier result; otherwise it is simulated.
+    /// The kind of the start, if it was taken from an earlier result; otherwise it is simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub given: Option<Given>,
     /// Parameters that follow from others.

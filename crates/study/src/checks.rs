@@ -4,7 +4,7 @@ use crate::named::Named;
 use crate::plan::{Control, LONGEST};
 use crate::scan::Axis;
 use crate::study::{DisplaySettings, FigureSettings};
-use crate::{Error, Units};
+use crate::{Error, Shown};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Obstacle, Semilinear};
 use motiform_models::ModelInfo;
@@ -15,7 +15,7 @@ const MOST_STEPS: f64 = 1e10;
 /// An adaptive explicit step times the fastest rate: the edge of stability of methods of order 5 and 8.
 const STEP_TIMES_RATE: f64 = 5.0;
 
-/// Whether a setting is finite and `ok`.
+/// Checks that a setting is finite and `ok`.
 ///
 /// # Errors
 /// [`Error::Setting`] with the remedy.
@@ -97,7 +97,7 @@ pub fn check_figure(figure: &FigureSettings) -> Result<(), Error> {
         let value = figure.outlines.to_string();
         return Err(Error::Setting { key: "figure.outlines", value, remedy: "give at most 2000" });
     }
-    Units::parse(&figure.units).map(|_| ())
+    Shown::parse(&figure.units).map(|_| ())
 }
 
 /// Checks the display of a body.

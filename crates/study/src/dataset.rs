@@ -27,7 +27,7 @@ pub struct Manifest {
     pub plan_hash: String,
     /// The seed (also in the plan).
     pub seed: u64,
-    /// How the run ended.
+    /// The end of the run.
     pub outcome: Ending,
     /// The regime of the motion, if a short integration from its end was conclusive.
     #[serde(default, skip_serializing_if = "Option::is_none")]

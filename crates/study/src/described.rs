@@ -1,4 +1,5 @@
-//! Settings declared once: from the struct and its doc comments follow the JSON schema of a table, its reader, and the options of the command line and of
+//! Settings declared once: from the struct and its doc comments follow the JSON schema of a table, its reader, and the options of the
+//! command line and of
 //! Python.
 
 use crate::Error;

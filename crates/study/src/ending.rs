@@ -1,4 +1,4 @@
-//! How a run ended, and in which part.
+//! The end of a run, and the part in which it ended.
 
 use motiform_dynamics::Outcome;
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ impl Ending {
         Self { outcome: outcome.later(length), during: Some(Part::Transient) }
     }
 
-    /// Whether the run came to its end.
+    /// Returns `true` if the run came to its end.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.outcome.is_complete()

@@ -108,7 +108,7 @@ pub enum Error {
     Along {
         /// The range as given.
         text: String,
-        /// What is wrong and how to mend it.
+        /// The mistake and its remedy.
         problem: String,
     },
     /// No motion of this name can be followed.
@@ -134,14 +134,17 @@ pub enum Error {
     StartPoint {
         /// The point as given.
         text: String,
-        /// What is wrong and how to mend it.
+        /// The mistake and its remedy.
         problem: String,
     },
     /// Branches without a parameter to follow a motion along.
     #[error("nothing to follow: give the parameter to vary, with its range")]
     NoAlong,
     /// No curve of this kind can be followed.
-    #[error("unknown curve {name:?}{}: the special points that can be followed over two parameters are {}", hint(.nearest), .known.join(", "))]
+    #[error(
+        "unknown curve {name:?}{}: the special points that can be followed over two parameters are {}",
+        hint(.nearest), .known.join(", ")
+    )]
     CurveKind {
         /// The name given.
         name: String,
@@ -155,7 +158,7 @@ pub enum Error {
     Plane {
         /// The plane as given.
         text: String,
-        /// What is wrong and how to mend it.
+        /// The mistake and its remedy.
         problem: String,
     },
     /// The motion that a start settles on is not one to begin with.
@@ -203,7 +206,7 @@ pub enum Error {
         first: PathBuf,
         /// Another one.
         second: PathBuf,
-        /// What differs.
+        /// The differences.
         differences: String,
     },
     /// Two folders contain the same part with different numbers.
@@ -246,8 +249,8 @@ pub enum Error {
     },
     /// Rates so fast that an explicit method would need too many steps.
     #[error(
-        "the fastest rate of this model is {rate:.1e}: {stepper} would need about {:.0e} steps for a time of {time:.0}; use the exponential \
-         stepper krogstad4, or smaller parameters",
+        "the fastest rate of this model is {rate:.1e}: {stepper} would need about {:.0e} steps for a time of {time:.0}; \
+         use the exponential stepper krogstad4, or smaller parameters",
         rate * time / 5.0
     )]
     Stiff {
@@ -279,7 +282,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether the input was valid but the machine failed.
+    /// Returns `true` if the input was valid but the machine failed.
     #[must_use]
     pub fn is_machine_failure(&self) -> bool {
         match self {

@@ -37,6 +37,8 @@ settings! {
         pub direction: Option<Towards>,
         /// Follow steady motions alone (motionless, straight, circular), not the orbits that begin at Hopf points.
         pub steady: bool,
+        /// Of the orbits follow those alone that begin where a stable motion loses its stability.
+        pub from_stable: bool,
     }
 }
 
@@ -55,6 +57,7 @@ impl Default for FollowSettings {
             tolerance: None,
             direction: None,
             steady: false,
+            from_stable: false,
         }
     }
 }
@@ -78,6 +81,7 @@ impl FollowSettings {
                 tolerance: self.tolerance,
                 direction: self.direction.unwrap_or_default(),
                 steady: self.steady,
+                from_stable: self.from_stable,
             },
             given: None,
         })
@@ -134,6 +138,9 @@ impl FollowSettings {
         table.extend(numbers.into_iter().filter_map(|(key, number)| Some((key.to_owned(), number?.into()))));
         if self.steady {
             table.insert("steady".to_owned(), true.into());
+        }
+        if self.from_stable {
+            table.insert("from_stable".to_owned(), true.into());
         }
         if !self.curve.is_empty() {
             let names: Vec<&str> = self.curve.iter().map(|kind| kind.name()).collect();

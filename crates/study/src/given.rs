@@ -1,8 +1,8 @@
-//! What the start of branches is, where it was taken from an earlier result.
+//! The kind of the start of branches, where it was taken from an earlier result.
 
 use serde::{Deserialize, Serialize};
 
-/// What the state of the start is, where it was taken from an earlier result. Without it, the start is simulated.
+/// The kind of the start's state, where it was taken from an earlier result. Without it, the start is simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Given {
@@ -14,7 +14,7 @@ pub enum Given {
         time: f64,
         /// The rotation by then (rad), after the mirror.
         angle: f64,
-        /// Whether its image is a mirror image.
+        /// `true` if its image is a mirror image.
         mirrored: bool,
     },
     /// A recorded state: if a steady motion is asked for, Newton's method is tried first; otherwise the flow is followed from there.
@@ -22,7 +22,7 @@ pub enum Given {
 }
 
 impl Given {
-    /// Whether it is a motion, which is not simulated.
+    /// Returns `true` if it is a motion, which is not simulated.
     #[must_use]
     pub const fn is_motion(self) -> bool {
         !matches!(self, Self::State)

@@ -10,7 +10,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// The complete start: if any shape value is given, the others are 0; if none is, they are drawn
-/// from the study's distribution ([`Random`]; [`Random::SMALL`] if it has none) by a counter-based generator. The position is `x = y = 0` unless given.
+/// from the study's distribution ([`Random`]; [`Random::SMALL`] if it has none) by a counter-based generator. The position is `x = y = 0`
+/// unless given.
 pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
     let values = study.values()?;
     let coordinates = info.coordinates(&values);
@@ -39,7 +40,8 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
     Ok(Named(entries))
 }
 
-/// A guess for Newton's method in the model's representation: each coordinate uniform in `-size..size`, from this seed and stream. (Starts of
+/// A guess for Newton's method in the model's representation: each coordinate uniform in `-size..size`, from this seed and stream.
+/// (Starts of
 /// orbits are those of [`Random`].)
 pub fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec<f64> {
     let mut random = Uniform::new(seed, stream);

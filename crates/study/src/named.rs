@@ -13,7 +13,7 @@ impl Named {
         self.0.iter().map(|entry| entry.1).collect()
     }
 
-    /// Whether it is empty.
+    /// Returns `true` if it is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

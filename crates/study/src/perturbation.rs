@@ -37,7 +37,8 @@ impl Study {
     /// `perturb` times the largest value given (1 where all are zero). `None` with it if nothing was changed: no start is given,
     /// none of its coordinates is zero, or `perturb` is 0.
     ///
-    /// The flow preserves the symmetry of a start. A mirror symmetric start, a pure mode, or a circle may end at an unstable shape that no other
+    /// The flow preserves the symmetry of a start. A mirror symmetric start, a pure mode, or a circle may end at an unstable shape that
+    /// no other
     /// start leads to. Coordinates that a model has only at some values of the scan's axes are not changed.
     ///
     /// # Errors

@@ -88,7 +88,7 @@ pub fn model_of(name: &str) -> Option<&'static ModelInfo> {
     MODELS.iter().find(|info| info.name == preset.model)
 }
 
-/// Whether a text is the title or the sentence of one of a model's presets.
+/// Returns `true` if a text is the title or the sentence of one of a model's presets.
 pub(crate) fn says(model: &str, text: &str) -> bool {
     let theirs = |preset: &&'static Preset| preset.model == model;
     let says = |preset: &Preset| {

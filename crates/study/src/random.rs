@@ -13,7 +13,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Random {
-    /// Coordinate i uniform in `-size w_i..size w_i`, independently, with the model's weights `w_i` ([`ModelInfo::weight`]: 1 for the tensor
+    /// Coordinate i uniform in `-size w_i..size w_i`, independently, with the model's weights `w_i` ([`ModelInfo::weight`]: 1 for the
+    /// tensor
     /// model and equations given as text, 1/n^2 for mode n of the cell, whose speed would otherwise be that of modes that die at once).
     /// Small states start near the circle and follow its unstable directions: all orbits may follow the same one.
     Within(f64),

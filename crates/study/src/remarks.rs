@@ -1,4 +1,4 @@
-//! What of a study is allowed, and probably not what is meant.
+//! Remarks on a study: settings that are allowed and probably not meant.
 
 use crate::{Error, Study};
 use motiform_dynamics::steppers::Method;
@@ -21,13 +21,15 @@ pub fn idle_ties(study: &Study, varied: &[&str]) -> Result<Vec<String>, Error> {
     let idle = study.ties.idle(study.info()?.parameters(), &study.values()?, varied);
     let sentence = |[name, formula, of]: [String; 3]| {
         format!(
-            "the tie {name} = {formula} says 0 = 0 everywhere here: {of} is 0 and is not varied; give it a value, such as {of}=0.5, or leave out the tie"
+            "the tie {name} = {formula} says 0 = 0 everywhere here: {of} is 0 and is not varied; \
+             give it a value, such as {of}=0.5, or leave out the tie"
         )
     };
     Ok(idle.into_iter().map(sentence).collect())
 }
 
-/// A sentence about an explicit method with adaptive steps on stiff equations. (A fixed step is the user's choice, and an unstable one is refused.)
+/// A sentence about an explicit method with adaptive steps on stiff equations. (A fixed step is the user's choice, and an unstable one
+/// is refused.)
 fn explicit_on_stiff(study: &Study) -> Result<Option<String>, Error> {
     let (info, stepper) = (study.info()?, study.run.stepper.as_str());
     let is_stiff = matches!(Method::find(info.stepper), Some(Method::Exponential(_)));
@@ -35,7 +37,8 @@ fn explicit_on_stiff(study: &Study) -> Result<Option<String>, Error> {
     let doubtful = is_stiff && chooses && matches!(Method::find(stepper), Some(Method::Explicit(_)));
     Ok(doubtful.then(|| {
         format!(
-            "the equations of {} are stiff, and {stepper} is an explicit method: its steps must resolve the fastest decay, so it may take very long; the stepper {} does not",
+            "the equations of {} are stiff, and {stepper} is an explicit method: its steps must resolve the fastest decay, \
+             so it may take very long; the stepper {} does not",
             info.name, info.stepper
         )
     }))

@@ -1,11 +1,11 @@
-//! How to run, as typed.
+//! Settings of a run, as typed.
 
 use crate::described::{Described, Key, settings};
 use serde::Serialize;
 use serde_json::Value;
 
 settings! {
-    /// How to run.
+    /// Settings of a run.
     #[derive(Clone, Debug, PartialEq, Serialize)]
     pub struct RunSettings {
         /// Recorded time (model time), above 0; by default 200.

@@ -1,4 +1,4 @@
-//! How branches are followed: the steps, the tolerance, the sides, and whether orbits are among them.
+//! Settings of the continuation of branches: steps, tolerance, sides, with orbits or without.
 
 use crate::Error;
 use crate::error::nearest_of;
@@ -44,13 +44,13 @@ impl Towards {
             .ok_or_else(|| Error::Towards { name: name.to_owned(), nearest: nearest_of(name, &known) })
     }
 
-    /// Whether larger values are among them.
+    /// Returns `true` if larger values are among them.
     #[must_use]
     pub const fn is_up(self) -> bool {
         !matches!(self, Self::Down)
     }
 
-    /// Whether smaller values are among them.
+    /// Returns `true` if smaller values are among them.
     #[must_use]
     pub const fn is_down(self) -> bool {
         !matches!(self, Self::Up)
@@ -77,6 +77,9 @@ pub struct Stride {
     /// Follow steady motions alone, not the orbits that begin at Hopf points.
     #[serde(default, skip_serializing_if = "is_false")]
     pub steady: bool,
+    /// Of the orbits follow those alone that begin where a stable motion loses its stability.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub from_stable: bool,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
@@ -100,7 +103,7 @@ const STEPS: (f64, f64) = (1e-6, 1.0);
 const TOLERANCES: (f64, f64) = (1e-13, 1e-7);
 
 impl Stride {
-    /// Whether everything is left to the numerics.
+    /// Returns `true` if everything is left to the numerics.
     #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()

@@ -47,7 +47,7 @@ pub struct Study {
     pub follow: FollowSettings,
     /// The return map, if any.
     pub return_map: Option<ReturnMapSettings>,
-    /// How to draw.
+    /// Settings of figures.
     pub figure: FigureSettings,
     /// The initial display in the explorer.
     pub display: DisplaySettings,
@@ -89,7 +89,7 @@ settings! {
 }
 
 settings! {
-    /// How to draw a dataset. These settings do not affect results.
+    /// Settings of the figures of a dataset. They do not affect results.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
     #[serde(default)]
     pub struct FigureSettings {
@@ -105,7 +105,7 @@ settings! {
         pub to: f64,
         /// Draw the animation.
         pub animation: bool,
-        /// What a unit of length and one of time are in the laboratory, for axes in these: "20um,1min"; nothing: model units.
+        /// A unit of length and one of time in the laboratory, for axes in these: "20um,1min"; nothing: model units.
         #[serde(skip_serializing_if = "String::is_empty")]
         pub units: String,
     }

@@ -225,11 +225,13 @@ pub fn schema() -> serde_json::Value {
     let mut initial = numbers(initial);
     initial["properties"]["random"] = serde_json::json!({
         "type": ["number", "string"],
-        "description": "random starts: each coordinate within plus or minus this size, or \"MIN:MAX\" for log-uniform sizes in all directions",
+        "description": "random starts: each coordinate within plus or minus this size, \
+            or \"MIN:MAX\" for log-uniform sizes in all directions",
     });
     initial["properties"]["perturb"] = serde_json::json!({
         "type": "number",
-        "description": "classify and scan put random values within this part of the largest given one in the place of zeros, because an orbit never leaves an exact symmetry; 0 keeps the exact start",
+        "description": "classify and scan put random values within this part of the largest given one in the place of zeros, \
+            because an orbit never leaves an exact symmetry; 0 keeps the exact start",
     });
     serde_json::json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -17,7 +17,8 @@ impl Study {
         self.text(self.model.definition(), &self.parameters)
     }
 
-    /// As [`Study::to_toml`], but with these equations. They need not be those of a model of this process, which keeps every model it has met.
+    /// As [`Study::to_toml`], but with these equations. They need not be those of a model of this process, which keeps every model it
+    /// has met.
     ///
     /// # Errors
     /// As [`Study::to_toml`].
@@ -173,6 +174,7 @@ mod tests {
             tolerance: Some(1e-11),
             direction: Some(Towards::Down),
             steady: true,
+            from_stable: true,
         };
         study.return_map = Some(ReturnMapSettings { y: 1.0, x_min: -2.0, x_max: 3.5, centre: true });
         study.figure = FigureSettings {

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub struct Ties(BTreeMap<String, String>);
 
 impl Ties {
-    /// Whether there are none.
+    /// Returns `true` if there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -224,7 +224,7 @@ impl<'i> Value<'i> {
         self.list("a list of whole numbers")?.iter().map(Value::whole).collect()
     }
 
-    /// Whether it is a table.
+    /// Returns `true` if it is a table.
     pub(crate) fn is_table(&self) -> bool {
         self.value.get_ref().is_table()
     }

@@ -3,6 +3,7 @@
 use super::{Correction, FieldOfView};
 use crate::Units;
 use motiform_statistics::{four_digits, with_error};
+use motiform_study::Dimension;
 
 /// Jumps that are listed.
 const MOST_JUMPS: usize = 4;
@@ -23,7 +24,7 @@ impl FieldOfView {
             };
             rows.push((
                 "drift",
-                format!("({x}, {y}) {}, p = {:.1e}: {verdict}", units.speed(), drift.p_value),
+                format!("({x}, {y}) {}, p = {:.1e}: {verdict}", units.unit(Dimension::SPEED), drift.p_value),
             ));
         }
         if !self.jumps.is_empty() {

@@ -11,7 +11,7 @@ mod steps;
 
 pub use forms::{FormNumber, Forms};
 pub use population::{PopulationNumber, PopulationNumbers, population_numbers};
-pub use rows::{Dimension, Row, number_columns};
+pub use rows::{Row, number_columns};
 pub use steps::Steps;
 
 use crate::{AtLag, CellTrack};

@@ -2,25 +2,24 @@
 
 use super::displacement;
 use super::places::Places;
-use super::rows::Dimension;
 use crate::{AtLag, Observation, OverCells, over_cells};
 use motiform_dynamics::order::ascending;
-use serde::Serialize;
+use motiform_study::Quantity;
+use serde::{Serialize, Serializer};
 
 /// A number over cells.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PopulationNumber {
-    /// Its name in tables and JSON.
-    pub key: &'static str,
-    /// Its name for people.
-    #[serde(skip)]
-    pub name: &'static str,
-    /// Its unit.
-    #[serde(skip)]
-    pub dimension: Dimension,
+    /// The number.
+    #[serde(rename = "key", serialize_with = "by_name")]
+    pub quantity: &'static Quantity,
     /// Over the cells that have it.
     #[serde(flatten)]
     pub over: OverCells,
+}
+
+fn by_name<S: Serializer>(quantity: &&'static Quantity, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(quantity.name)
 }
 
 /// Numbers over cells. Cells whose record sets no bound to a number are not in it: `cells` of each number says how many are.
@@ -40,13 +39,7 @@ pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
     let rows: Vec<_> = found.iter().map(|one| one.numbers.rows()).collect();
     let number = |place: usize| {
         let values: Vec<f64> = rows.iter().filter_map(|all| Some(all[place].value.known()?.value)).collect();
-        let row = &rows[0][place];
-        Some(PopulationNumber {
-            key: row.key,
-            name: row.name,
-            dimension: row.dimension,
-            over: over_cells(&values)?,
-        })
+        Some(PopulationNumber { quantity: rows[0][place].quantity, over: over_cells(&values)? })
     };
     let count = rows.first().map_or(0, Vec::len);
     let places = usual(found);

@@ -1,59 +1,21 @@
-//! The numbers of a cell, one by one, with name and unit: text, page, table and population show the same ones.
+//! The numbers of a cell, one by one: text, page, table and population show the same ones.
 
 use super::{FormNumber, Numbers};
-use crate::{Observation, Units};
+use crate::Observation;
 use motiform_inference::{Bounded, PersistentWalk};
 use motiform_statistics::{Answer, Measured, four_digits};
 use motiform_store::columns::{Column, Values};
+use motiform_study::Quantity;
+use motiform_study::quantity::cell;
 
 /// Why there is no walk.
 const TOO_FEW: &str = "fewer than 12 displacements, or none at all";
 
-/// What a number measures: its unit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dimension {
-    /// No unit.
-    Plain,
-    /// Length.
-    Length,
-    /// Length squared.
-    Area,
-    /// Time.
-    Time,
-    /// Length over time.
-    Speed,
-    /// Length squared over time.
-    Diffusion,
-    /// Radians over time.
-    Rate,
-}
-
-impl Dimension {
-    /// The unit in the units of the data; empty for numbers without one.
-    #[must_use]
-    pub fn unit(self, units: &Units) -> String {
-        let Units { length, time, .. } = units;
-        match self {
-            Self::Plain => String::new(),
-            Self::Length => length.clone(),
-            Self::Area => format!("{length}^2"),
-            Self::Time => time.clone(),
-            Self::Speed => units.speed(),
-            Self::Diffusion => units.diffusion(),
-            Self::Rate => format!("rad/{time}"),
-        }
-    }
-}
-
 /// A number of a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Its name in tables and JSON.
-    pub key: &'static str,
-    /// Its name for people.
-    pub name: &'static str,
-    /// Its unit.
-    pub dimension: Dimension,
+    /// The number.
+    pub quantity: &'static Quantity,
     /// The value, or why there is none.
     pub value: Answer,
 }
@@ -62,7 +24,6 @@ impl Numbers {
     /// All numbers, always in the same order.
     #[must_use]
     pub fn rows(&self) -> Vec<Row> {
-        use Dimension::{Area, Diffusion, Length, Plain, Rate, Speed, Time};
         let steps = self.steps.as_ref();
         let no_step = || self.without_steps();
         let of_steps = |value: Option<Option<Measured>>| {
@@ -72,35 +33,25 @@ impl Numbers {
         let form = |number: Option<FormNumber>| {
             number.map_or_else(|| Answer::unknown("no frame is seen"), |number| Answer::Known(number.mean))
         };
-        let row = |key, name, dimension, value| Row { key, name, dimension, value };
+        let row = |quantity, value| Row { quantity, value };
         let mut rows = vec![
-            row("speed", "speed", Speed, of_steps(steps.map(|s| s.speed))),
-            row("rms_speed", "rms speed", Speed, self.rms_speed()),
-            row("path", "path", Length, bare(steps.map(|s| s.path))),
-            row("net_displacement", "displacement", Length, bare(steps.map(|s| s.net))),
-            row("directionality", "directionality", Plain, bare(steps.and_then(|s| s.directionality))),
-            row("turning_cosine", "turning cosine", Plain, of_steps(steps.map(|s| s.turning_cosine))),
-            row("turning_rate", "turning rate", Rate, of_steps(steps.map(|s| s.turning_rate))),
-            row(
-                "persistence",
-                "persistence",
-                Time,
-                self.of_walk(|walk| walk.persistence, "persistence time"),
-            ),
-            row(
-                "diffusion",
-                "diffusion",
-                Diffusion,
-                self.of_walk(|walk| walk.diffusion, "diffusion coefficient"),
-            ),
-            row("position_error", "place error", Length, self.of_walk(|walk| walk.error, "error")),
+            row(&cell::SPEED, of_steps(steps.map(|s| s.speed))),
+            row(&cell::RMS_SPEED, self.rms_speed()),
+            row(&cell::PATH, bare(steps.map(|s| s.path))),
+            row(&cell::NET_DISPLACEMENT, bare(steps.map(|s| s.net))),
+            row(&cell::DIRECTIONALITY, bare(steps.and_then(|s| s.directionality))),
+            row(&cell::TURNING_COSINE, of_steps(steps.map(|s| s.turning_cosine))),
+            row(&cell::TURNING_RATE, of_steps(steps.map(|s| s.turning_rate))),
+            row(&cell::PERSISTENCE, self.of_walk(|walk| walk.persistence, "persistence time")),
+            row(&cell::DIFFUSION, self.of_walk(|walk| walk.diffusion, "diffusion coefficient")),
+            row(&cell::POSITION_ERROR, self.of_walk(|walk| walk.error, "error")),
         ];
         rows.extend([
-            row("area", "area", Area, form(self.forms.area)),
-            row("perimeter", "perimeter", Length, form(self.forms.perimeter)),
-            row("aspect_ratio", "aspect ratio", Plain, form(self.forms.aspect_ratio)),
-            row("solidity", "solidity", Plain, form(self.forms.solidity)),
-            row("circularity", "circularity", Plain, form(self.forms.circularity)),
+            row(&cell::AREA, form(self.forms.area)),
+            row(&cell::PERIMETER, form(self.forms.perimeter)),
+            row(&cell::ASPECT_RATIO, form(self.forms.aspect_ratio)),
+            row(&cell::SOLIDITY, form(self.forms.solidity)),
+            row(&cell::CIRCULARITY, form(self.forms.circularity)),
         ]);
         rows
     }
@@ -162,25 +113,19 @@ pub fn number_columns(found: &[Observation]) -> Vec<Column> {
     let seen = found.iter().map(|one| i64::try_from(one.numbers.seen).unwrap_or(i64::MAX)).collect();
     let motion = |one: &Observation| one.motion.regime.map_or("undecided", |regime| regime.name()).to_owned();
     let mut columns = vec![
-        Column::new("cell", "name of the cell", names),
-        Column::new("motion", "observed motion", Values::Text(found.iter().map(motion).collect())),
-        Column::new("seen", "frames whose outline is seen", Values::Whole(seen)),
+        Column::of_data(&cell::CELL, names),
+        Column::of_data(&cell::MOTION, Values::Text(found.iter().map(motion).collect())),
+        Column::of_data(&cell::SEEN, Values::Whole(seen)),
     ];
     for (place, row) in rows.first().into_iter().flatten().enumerate() {
         let value = |of: &dyn Fn(Measured) -> f64| {
             Values::Number(rows.iter().map(|all| all[place].value.known().map_or(f64::NAN, of)).collect())
         };
-        columns.push(Column::new(row.key, row.name, value(&|found| found.value)));
-        columns.push(Column::new(
-            &format!("{}_low", row.key),
-            "lower end of its 95 % interval",
-            value(&|found| found.lower()),
-        ));
-        columns.push(Column::new(
-            &format!("{}_high", row.key),
-            "upper end of its 95 % interval",
-            value(&|found| found.upper()),
-        ));
+        let name = row.quantity.name;
+        let end = |end: &str, meaning, values| Column::new(&format!("{name}_{end}"), meaning, values);
+        columns.push(Column::of_data(row.quantity, value(&|found| found.value)));
+        columns.push(end("low", "lower end of its 95 % interval", value(&|found| found.lower())));
+        columns.push(end("high", "upper end of its 95 % interval", value(&|found| found.upper())));
     }
     columns
 }

@@ -8,7 +8,7 @@ use crate::{Agreement, Axis, Comparison, Kind, Prediction};
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart, TrackPanels};
 use motiform_lab::draw::{Picture, files};
-use motiform_study::Error;
+use motiform_study::{Dimension, Error};
 
 pub(crate) fn section(
     case: &Case<'_>,
@@ -103,7 +103,7 @@ fn curve(one: &Comparison, setting: &Setting<'_>) -> Result<ReportFigure, Error>
     let square = statistic.kind == Kind::Displacement;
     let figure = Chart {
         x_label: match statistic.kind.axis() {
-            Axis::Lag => format!("lag ({})", units.time),
+            Axis::Lag => units.label("lag", Dimension::TIME),
             Axis::Share => "share of the samples below (%)".to_owned(),
         },
         y_label: label(statistic.kind, units),
@@ -122,14 +122,14 @@ fn curve(one: &Comparison, setting: &Setting<'_>) -> Result<ReportFigure, Error>
 }
 
 fn label(kind: Kind, units: &Units) -> String {
-    let unit = match kind {
-        Kind::Displacement => format!("{}^2", units.length),
-        Kind::Speed => units.speed(),
-        Kind::Turning => "rad".to_owned(),
-        Kind::SecondSize | Kind::ThirdSize | Kind::FourthSize => units.length.clone(),
+    let dimension = match kind {
+        Kind::Displacement => Dimension::AREA,
+        Kind::Speed => Dimension::SPEED,
+        Kind::Turning => Dimension::ANGLE,
+        Kind::SecondSize | Kind::ThirdSize | Kind::FourthSize => Dimension::LENGTH,
         Kind::Velocity | Kind::SecondMode | Kind::ThirdMode | Kind::FourthMode | Kind::Elongation => {
-            return kind.name().to_owned();
+            Dimension::NUMBER
         }
     };
-    format!("{} ({unit})", kind.name())
+    units.label(kind.name(), dimension)
 }

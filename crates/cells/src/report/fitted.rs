@@ -8,6 +8,7 @@ use crate::{CellFit, Fitted};
 use motiform_figures::literal;
 use motiform_figures::report::{Cell, Section, Table};
 use motiform_inference::{Coefficient, EquationKnowledge, paper};
+use motiform_study::Dimension;
 
 pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
     let title = "Fitted equations".to_owned();
@@ -49,7 +50,7 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
         ("factor of the stated errors".to_owned(), estimate(&noise.s)),
         (
             "noise of the velocity".to_owned(),
-            format!("{} {}/√{}", estimate(&noise.eta_v), units.speed(), units.time),
+            format!("{} {}/√{}", estimate(&noise.eta_v), units.unit(Dimension::SPEED), units.time),
         ),
         (
             "noise of the shape".to_owned(),
@@ -72,7 +73,7 @@ fn centre(fitted: &Fitted, units: &Units) -> String {
 }
 
 fn stage(fitted: &Fitted, units: &Units) -> String {
-    let one = |v: &[f64; 2]| format!("({}, {}) {}", plain(v[0]), plain(v[1]), units.speed());
+    let one = |v: &[f64; 2]| format!("({}, {}) {}", plain(v[0]), plain(v[1]), units.unit(Dimension::SPEED));
     let all: Vec<String> = fitted.stage.iter().map(one).collect();
     if all.is_empty() { "none".to_owned() } else { all.join("; ") }
 }

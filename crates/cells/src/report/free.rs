@@ -9,7 +9,8 @@ use motiform_figures::palette::INK;
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{Curve, Panel, SeriesFigure};
 use motiform_statistics::Answer;
-use motiform_study::Error;
+use motiform_study::quantity::frame;
+use motiform_study::{Error, Quantity};
 use motiform_tracks::modes::{Flag, FrameModes};
 
 pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section, Error> {
@@ -45,8 +46,10 @@ pub(crate) fn over_time(case: &Case<'_>, setting: &Setting<'_>) -> Result<Option
 }
 
 fn table(numbers: &Numbers, units: &Units) -> Table {
-    let row =
-        |row: Row| vec![Cell::text(row.name), Cell::text(answer(&row.value, &row.dimension.unit(units)))];
+    let row = |row: Row| {
+        let unit = units.unit(row.quantity.dimension);
+        vec![Cell::text(row.quantity.symbol), Cell::text(answer(&row.value, &unit))]
+    };
     Table {
         caption: "Path, persistence and form.".to_owned(),
         head: ["quantity", "value"].map(str::to_owned).to_vec(),
@@ -55,8 +58,8 @@ fn table(numbers: &Numbers, units: &Units) -> Table {
 }
 
 /// A number of a cell as it stands in a table; empty where there is none.
-pub(crate) fn value(numbers: &Numbers, key: &str) -> String {
-    let found = numbers.rows().into_iter().find(|row| row.key == key);
+pub(crate) fn value(numbers: &Numbers, quantity: &Quantity) -> String {
+    let found = numbers.rows().into_iter().find(|row| row.quantity == quantity);
     let known = found.and_then(|row| match row.value {
         Answer::Known(found) => Some(found.value),
         Answer::Unknown { .. } => None,
@@ -91,11 +94,11 @@ fn series(frames: &[FrameModes], units: &Units) -> SeriesFigure {
         curves: vec![Curve { label, colour: INK, values: rows.iter().map(|row| row[at]).collect() }],
     };
     let panels = vec![
-        panel(0, format!("speed ({})", units.speed())),
-        panel(1, format!("area ({}^2)", units.length)),
-        panel(2, "aspect ratio".to_owned()),
+        panel(0, units.axis(&frame::SPEED)),
+        panel(1, units.axis(&frame::AREA)),
+        panel(2, units.axis(&frame::ASPECT_RATIO)),
     ];
-    SeriesFigure { time_label: format!("*t* ({})", units.time), times, panels, ..SeriesFigure::default() }
+    SeriesFigure { time_label: units.axis(&frame::T), times, panels, ..SeriesFigure::default() }
 }
 
 fn displacement(numbers: &Numbers, setting: &Setting<'_>) -> Result<Option<ReportFigure>, Error> {

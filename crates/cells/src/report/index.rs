@@ -9,7 +9,11 @@ use motiform_analysis::regime::Regime;
 use motiform_figures::literal;
 use motiform_figures::report::{Cell, Report, Section, Table};
 use motiform_inference::{Place, Placement};
-use motiform_study::Error;
+use motiform_study::quantity::cell;
+use motiform_study::{Error, Quantity};
+
+/// Numbers without a model in the table of all cells.
+const FREE: [&Quantity; 4] = [&cell::SPEED, &cell::PERSISTENCE, &cell::AREA, &cell::ASPECT_RATIO];
 
 pub(crate) fn report(
     sample: &Sample,
@@ -76,16 +80,13 @@ fn table(cases: &[Case<'_>], names: &[String], units: &Units) -> Table {
     let fits = cases.iter().any(|case| case.fit.is_some());
     let name = |regime: Option<Regime>| Cell::text(regime.map_or("undecided", |regime| regime.name()));
     let row = |(case, file): (&Case<'_>, &String)| {
-        let free = |key: &str| Cell::number(free::value(&case.observation.numbers, key));
+        let free = |quantity| Cell::number(free::value(&case.observation.numbers, quantity));
         let mut row = vec![
             Cell::link(literal(&case.cell.name), page_name(file)),
             Cell::number(case.cell.frames().to_string()),
-            free("speed"),
-            free("persistence"),
-            free("area"),
-            free("aspect_ratio"),
-            name(case.observation.motion.regime),
         ];
+        row.extend(FREE.map(free));
+        row.push(name(case.observation.motion.regime));
         if fits {
             row.push(Cell::text(fitted_of(case).map_or("undecided", Fitted::motion_name)));
             row.push(Cell::text(fitted_of(case).map_or("", |fitted| fitted.symmetry().name())));
@@ -94,15 +95,9 @@ fn table(cases: &[Case<'_>], names: &[String], units: &Units) -> Table {
         }
         row
     };
-    let mut head = vec![
-        "cell".to_owned(),
-        "frames that count".to_owned(),
-        format!("speed ({})", units.speed()),
-        format!("persistence ({})", units.time),
-        format!("area ({}^2)", units.length),
-        "aspect ratio".to_owned(),
-        "observed motion".to_owned(),
-    ];
+    let mut head = vec!["cell".to_owned(), "frames that count".to_owned()];
+    head.extend(FREE.map(|quantity| units.axis(quantity)));
+    head.push("observed motion".to_owned());
     if fits {
         head.extend(["motion of the fit", "symmetry", "place", "simulated cells"].map(str::to_owned));
     }

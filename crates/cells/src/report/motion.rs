@@ -6,7 +6,9 @@ use crate::report::{Case, Setting, relatives};
 use crate::{AtLag, Memory, MotionStatistics};
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart, literal};
-use motiform_study::Error;
+use motiform_study::quantity::cell;
+use motiform_study::quantity::statistic::MSD;
+use motiform_study::{Dimension, Error};
 
 pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section, Error> {
     let units = &setting.units;
@@ -59,11 +61,14 @@ fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
             all.push(("stretch without gaps".to_owned(), text));
         }
         all.push(("sampling interval".to_owned(), format!("{} {time}", plain(case.cell.track.interval()))));
-        all.push(("speed".to_owned(), format!("{} {}", plain(m.speed), units.speed())));
+        all.push((
+            cell::SPEED.symbol.to_owned(),
+            format!("{} {}", plain(m.speed), units.unit(Dimension::SPEED)),
+        ));
         all.push(("scatter of the speed".to_owned(), format!("{:.0} %", 100.0 * m.speed_scatter)));
         all.push((
-            "turning rate".to_owned(),
-            format!("{} rad/{time}", with_error(m.turning, m.turning_error)),
+            cell::TURNING_RATE.symbol.to_owned(),
+            format!("{} {}", with_error(m.turning, m.turning_error), units.unit(Dimension::TURNING)),
         ));
         all.push(("directness".to_owned(), plain(m.directness)));
     }
@@ -75,7 +80,10 @@ pub(crate) fn walk(statistics: &MotionStatistics, units: &Units) -> Table {
     let time = &units.time;
     let mut all = vec![
         ("persistence time".to_owned(), answer(&statistics.walk.persistence, time)),
-        ("diffusion coefficient".to_owned(), answer(&statistics.walk.diffusion, &units.diffusion())),
+        (
+            "diffusion coefficient".to_owned(),
+            answer(&statistics.walk.diffusion, &units.unit(Dimension::DIFFUSION)),
+        ),
     ];
     for memory in &statistics.memories {
         let name = format!("correlation time of {}", symbol(&memory.quantity));
@@ -92,8 +100,8 @@ pub(crate) fn walk(statistics: &MotionStatistics, units: &Units) -> Table {
 pub(crate) fn mean_square(displacement: &[AtLag], units: &Units) -> Option<Chart> {
     let curve = BandCurve { label: "observed, 95 % band".to_owned(), points: points(displacement) };
     let chart = Chart {
-        x_label: format!("lag ({})", units.time),
-        y_label: format!("mean-square displacement ({}^2)", units.length),
+        x_label: units.label("lag", Dimension::TIME),
+        y_label: units.label(MSD.meaning, MSD.dimension),
         logarithmic_x: true,
         logarithmic_y: true,
         ..Chart::default()
@@ -110,7 +118,7 @@ pub(crate) fn figures(
     let curve =
         |memory: &Memory| BandCurve { label: symbol(&memory.quantity), points: points(&memory.correlation) };
     let known = statistics.memories.iter().filter(|memory| !memory.correlation.is_empty());
-    let (x_label, y_label) = (format!("lag ({})", units.time), "autocorrelation".to_owned());
+    let (x_label, y_label) = (units.label("lag", Dimension::TIME), "autocorrelation".to_owned());
     let correlations = Chart { x_label, y_label, zero_line: true, ..Chart::default() }.with(known.map(curve));
     let mut all = Vec::new();
     if let Some(displacement) = mean_square(&statistics.displacement, units) {

@@ -9,7 +9,8 @@ use motiform_figures::report::Section;
 use motiform_figures::{Curve, Panel, SeriesFigure, TrackPanel, TrackPanels};
 use motiform_inference::Observation;
 use motiform_statistics::four_digits;
-use motiform_study::Error;
+use motiform_study::quantity::frame::T;
+use motiform_study::{Dimension, Error};
 use motiform_tracks::Cell;
 use motiform_tracks::modes::FrameModes;
 use motiform_tracks::synthetic::Synthetic;
@@ -194,12 +195,12 @@ fn series(case: &Case<'_>, units: &Units) -> SeriesFigure {
             values: values(&|y| libm::hypot(y[at], y[at + 1])),
         };
         Panel {
-            label: format!("*z*_{n} ({})", units.length),
+            label: units.label(&format!("*z*_{n}"), Dimension::LENGTH),
             curves: vec![size, part("real part", BLUE, at), part("imaginary part", VERMILION, at + 1)],
         }
     };
     SeriesFigure {
-        time_label: format!("*t* ({})", units.time),
+        time_label: units.axis(&T),
         times,
         panels: (2..=case.modes()).map(mode).collect(),
         ..SeriesFigure::default()

@@ -68,11 +68,7 @@ fn names(shares: &[NameShare], head: &str) -> Table {
 }
 
 fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
-    let rows = found.numbers.iter().map(|one| {
-        let unit = one.dimension.unit(units);
-        let name = if unit.is_empty() { one.name.to_owned() } else { format!("{} ({unit})", one.name) };
-        row(name, &one.over)
-    });
+    let rows = found.numbers.iter().map(|one| row(units.axis(one.quantity), &one.over));
     table("Numbers over the cells that have them.", rows.collect())
 }
 

@@ -13,7 +13,7 @@ fn of(tracks: Tracks) -> Numbers {
 }
 
 fn known(numbers: &Numbers, key: &str) -> Measured {
-    let row = numbers.rows().into_iter().find(|row| row.key == key).expect("a row of this name");
+    let row = numbers.rows().into_iter().find(|row| row.quantity.name == key).expect("a row of this name");
     row.value.known().expect(key)
 }
 
@@ -58,7 +58,8 @@ fn displacements_over_cells_are_those_of_the_walk() {
     let inside: Vec<u32> = inside.collect();
     // lags share their data: all of them are in or out together
     assert!(inside.iter().sum::<u32>() as usize * 10 >= 7 * inside.len(), "{:?}", population.displacement);
-    let speed = population.numbers.iter().find(|number| number.key == "speed").expect("all have one");
+    let speed =
+        population.numbers.iter().find(|number| number.quantity.name == "speed").expect("all have one");
     assert_eq!(speed.over.cells, 16);
 }
 
@@ -114,7 +115,9 @@ fn short_records_have_what_they_show() {
         [(0, false, false), (1, false, false), (2, true, false), (12, true, false), (13, true, true)]
     {
         let found = of(tracks(vec![Walker { frames, ..WALK }.outlines(7)]));
-        let has = |key: &str| found.rows().iter().any(|row| row.key == key && row.value.known().is_some());
+        let has = |key: &str| {
+            found.rows().iter().any(|row| row.quantity.name == key && row.value.known().is_some())
+        };
         assert_eq!((has("area"), has("speed"), found.walk.is_some()), (frames > 0, speed, walk), "{frames}");
         let rows = found.rows();
         let reasons = rows.iter().filter_map(|row| row.value.reason());

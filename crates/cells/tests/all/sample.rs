@@ -116,7 +116,11 @@ fn the_sample_recording_is_observed() {
     assert_eq!(found[0].motion.regime, Some(Regime::Circular), "{}", found[0].motion.why);
     for one in &found {
         let known = |key: &str| {
-            one.numbers.rows().into_iter().find(|row| row.key == key).and_then(|row| row.value.known())
+            one.numbers
+                .rows()
+                .into_iter()
+                .find(|row| row.quantity.name == key)
+                .and_then(|row| row.value.known())
         };
         for key in ["speed", "path", "area", "aspect_ratio", "solidity"] {
             assert!(known(key).is_some(), "{}: {key}", one.cell);

@@ -56,6 +56,9 @@ pub(crate) struct ContinueOptions {
     /// Follow steady motions alone (motionless, straight, circular), not the orbits that begin at Hopf points
     #[arg(long)]
     pub(crate) steady: bool,
+    /// Of the orbits follow those alone that begin where a stable motion loses its stability
+    #[arg(long, conflicts_with = "steady")]
+    pub(crate) from_stable: bool,
     /// Maximum number of points of a branch or curve to each side (default: 2000)
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) points: Option<u64>,

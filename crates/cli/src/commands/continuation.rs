@@ -8,14 +8,14 @@ use crate::progress::Progress;
 use motiform_diagrams::draw::branch_figures;
 use motiform_diagrams::starts::StartPoint;
 use motiform_diagrams::{
-    BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, follow_kept, stated, stretches, summary,
+    BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, follow_kept, nine, stated, stretches, summary,
 };
 use motiform_lab::draw::{self, Figures, Picture};
 use motiform_store::{Folder, Journal, Opening};
 use motiform_study::branches::{Along, BranchSettings, origin};
 use motiform_study::curves::{CurveKind, Plane};
+use motiform_study::quantity::motion::PERIOD;
 use motiform_study::study::FollowSettings;
-use motiform_study::units::TIME;
 use motiform_study::{BranchPlan, CurvePlan, Error, Given, Shown, Study, Towards};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -108,6 +108,7 @@ fn follow_settings(options: &ContinueOptions, settings: &mut FollowSettings) -> 
     settings.branch_step = options.branch_step.or(settings.branch_step);
     settings.tolerance = options.tolerance.or(settings.tolerance);
     settings.steady |= options.steady;
+    settings.from_stable |= options.from_stable;
     settings.points = options.points.unwrap_or(settings.points);
     settings.samples = options.samples.unwrap_or(settings.samples);
     settings.branches = options.branches.unwrap_or(settings.branches);
@@ -237,12 +238,6 @@ fn bound(followed: &Followed, value: f64) -> String {
     here.map_or_else(|| nine(value), |connection| stated(value, connection.error))
 }
 
-/// Nine decimals, and 0 without a sign.
-fn nine(x: f64) -> String {
-    let text = format!("{x:.9}");
-    if text.trim_start_matches(['-', '0', '.']).is_empty() { "0.000000000".to_owned() } else { text }
-}
-
 /// A coefficient with its error, where that shows in six digits.
 fn six(found: Coefficient) -> String {
     let least = 1e-6 * found.value.abs();
@@ -260,8 +255,13 @@ fn line(special: &SpecialEntry, units: &Shown) -> String {
         _ => nine(special.parameter),
     };
     let mut line = format!("{:<17} {value}", special.kind);
-    let unit = if units.is_physical() { format!(" {}", plain(&units.name(TIME, ""))) } else { String::new() };
-    let period = special.period.map(|period| format!("period {:.6}{unit}", period * units.factor(TIME)));
+    let unit = if units.is_physical() {
+        format!(" {}", plain(&units.name(PERIOD.dimension, "")))
+    } else {
+        String::new()
+    };
+    let period =
+        special.period.map(|period| format!("period {:.6}{unit}", period * units.factor(PERIOD.dimension)));
     let words = special.criticality.map(|word| match &special.undecided {
         Some(why) => format!("{word} ({why})"),
         None => word.to_owned(),

@@ -7,9 +7,10 @@ use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::LifeLaws;
 use motiform_lab::draw::lifetimes::draw_lifetimes;
-use motiform_lab::lifetimes::{LIFE, LifeAt, Lifetimes, Lives, follow_lives_kept};
+use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::Axis;
 use motiform_store::{Folder, Kind, Opening};
+use motiform_study::quantity::statistic::LIFE;
 use motiform_study::{Error, Random, ScanPlan, Shown};
 use serde_json::json;
 use std::fmt::Write;
@@ -136,14 +137,14 @@ fn summary(
     let mut text = format!("{} ({}, {})\n", plan.title, c.model, plan.name);
     let starts = format!("{} starts each, {}, seed {}", c.samples, c.random.words(), c.seed);
     let until = if units.is_physical() {
-        plain(&units.words(found.until, LIFE, ""))
+        plain(&units.words(found.until, LIFE.dimension, ""))
     } else {
         found.until.to_string()
     };
     writeln!(text, "{starts}, followed to {until}")?;
     let head = ["blew up", "captured", "lasting", "delay", "events", "watched", "mean life"];
     let unit = if units.is_physical() {
-        format!(", times in {}", plain(&units.name(LIFE, "")))
+        format!(", times in {}", plain(&units.name(LIFE.dimension, "")))
     } else {
         String::new()
     };
@@ -153,7 +154,7 @@ fn summary(
     }
     writeln!(text, "  95 % limits{unit}")?;
     for at in &found.values {
-        writeln!(text, "{}", row(at, units.factor(LIFE)))?;
+        writeln!(text, "{}", row(at, units.factor(LIFE.dimension)))?;
     }
     for note in found.notes() {
         writeln!(text, "note      {note}")?;

@@ -115,13 +115,13 @@ fn numbers(found: &Observation, units: &Units) -> anyhow::Result<String> {
     for row in found.numbers.rows() {
         if let Answer::Unknown { reason } = row.value {
             match missing.iter_mut().find(|(same, _)| *same == reason) {
-                Some((_, names)) => names.push(row.name),
-                None => missing.push((reason, vec![row.name])),
+                Some((_, names)) => names.push(row.quantity.symbol),
+                None => missing.push((reason, vec![row.quantity.symbol])),
             }
             continue;
         }
-        let value = answer(&row.value, &row.dimension.unit(units));
-        writeln!(text, "{:<15}{}", row.name, value.trim_end())?;
+        let value = answer(&row.value, &units.unit(row.quantity.dimension));
+        writeln!(text, "{:<15}{}", row.quantity.symbol, value.trim_end())?;
     }
     for (reason, names) in missing {
         writeln!(text, "not given      {}: {reason}", names.join(", "))?;

@@ -13,7 +13,8 @@ pub(crate) fn observed(
     let mut text = format!("population     {}\n", cells(population.cells));
     shares(&mut text, &population.regimes)?;
     for number in &numbers.numbers {
-        line(&mut text, number.name, &number.over, &number.dimension.unit(units))?;
+        let quantity = number.quantity;
+        line(&mut text, quantity.symbol, &number.over, &units.unit(quantity.dimension))?;
     }
     Ok(text)
 }

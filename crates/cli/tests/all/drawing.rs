@@ -160,7 +160,7 @@ fn axes_are_physical_where_units_are_given() {
     let (path, series) = (read("run/path.svg"), read("run/series.svg"));
     assert!(path.contains("> (µm)<") && path.contains("unit of length 20 µm, of time 2 min"), "{path}");
     assert!(!path.contains("in model units") && read("other/path.svg").contains("of time 1 s"));
-    assert!(series.contains(">turning rate (1/min)<") && series.contains("| (µm/min)<"), "{series}");
+    assert!(series.contains(">(rad/min)<") && series.contains("| (µm/min)<"), "{series}");
     let done = folder.run("figure run --no-animation --units 20,2 --out no").expect(2);
     assert!(done.stderr.contains("20um,1min"), "{}", done.stderr);
 }

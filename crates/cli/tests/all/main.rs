@@ -37,6 +37,7 @@ mod outcomes;
 mod own_model;
 mod ownership;
 mod planes;
+mod quantities;
 mod scan;
 mod spinning;
 mod starts;

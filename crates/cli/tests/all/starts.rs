@@ -206,3 +206,36 @@ fn a_study_sets_steps_and_sides() {
     let wrong = folder.run("continue wrong.toml").expect_error(2);
     assert!(wrong.stderr.contains("did you mean up"), "{}", wrong.stderr);
 }
+
+/// `z1' = (p + i) z1 - |z1|^2 z1` oscillates from p = 0 on; the real part w of z2, `w' = s w - w^3`, makes the rest unstable where s is positive.
+const OSCILLATES: &str = r#"
+[model.amplitudes]
+modes = [1, 2]
+symmetry = "none"
+[model.amplitudes.parameters]
+p = -0.5
+s = -0.5
+[model.amplitudes.equations]
+z1 = "(p+i)*z1 - z1*z1*conj(z1)"
+z2 = "s*(0.5*(z2+conj(z2))) - (0.5*(z2+conj(z2)))^3 - 0.5*(z2-conj(z2))"
+"#;
+
+#[test]
+fn orbits_that_begin_on_stable_motions_can_be_followed_alone() {
+    let folder = Folder::new();
+    folder.write("oscillates.toml", OSCILLATES);
+    let stable = "continue oscillates.toml --along p=-1:1 --json";
+    let list = folder.run("equilibria oscillates.toml --set s=0.5 --json").expect(0).json();
+    let number = |entry: &Value| entry["motion"] == "motionless" && entry["unstable"] == 1;
+    let number = 1 + list["equilibria"].as_array().expect("a list").iter().position(number).expect("the rest");
+    folder.write("equilibria.json", &list.to_string());
+    let unstable = format!("continue --start equilibria.json:{number} --along p=-1:1 --branches 2 --json");
+    for (command, from_stable, branches) in
+        [(stable, false, 2), (stable, true, 2), (unstable.as_str(), false, 2), (unstable.as_str(), true, 1)]
+    {
+        let option = if from_stable { " --from-stable" } else { "" };
+        let json = folder.run(&format!("{command}{option}")).expect(0).json();
+        assert_eq!(json["branches"].as_array().expect("branches").len(), branches, "{command}{option}: {json}");
+        assert_eq!(json["branches"][0]["special"][0]["kind"], "hopf", "{json}");
+    }
+}

@@ -42,8 +42,8 @@ fn first(family: &dyn Family, p: f64, guess: &[f64], settings: &Settings, name: 
     branch.find(|point| point.special.is_some_and(|special| special.name() == name)).expect("a special point")
 }
 
-/// `z' = (p + 3i + w) z - |z|^2 z`, `w' = q + w^2 + |z|^2`. On the equilibria `w = w0`, `q = -w0^2` the Hopf bifurcations are at `p = -w0`, and
-/// `l1 = 2 (-1 - 1/(2 w0)) / 3`: a pole at the zero-Hopf point `w0 = 0`, and a Bautin point at `w0 = -1/2`.
+/// `z' = (p + 3i + w) z - |z|^2 z`, `w' = q + w^2 + |z|^2`. On the equilibria `w = w0`, `q = -w0^2` the Hopf bifurcations are at `p = -w0`,
+/// and `l1 = 2 (-1 - 1/(2 w0)) / 3`: a pole at the zero-Hopf point `w0 = 0`, and a Bautin point at `w0 = -1/2`.
 struct Pole {
     p: f64,
     q: f64,
@@ -78,8 +78,8 @@ fn a_pole_of_the_first_lyapunov_coefficient_is_no_bautin_point() {
     }
 }
 
-/// `z' = (p + 3i + w) z + q |z|^2 z - |z|^4 z`, `w' = 0.3 |z|^2 - w`: cycles of radius r have folds at `r^2 = (q + 0.3)/2`, `p = -r^4`, which end at
-/// the Bautin point `p = 0`, `q = -0.3`.
+/// `z' = (p + 3i + w) z + q |z|^2 z - |z|^4 z`, `w' = 0.3 |z|^2 - w`: cycles of radius r have folds at `r^2 = (q + 0.3)/2`, `p = -r^4`,
+/// which end at the Bautin point `p = 0`, `q = -0.3`.
 struct Quintic {
     p: f64,
     q: f64,
@@ -117,7 +117,8 @@ fn folds_of_cycles_end_at_a_bautin_point() {
     }
 }
 
-/// The Hopf line of circular motion of the reduced model ends in the origin, where everything vanishes. Near it the coefficient is lost in rounding.
+/// The Hopf line of circular motion of the reduced model ends in the origin, where everything vanishes. Near it the coefficient is lost in
+/// rounding.
 #[test]
 fn beside_the_origin_of_the_reduced_model_there_are_no_bautin_points() {
     let plane = |[gamma, kappa2]: [f64; 2]| -> Body { Ok(Box::new(reduced(kappa2, gamma))) };

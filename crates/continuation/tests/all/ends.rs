@@ -1,4 +1,4 @@
-//! How branches end, what is seen between two of their points, and where zigzags and tori begin.
+//! Ends of branches, special points between two of their points, and the beginnings of zigzags and tori.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -229,8 +229,8 @@ fn zigzags_begin_at_an_odd_oscillation_of_straight_motion() {
     }
 }
 
-/// With gamma = kappa2 four eigenvalues of a pure third mode vanish at once, at kappa3 = -18/35. The branch of straight motion passes this shape; a growth rate
-/// passes 0 there. A pair of eigenvalues has a frequency of 1e-5, which is rounding: there is no Hopf bifurcation.
+/// With gamma = kappa2 four eigenvalues of a pure third mode vanish at once, at kappa3 = -18/35. The branch of straight motion passes this
+/// shape; a growth rate passes 0 there. A pair of eigenvalues has a frequency of 1e-5, which is rounding: there is no Hopf bifurcation.
 #[test]
 fn where_a_branch_passes_a_shape_of_more_symmetry_there_is_no_hopf_bifurcation() {
     let family = |kappa3: f64| -> Body {

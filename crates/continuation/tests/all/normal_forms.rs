@@ -238,8 +238,8 @@ fn straight_motion_of_the_full_model_begins_to_turn_as_the_coefficient_says() {
     agrees(&family, fork, &Settings { first_step: 1e-4, ..settings });
 }
 
-/// The zigzag at kappa2 = 0.9 of the full model loses its symmetry, and its rotating images double their period; both supercritically, with coefficients
-/// that do not depend on the number of parts.
+/// The zigzag at kappa2 = 0.9 of the full model loses its symmetry, and its rotating images double their period; both supercritically, with
+/// coefficients that do not depend on the number of parts.
 #[test]
 fn coefficients_of_the_zigzag_do_not_depend_on_its_parts() {
     let family = |kappa2: f64| -> Body { Ok(Box::new(full(kappa2, 0.1))) };

@@ -84,7 +84,7 @@ fn within(steps: u64) -> (Vec<Point>, Option<End>, u64) {
     (points, orbits.end().cloned(), family.0.left())
 }
 
-/// What is found before an allowance is spent is the beginning of the whole branch, to the bit.
+/// The result before an allowance is spent is the beginning of the whole branch, to the bit.
 #[test]
 fn a_branch_of_orbits_ends_where_its_allowance_is_spent() {
     let enough = 1 << 40;

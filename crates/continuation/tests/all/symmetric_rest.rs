@@ -44,8 +44,8 @@ fn same(found: &[(&str, f64)], expected: &[(&str, f64)]) {
     );
 }
 
-/// `x' = p x - x^2 ..`, `y' = (p - 0.3) y ..`: the rest, which Newton's method leaves at 1e-25, is its own mirror image, so that another branch crosses at 0 and
-/// a pitchfork follows at 0.3. The branch was said to become its own mirror image at 0, and ended.
+/// `x' = p x - x^2 ..`, `y' = (p - 0.3) y ..`: the rest, which Newton's method leaves at 1e-25, is its own mirror image, so that another
+/// branch crosses at 0 and a pitchfork follows at 0.3. The branch was said to become its own mirror image at 0, and ended.
 #[test]
 fn the_rest_has_the_mirror_axis_that_rounding_hides() {
     let family = family("(p-0.15)*z1 + 0.15*conj(z1) - (z1+conj(z1))*(z1+conj(z1))/4 - z1*conj(z1)*z1");

@@ -27,12 +27,12 @@ pub struct Edge {
 /// The motions on one side of a boundary and on the other.
 pub(crate) type Pair = [Vec<Regime>; 2];
 
-/// What lies between two sets of motions.
+/// A boundary between two sets of motions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
     /// The motions on one side and on the other, in the order of legends.
     pub between: [Vec<Regime>; 2],
-    /// How many edges of cells it has.
+    /// Edges of cells in it.
     pub edges: usize,
     /// The bifurcations on it with their numbers of edges, the most frequent first.
     pub kinds: Vec<(String, usize)>,
@@ -108,7 +108,7 @@ pub(crate) fn differing(pair: &Pair) -> Vec<Regime> {
     Regime::ALL.into_iter().filter(only).collect()
 }
 
-/// What is known of bifurcations, in units of cells.
+/// The known bifurcations, in units of cells.
 pub(crate) struct Atlas {
     stretches: Vec<Stretch>,
     ends: Vec<(Regime, String, [f64; 2])>,
@@ -156,7 +156,7 @@ impl Atlas {
     }
 }
 
-/// What an orbit becomes at the end of its branch.
+/// The name of a connection at the end of a branch.
 pub(crate) const fn connection_words(kind: ConnectionKind) -> &'static str {
     match kind {
         ConnectionKind::Resonant => "resonant heteroclinic connection",
@@ -223,9 +223,11 @@ fn why(differing: &[Regime]) -> &'static str {
     if has(Regime::Undetermined) {
         "a motion is undetermined there"
     } else if has(Regime::BlowUp) && has(Regime::Chaotic) {
-        "kind undetermined: neither is a branch; sampling does not tell a crisis of the chaotic set from transients longer than what was looked at"
+        "kind undetermined: neither is a branch; sampling does not tell a crisis of the chaotic set \
+         from transients longer than what was looked at"
     } else if has(Regime::BlowUp) {
-        "kind undetermined: blow-up is not a solution branch, and no bifurcation of the neighbouring motion was found here; this may be the edge of its basin of attraction"
+        "kind undetermined: blow-up is not a solution branch, and no bifurcation of the neighbouring motion was found here; \
+         this may be the edge of its basin of attraction"
     } else if has(Regime::Chaotic) {
         "kind undetermined: chaotic motion is no branch, found by sampling; it may begin with a cascade, or end in a crisis"
     } else if has(Regime::Rectangular) {

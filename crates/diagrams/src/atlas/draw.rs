@@ -77,7 +77,9 @@ fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
     let mut all = vec![
         words::named(plan.info()?, &c.parameters, &varied, &c.ties),
         format!(
-            "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. Stability limits: {curves} curves by pseudo-arclength continuation. Below the names of wide regions: paths of the motions, not to one scale.",
+            "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. \
+             Stability limits: {curves} curves by pseudo-arclength continuation. \
+             Below the names of wide regions: paths of the motions, not to one scale.",
             c.samples,
             if c.samples == 1 { "state" } else { "states" },
             c.random.words(),

@@ -20,7 +20,7 @@ const STATE: &str = "atlas.json";
 /// A finished atlas.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtlasFolder {
-    /// What was asked for.
+    /// The plan.
     pub plan: AtlasPlan,
     /// The motions of the cells.
     pub grid: Grid,
@@ -85,7 +85,7 @@ impl AtlasFolder {
     }
 }
 
-/// What was kept as JSON; `None` where it is something else.
+/// A kept item from its JSON; `None` where it is something else.
 pub(crate) fn parsed<T: for<'d> Deserialize<'d>>(bytes: &[u8]) -> Option<T> {
     serde_json::from_str(std::str::from_utf8(bytes).ok()?).ok()
 }

@@ -1,7 +1,8 @@
 //! The cells of a plane, with the motions found in each.
 
 use motiform_analysis::Regime;
-use motiform_study::AtlasPlan;
+use motiform_study::quantity::motion;
+use motiform_study::{AtlasPlan, Quantity};
 use serde::{Deserialize, Serialize};
 
 /// A motion found in a cell.
@@ -9,22 +10,18 @@ use serde::{Deserialize, Serialize};
 pub struct Found {
     /// Its name.
     pub regime: Regime,
-    /// How many initial states lead to it.
+    /// Initial states that lead to it.
     pub rows: usize,
     /// The first one that does.
     pub sample: usize,
-    /// Medians over those that do: mean speed, turning rate, period, largest Lyapunov exponent and its error; `None` where a number has no meaning.
+    /// Medians over those that do: mean speed, turning rate, period, largest Lyapunov exponent and its error; `None` where a number has no
+    /// meaning.
     pub numbers: [Option<f64>; 5],
 }
 
-/// The numbers of [`Found::numbers`], as columns of a scan are named.
-pub(crate) const NUMBERS: [(&str, &str); 5] = [
-    ("speed_mean", "time average of |v| (model length per model time)"),
-    ("turning_rate", "mean turning rate of the heading (rad per model time)"),
-    ("period", "period of the reduced motion (model time)"),
-    ("lambda_1", "largest Lyapunov exponent (inverse model time)"),
-    ("lambda_1_error", "half width of its 95 % confidence interval"),
-];
+/// The numbers of [`Found::numbers`].
+pub(crate) const NUMBERS: [&Quantity; 5] =
+    [&motion::SPEED_MEAN, &motion::TURNING_RATE, &motion::PERIOD, &motion::LAMBDA_1, &motion::LAMBDA_1_ERROR];
 
 /// A cell.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -79,13 +76,14 @@ impl Grid {
         column + self.size[0] * row
     }
 
-    /// How many cells were computed.
+    /// Number of cells that were computed.
     #[must_use]
     pub fn computed(&self) -> usize {
         self.places.iter().filter(|place| place.like.is_none()).count()
     }
 
-    /// The motions of each cell. Few initial states miss a motion of a small basin now and then: it counts where most of the cells around have it.
+    /// The motions of each cell. Few initial states miss a motion of a small basin now and then: it counts where most of the cells around
+    /// have it.
     #[must_use]
     pub fn labels(&self) -> Vec<Vec<Regime>> {
         let own: Vec<Vec<Regime>> = self.places.iter().map(Place::label).collect();

@@ -61,7 +61,7 @@ fn path(folder: &AtlasFolder, cell: usize, found: &Found) -> Result<Option<Vec<[
     Ok(whole.then(|| column("x").iter().zip(column("y")).map(|(x, y)| [*x, *y]).collect()))
 }
 
-/// How long a motion is shown: some of its periods, or a look at it.
+/// Time for which a motion is shown: some of its periods, or a look at it.
 fn time(found: &Found, look: f64) -> Option<f64> {
     let [_, turning, period, ..] = found.numbers;
     let periods = |count: f64| Some(period.map_or(look, |period| count * period));

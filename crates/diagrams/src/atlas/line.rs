@@ -41,7 +41,7 @@ pub struct Line {
     pub side: usize,
     /// The motion that it begins with.
     pub motion: Regime,
-    /// How many branches were followed.
+    /// Branches that were followed.
     pub branches: usize,
     /// The curves that were begun on it.
     pub curves: Vec<StabilityCurve>,
@@ -85,8 +85,8 @@ pub(crate) fn course(
     }
 }
 
-/// Follows the curves on which motions of these branches gain or lose their stability: those that begin at a boundary of the motion, as `bounds` says of
-/// places, and are not known. `None` if the watch stopped it.
+/// Follows the curves on which motions of these branches gain or lose their stability: those that begin at a boundary of the motion, as
+/// `bounds` says of places, and are not known. `None` if the watch stopped it.
 pub(crate) fn read_line(
     (scan, most): (&ScanPlan, u64),
     task: Task,
@@ -151,7 +151,7 @@ pub(crate) fn read_line(
     Ok(Some(line))
 }
 
-/// What was not followed to its end because the steps of the line were spent.
+/// The work that was left because the steps of the line were spent, in a sentence.
 fn unfinished(line: &Line, found: &Branches, spent: bool) -> Option<String> {
     let legs = found.branches.iter().flat_map(|branch| &branch.legs);
     let cut = legs.filter(|leg| leg.end == BranchEnd::Spent).count();

@@ -1,9 +1,10 @@
 //! A plane of two parameters of any subject: which motions happen where, and by which bifurcation each begins or ends.
 //!
-//! An [`AtlasPlan`](motiform_study::AtlasPlan) is carried out in two steps. [`survey()`] classifies the cells of a grid, coarse first, then finer where neighbours differ; each
-//! cell has the verdicts of a scan of the same plan. [`trace()`] asks what bounds the regions: it follows a motion from one side of a boundary along a line
-//! through it ([`crate::branches::follow()`]), and each point where a motion loses its stability over the plane ([`crate::curves`]), until all
-//! boundaries lie on a curve or nothing more can be followed. [`boundaries()`] compares the two.
+//! An [`AtlasPlan`](motiform_study::AtlasPlan) is carried out in two steps. [`survey()`] classifies the cells of a grid, coarse first, then
+//! finer where neighbours differ; each cell has the verdicts of a scan of the same plan. [`trace()`] asks what bounds the regions: it
+//! follows a motion from one side of a boundary along a line through it ([`crate::branches::follow()`]), and each point where a motion
+//! loses its stability over the plane ([`crate::curves`]), until all boundaries lie on a curve or nothing more can be followed.
+//! [`boundaries()`] compares the two.
 //!
 //! Finished cells and lines are kept in a journal: neither an interruption nor the number of threads changes a number.
 

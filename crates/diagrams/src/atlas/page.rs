@@ -33,7 +33,8 @@ pub fn html(folder: &AtlasFolder, style: &Style) -> Result<String, Error> {
         Section {
             title: "Regions".to_owned(),
             about: format!(
-                "Connected cells with the same motions. {short} regions of fewer than {LISTED} cells are left out. Numbers are those of the cell farthest from the border."
+                "Connected cells with the same motions. {short} regions of fewer than {LISTED} cells are left out. \
+                 Numbers are those of the cell farthest from the border."
             ),
             tables: vec![all],
             ..Section::default()

@@ -113,7 +113,7 @@ impl Work<'_> {
     }
 }
 
-/// What was kept of these cells.
+/// The kept items of these cells.
 fn read(bytes: &[u8], cells: &[usize]) -> Option<Vec<(usize, Place)>> {
     let places: Vec<(usize, Place)> = parsed(bytes)?;
     places.iter().map(|entry| entry.0).eq(cells.iter().copied()).then_some(places)
@@ -126,7 +126,7 @@ pub(crate) fn place(rows: &[Row]) -> (usize, Place) {
         regime: motion.regime,
         rows: motion.rows,
         sample: rows.iter().find(|row| row.regime == motion.regime).map_or(0, |row| row.sample),
-        numbers: NUMBERS.map(|(name, _)| motion.median(name).filter(|value| value.is_finite())),
+        numbers: NUMBERS.map(|quantity| motion.median(quantity.name).filter(|value| value.is_finite())),
     });
     (cell, Place { motions: found.collect(), like: None })
 }

@@ -4,6 +4,7 @@ use crate::atlas::grid::{Grid, NUMBERS};
 use crate::atlas::line::Line;
 use motiform_store::columns::{Column, Values};
 use motiform_study::AtlasPlan;
+use motiform_study::quantity::{motion, special};
 
 fn whole(values: impl Iterator<Item = usize>) -> Values {
     Values::Whole(values.map(|value| i64::try_from(value).unwrap_or(i64::MAX)).collect())
@@ -19,24 +20,19 @@ pub fn cell_columns(plan: &AtlasPlan, grid: &Grid) -> Vec<Column> {
         .enumerate()
         .flat_map(|(cell, place)| place.motions.iter().map(move |found| (cell, place, found)))
         .collect();
-    let mut all = vec![Column::new(
-        "cell",
-        "number of the cell: i1 + n1 i2 for place i1 on the first axis",
-        whole(rows.iter().map(|row| row.0)),
-    )];
+    let mut all = vec![Column::of(&motion::CELL, whole(rows.iter().map(|row| row.0)))];
     for (side, axis) in scan.computation.axes.iter().enumerate() {
         let values = rows.iter().map(|row| scan.axis_values(row.0)[side]).collect();
         all.push(Column::new(&axis.name, "the parameter", Values::Number(values)));
     }
     let names = rows.iter().map(|row| row.2.regime.name().to_owned()).collect();
-    all.push(Column::new("regime", "the motion", Values::Text(names)));
-    all.push(Column::new("rows", "initial states that lead to it", whole(rows.iter().map(|row| row.2.rows))));
-    let computed = "1 if the cell was computed, 0 if it was taken from cells around it with the same motions";
+    all.push(Column::of(&motion::REGIME, Values::Text(names)));
+    all.push(Column::of(&motion::ROWS, whole(rows.iter().map(|row| row.2.rows))));
     let is_computed = rows.iter().map(|row| usize::from(row.1.like.is_none()));
-    all.push(Column::new("computed", computed, whole(is_computed)));
-    for (place, (name, meaning)) in NUMBERS.iter().enumerate() {
+    all.push(Column::of(&motion::COMPUTED, whole(is_computed)));
+    for (place, quantity) in NUMBERS.into_iter().enumerate() {
         let values = rows.iter().map(|row| row.2.numbers[place].unwrap_or(f64::NAN)).collect();
-        all.push(Column::new(name, *meaning, Values::Number(values)));
+        all.push(Column::of(quantity, Values::Number(values)));
     }
     all
 }
@@ -52,29 +48,20 @@ pub fn curve_columns(plan: &AtlasPlan, lines: &[Line]) -> Vec<Column> {
         Values::Text((0..rows.len()).map(|row| read(row).to_owned()).collect())
     };
     let mut all = vec![
-        Column::new("curve", "number of the curve, from 0", whole(rows.iter().map(|row| row.0))),
-        Column::new("kind", "what is critical along the curve", text(&|row| rows[row].1.curve.kind.name())),
-        Column::new("motion", "the motion whose stability it bounds", text(&|row| rows[row].1.motion.name())),
-        Column::new(
-            "codimension_2",
-            "what else happens here, empty at ordinary points",
+        Column::of(&special::CURVE, whole(rows.iter().map(|row| row.0))),
+        Column::of(&special::KIND, text(&|row| rows[row].1.curve.kind.name())),
+        Column::of(&special::MOTION, text(&|row| rows[row].1.motion.name())),
+        Column::of(
+            &special::CODIMENSION_2,
             text(&|row| rows[row].2.degenerate.map_or("", |kind| kind.name())),
         ),
-        Column::new(
-            "unstable",
-            "growing directions, the critical ones left out",
-            whole(rows.iter().map(|row| row.2.unstable)),
-        ),
+        Column::of(&special::UNSTABLE, whole(rows.iter().map(|row| row.2.unstable))),
     ];
     for (side, along) in plan.plane().iter().enumerate() {
         let values = rows.iter().map(|row| row.2.parameters[side]).collect();
         all.push(Column::new(&along.name, "the parameter", Values::Number(values)));
     }
     let periods = rows.iter().map(|row| row.2.period.unwrap_or(f64::NAN)).collect();
-    all.push(Column::new(
-        "period",
-        "period of the motion, or of the one that begins (model time)",
-        Values::Number(periods),
-    ));
+    all.push(Column::of(&special::PERIOD, Values::Number(periods)));
     all
 }

@@ -1,4 +1,4 @@
-//! What bounds the regions: lines across the boundaries that have no name yet, the longest first.
+//! The lines across the boundaries that have no name yet, the longest first.
 
 use crate::atlas::boundary::{Atlas, Edge, Pair, differing, edges, pieces};
 use crate::atlas::folder::parsed;
@@ -22,7 +22,8 @@ const VAIN: usize = 3;
 /// A curve is followed where it begins within so many cells of a boundary without a name.
 const CLOSE: f64 = 2.5;
 
-/// A shorter piece of a boundary is left, such as one around a single cell, which has four edges: few initial states and windows in chaos make such cells.
+/// A shorter piece of a boundary is left, such as one around a single cell, which has four edges: few initial states and windows in chaos
+/// make such cells.
 const SHORTEST: usize = 5;
 
 /// Follows lines across the boundaries of a grid; `None` if the watch stopped it: what is finished is in the journal.
@@ -140,7 +141,7 @@ impl Work<'_> {
         followed.find_map(of).map(|found| found.1)
     }
 
-    /// Whether the line was followed before.
+    /// Returns `true` if the line was followed before.
     fn tried(&self, task: Task) -> bool {
         self.lines.iter().any(|line| line.start == task.start && line.side == task.side)
     }

@@ -14,8 +14,8 @@ const CELLS: usize = 24;
 /// Cells that are computed again together.
 const TOGETHER: usize = 192;
 
-/// Classifies cells of an atlas again and compares their motions and numbers: all computed ones with `all`, otherwise some, evenly spaced. `None` if the
-/// watch stopped it.
+/// Classifies cells of an atlas again and compares their motions and numbers: all computed ones with `all`, otherwise some, evenly spaced.
+/// `None` if the watch stopped it.
 pub(crate) fn verify_atlas(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Option<Repeated>, Error> {
     let AtlasFolder { plan, grid, .. } = AtlasFolder::read(folder)?;
     let computed: Vec<usize> =

@@ -39,7 +39,7 @@ impl<'p> Bodies<'p> {
         Self { allowance, ..self }
     }
 
-    /// Whether the work that is allowed is done.
+    /// Returns `true` if the work that is allowed is done.
     pub(crate) fn is_spent(&self) -> bool {
         self.allowance.is_some_and(Allowance::is_spent)
     }
@@ -51,7 +51,7 @@ impl<'p> Bodies<'p> {
             .map_err(|error| Refused::NoBody { value: parameter, why: error.to_string() })
     }
 
-    /// How branches are followed, first towards larger values.
+    /// Settings of branches, first towards larger values.
     pub(crate) fn settings(&self) -> Settings {
         let c = &self.plan.computation;
         let mut settings = Settings::over(c.along.from, c.along.to);
@@ -73,7 +73,7 @@ impl<'p> Bodies<'p> {
         self.info.look
     }
 
-    /// How the motion of the start is named, and the path on an orbit is computed: with the plan's own method.
+    /// Settings by which the motion of the start is named and the path on an orbit is computed: the plan's own method.
     pub(crate) fn looks(&self) -> regime::Settings {
         let start = &self.plan.computation.start;
         let bounds = (start.escape_norm, start.max_steps);
@@ -81,7 +81,8 @@ impl<'p> Bodies<'p> {
     }
 }
 
-/// An orbit whose time is longer than so many looks of the model, and than so many times that of the first one of its branch, is followed no further.
+/// An orbit whose time is longer than so many looks of the model, and than so many times that of the first one of its branch, is followed
+/// no further.
 const LOOKS: f64 = 10.0;
 const LONGER: f64 = 30.0;
 

@@ -17,9 +17,9 @@ const STATE: &str = "branches.json";
 /// A folder that holds branches, as far as they are followed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BranchFolder {
-    /// What was asked for.
+    /// The plan.
     pub plan: BranchPlan,
-    /// What was found.
+    /// The results.
     pub found: Branches,
 }
 

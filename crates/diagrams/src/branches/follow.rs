@@ -10,7 +10,7 @@ use super::sweep::sweeps;
 use motiform_continuation::{Allowance, Branch, End};
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_store::Journal;
-use motiform_study::{BranchPlan, Error};
+use motiform_study::{BranchPlan, Error, Stride};
 
 /// A new branch is compared with the others over so many points, and over fewer and fewer of the later ones: near a special point Newton's
 /// method may confuse the branches that meet there.
@@ -29,8 +29,8 @@ pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) ->
     follow_kept(plan, before, (&mut |_| Ok(()), &()), watch)
 }
 
-/// As [`follow()`]; `keep` gets what there is after each branch, all of it whole, and the journal what is sampled ([`sweeps`]), so that nothing of it is
-/// lost however the program ends.
+/// As [`follow()`]; `keep` gets what there is after each branch, all of it whole, and the journal what is sampled ([`sweeps`]), so that
+/// nothing of it is lost however the program ends.
 ///
 /// # Errors
 /// As [`follow()`], and those of `keep` and of the journal.
@@ -43,7 +43,8 @@ pub fn follow_kept(
     follow_bodies(&Bodies::new(plan)?, before, (keep, journal), watch)
 }
 
-/// As [`follow()`]; no more is spent on orbits than the allowance. A branch on which it is spent ends with [`End::Spent`], and what would begin after it is not followed.
+/// As [`follow()`]; no more is spent on orbits than the allowance. A branch on which it is spent ends with [`End::Spent`], and what would
+/// begin after it is not followed.
 ///
 /// # Errors
 /// As [`follow()`].
@@ -104,8 +105,11 @@ impl Work<'_> {
     fn open(&self) -> impl Iterator<Item = Origin> {
         let all =
             self.done.branches.iter().enumerate().flat_map(|(number, branch)| Origin::on(number, branch));
-        let steady = self.bodies.plan.computation.stride.steady;
-        let wanted = move |origin: &Origin| !steady || origin.is_steady(&self.done.branches);
+        let Stride { steady, from_stable, .. } = self.bodies.plan.computation.stride;
+        let is_orbit = |origin: &Origin| !origin.is_steady(&self.done.branches);
+        let wanted = move |origin: &Origin| {
+            !is_orbit(origin) || !steady && (!from_stable || origin.is_on_stable(&self.done.branches))
+        };
         all.filter(|origin| self.done.links.iter().all(|link| link.origin != *origin)).filter(wanted)
     }
 
@@ -210,7 +214,7 @@ impl Work<'_> {
         Ok(Some(Leg { samples, end }))
     }
 
-    /// How far the work is: branches, of as many as there may be, and the points of this one.
+    /// Progress of the work: branches, of as many as there may be, and the points of this one.
     fn progress(&self, points: usize) {
         let c = &self.bodies.plan.computation;
         let part = (points as f64 / TYPICAL).min(1.0);
@@ -236,7 +240,7 @@ impl Work<'_> {
     }
 }
 
-/// What one branch from an origin is.
+/// One branch from an origin.
 enum Led {
     /// The branch with this number, which was followed before.
     Known(usize),

@@ -75,7 +75,7 @@ fn steady(model: &dyn Model, shape: &[f64], units: Units) -> Option<RelativeEqui
     (found.distance(body, shape) <= room).then_some(found)
 }
 
-/// Whether this kind of steady motion is asked for.
+/// Returns `true` if this kind of steady motion is asked for.
 fn is_asked(model: &dyn Model, found: &RelativeEquilibrium, asked: Option<Regime>) -> bool {
     asked.is_some_and(|asked| SteadyMotion::of(model, found).regime() == asked)
 }
@@ -98,7 +98,7 @@ fn in_parts(
     Err(first.unwrap_or_default())
 }
 
-/// Whether multiple shooting leads to an orbit close to this one: the first point of the branch through it.
+/// Checks that multiple shooting leads to an orbit close to this one: the first point of the branch through it.
 fn orbit(
     bodies: &Bodies<'_>,
     near: &PeriodicOrbit,

@@ -31,7 +31,7 @@ impl<'j> Kept<'j> {
         Self { journal, item, last: Moment::now() }
     }
 
-    /// What an earlier run sampled of these values; nothing where there is no such item.
+    /// The samples of an earlier run at these values; nothing where there is no such item.
     pub(crate) fn read(&self, values: &[f64]) -> Begun {
         let begun = || serde_json::from_slice::<Begun>(&self.journal.finished(self.item)?).ok();
         let is_part = |begun: &Begun| {

@@ -16,7 +16,7 @@ const NEAR: f64 = 0.1;
 /// Round-off, in the unit of what is compared.
 const ROUND_OFF: f64 = 1e-12;
 
-/// What round-off is small against.
+/// Sizes relative to which round-off is small.
 struct Scales {
     parameter: f64,
     period: f64,
@@ -70,8 +70,8 @@ pub(super) fn known(
     branches.iter().position(holds)
 }
 
-/// The steady motion between two neighbours on a branch by linear interpolation: beside a point where branches cross, Newton's method leads from
-/// there to the same branch, and from one of the neighbours perhaps to the other.
+/// The steady motion between two neighbours on a branch by linear interpolation: beside a point where branches cross, Newton's method leads
+/// from there to the same branch, and from one of the neighbours perhaps to the other.
 fn between(pair: &[Sample], parameter: f64) -> Option<Sample> {
     let [a, b] = pair else { return None };
     let (Motion::Equilibrium(first), Motion::Equilibrium(second)) = (&a.point.motion, &b.point.motion) else {
@@ -87,12 +87,13 @@ fn between(pair: &[Sample], parameter: f64) -> Option<Sample> {
     part.is_finite().then_some(between)
 }
 
-/// Whether a neighbour may be the same motion at another parameter: near a pitchfork Newton's method leads from one steady motion to another.
+/// Returns `true` if a neighbour may be the same motion at another parameter: near a pitchfork Newton's method leads from one steady motion
+/// to another.
 fn is_alike(neighbour: &Sample, sample: &Sample) -> bool {
     sample.point.motion.orbit().is_some() || neighbour.reading.motion == sample.reading.motion
 }
 
-/// Whether the motion may lie between two neighbours.
+/// Returns `true` if the motion may lie between two neighbours.
 fn about(pair: &[Sample], sample: &Sample, scales: &Scales) -> bool {
     let within = |read: &dyn Fn(&Sample) -> f64, part: f64, scale: f64| {
         let (a, b, x) = (read(&pair[0]), read(&pair[1]), read(sample));

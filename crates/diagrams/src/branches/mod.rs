@@ -29,7 +29,7 @@ mod table;
 
 pub use folder::BranchFolder;
 pub use follow::{Keep, follow, follow_kept, follow_within};
-pub use motiform_continuation::{Allowance, Coefficient, End as BranchEnd, stated};
+pub use motiform_continuation::{Allowance, Coefficient, End as BranchEnd, nine, stated};
 pub use origin::Origin;
 pub use path::path;
 pub use reading::Reading;

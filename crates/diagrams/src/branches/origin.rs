@@ -10,7 +10,7 @@ use motiform_dynamics::{Equivariant, Watch};
 use motiform_study::Towards;
 use serde::{Deserialize, Serialize};
 
-/// What a branch was followed from. Branches, their legs and points are counted from 0 in the order in which they were found.
+/// The origin of a branch. Branches, their legs and points are counted from 0 in the order in which they were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Origin {
@@ -56,7 +56,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// What may begin on a branch, in the order of its legs.
+    /// Origins of further branches on a branch, in the order of its legs.
     pub(super) fn on(number: usize, followed: &Followed) -> Vec<Self> {
         let mut all = Vec::new();
         for (leg, done) in followed.legs.iter().enumerate() {
@@ -111,7 +111,7 @@ impl Origin {
         }
     }
 
-    /// Whether what begins here are steady motions.
+    /// Returns `true` if steady motions begin here.
     pub(super) fn is_steady(self, branches: &[Followed]) -> bool {
         match self {
             Self::Special { branch, leg, point } => {
@@ -119,6 +119,20 @@ impl Origin {
                 point.motion.orbit().is_none() && !matches!(point.special, Some(Special::Hopf(_)))
             }
             Self::Loop { .. } => false,
+            _ => true,
+        }
+    }
+
+    /// Whether a motion that is stable on one side of it loses its stability here; `true` at the ends of branches, which lead to steady motions.
+    pub(super) fn is_on_stable(self, branches: &[Followed]) -> bool {
+        let stable = |sample: Option<&Sample>| sample.is_some_and(|sample| sample.point.unstable == 0);
+        let ordinary = |sample: &&Sample| sample.point.special.is_none();
+        match self {
+            Self::Special { branch, leg, point } => {
+                let samples = &branches[branch].legs[leg].samples;
+                stable(samples[..point].iter().rev().find(ordinary)) || stable(samples[point..].iter().find(ordinary))
+            }
+            Self::Loop { branch, leg } => stable(branches[branch].legs[leg].samples.last()),
             _ => true,
         }
     }

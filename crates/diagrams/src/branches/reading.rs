@@ -1,4 +1,4 @@
-//! What is read off one point of a branch.
+//! The numbers of one point of a branch.
 
 use super::family::Bodies;
 use motiform_analysis::regime::{Direction, Form, Regime, repeating};

@@ -1,4 +1,4 @@
-//! What following branches leads to: points, legs, branches and links.
+//! The results of following branches: points, legs, branches and links.
 
 use super::origin::Origin;
 use super::reading::Reading;
@@ -26,12 +26,13 @@ pub struct Leg {
 }
 
 impl Leg {
-    /// Whether the leg ends at this of its points because its motion gains a symmetry there: the point then belongs to the motion of more symmetry.
+    /// Returns `true` if the leg ends at this of its points because its motion gains a symmetry there: the point then belongs to the motion
+    /// of more symmetry.
     pub(super) fn meets_at(&self, point: usize) -> bool {
         point + 1 == self.samples.len() && self.meets()
     }
 
-    /// Whether its motion gains a symmetry at its end.
+    /// Returns `true` if its motion gains a symmetry at its end.
     pub(super) const fn meets(&self) -> bool {
         matches!(self.end, End::Meets { .. })
     }
@@ -40,14 +41,14 @@ impl Leg {
 /// A branch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
-    /// What it was followed from.
+    /// Its origin.
     pub origin: Origin,
     /// One leg, or two with the same first point: towards smaller and towards larger values of the parameter, or to both sides of
     /// where it crosses another branch.
     pub legs: Vec<Leg>,
 }
 
-/// What an origin led to.
+/// The outcome of an origin.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Link {
     /// The origin.
@@ -61,14 +62,14 @@ pub struct Link {
 pub struct Branches {
     /// The branches in the order in which they were found.
     pub branches: Vec<Followed>,
-    /// What was found at each origin, in the order in which they were asked: one entry for each branch, or one without a branch.
+    /// The outcome of each origin, in the order in which they were asked: one entry for each branch, or one without a branch.
     pub links: Vec<Link>,
-    /// How many origins were left because there were enough branches.
+    /// Number of origins that were left because there were enough branches.
     pub left: usize,
     /// Motions sampled along the parameter, if that was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweeps: Option<Sweeps>,
-    /// Whether everything was done that was asked for: not interrupted.
+    /// `true` if everything was done that was asked for: not interrupted.
     pub complete: bool,
 }
 
@@ -88,13 +89,13 @@ impl Leg {
 }
 
 impl Followed {
-    /// Whether it came to all its ends.
+    /// Returns `true` if it came to all its ends.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.legs.iter().all(|leg| leg.end != End::Stopped)
     }
 
-    /// Whether it came back to where it began: another leg would be the same one backwards.
+    /// Returns `true` if it came back to where it began: another leg would be the same one backwards.
     pub(super) fn is_closed(&self) -> bool {
         self.legs.last().is_some_and(|leg| leg.end == End::Closed)
     }

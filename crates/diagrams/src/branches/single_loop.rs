@@ -46,7 +46,7 @@ pub(super) fn single_loop<'f>(
     Ok(None)
 }
 
-/// What an orbit says of the single loop: a shape, and how it comes back after the time of one loop.
+/// A guess of the single loop from an orbit: a shape, and its image after the time of one loop.
 fn guess(
     bodies: &Bodies<'_>,
     sample: &Sample,

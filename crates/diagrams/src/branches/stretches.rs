@@ -83,14 +83,14 @@ fn birth(found: &Branches, followed: &Followed) -> Option<f64> {
     Some(found.branches.get(branch)?.legs.get(leg)?.samples.get(point)?.point.parameter)
 }
 
-/// Whether a stretch between neighbours is stable: a special point itself is neither.
+/// Returns `true` if a stretch between neighbours is stable: a special point itself is neither.
 #[must_use]
 pub fn is_stable(a: &Sample, b: &Sample) -> bool {
     let known = |sample: &Sample| sample.point.special.is_none().then_some(sample.point.unstable == 0);
     known(a).or_else(|| known(b)).unwrap_or(false)
 }
 
-/// Whether the parameter goes on in one direction through a special point: it does not at a fold.
+/// Returns `true` if the parameter goes on in one direction through a special point: it does not at a fold.
 fn goes_on(samples: &[&Sample], at: &Sample) -> bool {
     let Some(place) = samples.iter().position(|sample| std::ptr::eq(*sample, at)) else { return false };
     let parameter = |place: usize| samples.get(place).map(|sample| sample.point.parameter);

@@ -5,6 +5,7 @@ use super::result::{Branches, Followed, Leg, Sample};
 use super::stretches::stretches;
 use motiform_analysis::RelativeEquilibrium;
 use motiform_continuation::{
+    Joins,
     Broken, Certificate, Coefficient, Connection, End, NormalForm, Passed, PeriodLaw, Point, Special,
 };
 use motiform_study::BranchPlan;
@@ -14,27 +15,28 @@ use serde_json::{Map, Value, json};
 /// A place where a branch changes or ends.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpecialEntry {
-    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, or the ends `homoclinic` and `heteroclinic`.
+    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, or the ends `homoclinic`,
+    /// `heteroclinic` and `connection`.
     pub kind: &'static str,
     /// The value of the parameter.
     pub parameter: f64,
-    /// How far it may be away.
+    /// Bound of its error.
     pub error: Option<f64>,
-    /// What shows that it is what it says, where it was solved for.
+    /// The evidence for its kind, where it was solved for.
     pub certificate: Option<Certificate>,
-    /// The leading coefficient of the normal form with its name: `l1` of a Hopf bifurcation, for a critical vector of length 1; `quadratic` of a fold and
-    /// where branches cross; `cubic` where a symmetry is broken or the period doubled.
+    /// The leading coefficient of the normal form with its name: `l1` of a Hopf bifurcation, for a critical vector of length 1; `quadratic`
+    /// of a fold and where branches cross; `cubic` where a symmetry is broken or the period doubled.
     pub coefficient: Option<(&'static str, Coefficient)>,
     /// Period of the motion, or of the one that begins (model time).
     pub period: Option<f64>,
-    /// `supercritical` where what begins is stable in the critical directions, or `subcritical`: from the sign of the coefficient. `undecided` where that
-    /// is smaller than its error or not known.
+    /// `supercritical` where what begins is stable in the critical directions, or `subcritical`: from the sign of the coefficient.
+    /// `undecided` where that is smaller than its error or not known.
     pub criticality: Option<&'static str>,
     /// Why it is undecided.
     pub undecided: Option<String>,
-    /// What a pitchfork breaks: the `mirror` symmetry, or `rotations`.
+    /// The symmetry that a pitchfork breaks: `mirror`, or `rotations`.
     pub breaks: Option<&'static str>,
-    /// What the orbit approaches, at the ends `homoclinic` and `heteroclinic`.
+    /// The connection that the orbit approaches, at the ends `homoclinic`, `heteroclinic` and `connection`.
     pub connection: Option<Connection>,
     /// The branch that begins or lies there, from 0.
     pub branch: Option<usize>,
@@ -111,7 +113,7 @@ fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Follo
     object
 }
 
-/// How a leg ended, in words.
+/// The end of a leg, in words.
 fn ending(leg: &Leg) -> String {
     leg.end.to_string()
 }
@@ -170,7 +172,7 @@ impl Branches {
         })
     }
 
-    /// Whether the branch that begins at a point is stable in the critical direction.
+    /// Criticality: the branch that begins at a point is stable in the critical direction, or not.
     fn criticality(
         &self,
         (branch, leg, point): (usize, usize, usize),
@@ -184,7 +186,7 @@ impl Branches {
     }
 }
 
-/// What is known of the normal form at a special point, with the coefficient's name.
+/// The normal form at a special point as far as it is known, with the coefficient's name.
 fn normal_form(point: &Point) -> Option<(&'static str, NormalForm)> {
     let leading = point.certificate.and_then(|certificate| certificate.normal_form);
     match point.special? {
@@ -199,8 +201,8 @@ fn coefficient(point: &Point) -> Option<(&'static str, Coefficient)> {
     Some((name, form.coefficient()?))
 }
 
-/// The criticality by the sign of the coefficient, or `undecided` and why. Where there is no coefficient the one branch that begins may say it, by the side
-/// to which it goes.
+/// The criticality by the sign of the coefficient, or `undecided` and why. Where there is no coefficient the one branch that begins may say
+/// it, by the side to which it goes.
 fn judged(point: &Point, next: impl Fn() -> Option<&'static str>) -> (Option<&'static str>, Option<String>) {
     if matches!(
         point.special,
@@ -223,8 +225,8 @@ const fn critical(is_supercritical: bool) -> &'static str {
     if is_supercritical { "supercritical" } else { "subcritical" }
 }
 
-/// Whether what begins at a point of a leg, and is seen first at the parameter `first`, lies on the side where the leg has more growing
-/// directions: then it is stable in the critical direction.
+/// `true` if the branch that begins at a point of a leg, and is seen first at the parameter `first`, lies on the side where the leg has
+/// more growing directions: then it is stable in the critical direction.
 fn is_supercritical(leg: &Leg, point: usize, first: f64) -> Option<bool> {
     let ordinary = |sample: &&Sample| sample.point.special.is_none();
     let before = leg.samples[..point].iter().rev().find(ordinary)?;
@@ -243,7 +245,7 @@ fn is_supercritical(leg: &Leg, point: usize, first: f64) -> Option<bool> {
 fn put_connection(object: &mut Map<String, Value>, connection: &Connection) {
     let mut put = |key: &str, value: Value| object.insert(key.to_owned(), value);
     put("connection", connection.kind().name().into());
-    put("joins", connection.joins.name().into());
+    put("joins", connection.joins.map(Joins::name).into());
     let (law, numbers): (&str, &[(&str, f64)]) = match connection.law {
         PeriodLaw::Logarithmic { rate } => ("logarithmic", &[("rate", rate)]),
         PeriodLaw::Oscillating { rate, frequency } => {
@@ -297,7 +299,7 @@ fn passed(passed: &Passed) -> Value {
 fn end(leg: &Leg) -> Option<SpecialEntry> {
     let End::Homoclinic(connection) = &leg.end else { return None };
     Some(SpecialEntry {
-        kind: connection.joins.kind(),
+        kind: connection.name(),
         parameter: connection.parameter,
         error: Some(connection.error),
         certificate: None,

@@ -12,7 +12,7 @@ use motiform_study::{BranchPlan, Error};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// What is sampled at one value of the parameter; nothing where the run ended early.
+/// A sample at one value of the parameter; nothing where the run ended early.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepPoint {
     /// The parameter.
@@ -48,10 +48,10 @@ const OFF: f64 = 1e-6;
 /// early (by a blow-up). Means are weighted by `sin^4` over the time recorded, so that they are those of whole periods. The two
 /// sweeps run at the same time; the numbers do not depend on that. `None` if the watch stopped it.
 ///
-/// What is sampled goes to the journal every second and when the watch stops it; what the journal has is not sampled again.
+/// Samples go to the journal every second and when the watch stops it; what the journal has is not sampled again.
 ///
 /// # Errors
-/// What the model refuses, and those of the journal.
+/// Errors of the model, and those of the journal.
 pub fn sweeps(plan: &BranchPlan, journal: &dyn Journal, watch: &dyn Watch) -> Result<Option<Sweeps>, Error> {
     let (count, along) = (plan.computation.samples, &plan.computation.along);
     let value = |k: usize| along.from + (along.to - along.from) * (k as f64 / (count - 1) as f64);

@@ -4,7 +4,8 @@ use super::family::Bodies;
 use super::result::{Branches, Sample};
 use super::sweep::{SweepPoint, Sweeps};
 use motiform_store::columns::{Column, Values};
-use motiform_study::{BranchPlan, Error};
+use motiform_study::quantity::motion;
+use motiform_study::{BranchPlan, Error, Quantity};
 
 /// A row per point, branch by branch, each in its order.
 ///
@@ -39,8 +40,8 @@ fn places(plan: &BranchPlan, rows: &Rows<'_>) -> Vec<Column> {
     let parameters = rows.iter().map(|row| row.2.point.parameter).collect();
     let name = &plan.computation.along.name;
     vec![
-        Column::new("branch", "number of the branch, from 0", whole(&|branch, _| branch)),
-        Column::new("point", "number of the point along the branch, from 0", whole(&|_, point| point)),
+        Column::of(&motion::BRANCH, whole(&|branch, _| branch)),
+        Column::of(&motion::POINT, whole(&|_, point| point)),
         Column::new(name, "the parameter that is varied", Values::Number(parameters)),
     ]
 }
@@ -51,64 +52,38 @@ fn motions(rows: &Rows<'_>) -> Vec<Column> {
     };
     let whole = |read: &dyn Fn(&Sample) -> i64| Values::Whole(rows.iter().map(|row| read(row.2)).collect());
     let special = |sample: &Sample| sample.point.special.map_or("", |special| special.name());
+    let (form, course) = (|s: &Sample| s.reading.form, |s: &Sample| s.reading.direction.course);
+    let unstable = |sample: &Sample| i64::try_from(sample.point.unstable).unwrap_or(i64::MAX);
     vec![
-        Column::new("motion", "kind of motion", text(&|sample| sample.reading.motion.name())),
-        Column::new(
-            "form",
-            "symmetry of a motion that repeats, empty for the others",
-            text(&|sample| sample.reading.form.map_or("", |form| form.name())),
-        ),
-        Column::new(
-            "course",
-            "sense of rotation, or direction to the field, where the model has no mirror or has a field; otherwise empty",
-            text(&|sample| sample.reading.direction.course.map_or("", |course| course.name())),
-        ),
-        Column::new("special", "what happens here, empty at ordinary points", text(&special)),
-        Column::new(
-            "stable",
-            "1 where small deviations die out",
-            whole(&|sample| i64::from(sample.point.is_stable())),
-        ),
-        Column::new(
-            "unstable",
-            "number of growing directions of the reduced motion; at a special point without the critical ones",
-            whole(&|sample| i64::try_from(sample.point.unstable).unwrap_or(i64::MAX)),
-        ),
+        Column::of(&motion::MOTION, text(&|sample| sample.reading.motion.name())),
+        Column::of(&motion::FORM, text(&|sample| form(sample).map_or("", |form| form.name()))),
+        Column::of(&motion::COURSE, text(&|sample| course(sample).map_or("", |course| course.name()))),
+        Column::of(&motion::SPECIAL, text(&special)),
+        Column::of(&motion::STABLE, whole(&|sample| i64::from(sample.point.is_stable()))),
+        Column::of(&motion::UNSTABLE, whole(&unstable)),
     ]
 }
 
-/// Name, meaning, and how it is read; NaN where it has no meaning.
-type Number = (&'static str, &'static str, fn(&Sample) -> f64);
+/// A number, and how it is read; NaN where it has no meaning.
+type Number = (&'static Quantity, fn(&Sample) -> f64);
 
 const NUMBERS: [Number; 11] = [
-    ("period", "time after which the body is as it was, but for the net rotation (model time)", |s| {
-        s.reading.period.unwrap_or(f64::NAN)
-    }),
-    ("turning_rate", "mean turning rate of the heading (rad per model time)", |s| {
-        s.reading.turning_rate.unwrap_or(f64::NAN)
-    }),
-    (
-        "heading",
-        "direction of the displacement (rad from the x-axis), where rotations are no symmetry",
-        |s| s.reading.direction.heading.unwrap_or(f64::NAN),
-    ),
-    ("net_rotation", "net rotation per period (rad, -pi to pi)", |s| {
-        s.reading.net_rotation.unwrap_or(f64::NAN)
-    }),
-    ("speed", "mean speed (model length per model time)", |s| s.reading.speed[0]),
-    ("speed_min", "smallest speed", |s| s.reading.speed[1]),
-    ("speed_max", "largest speed", |s| s.reading.speed[2]),
-    ("size", "largest size |u| of the shape, velocity included where it is an unknown", |s| s.reading.size),
-    ("leading_re", "leading eigenvalue, or multiplier of an orbit: real part", |s| {
-        s.reading.leading.map_or(f64::NAN, |leading| leading.0)
-    }),
-    ("leading_im", "its imaginary part", |s| s.reading.leading.map_or(f64::NAN, |leading| leading.1)),
-    ("slope", "derivative of the parameter by the length along the branch", |s| s.point.slope),
+    (&motion::PERIOD, |s| s.reading.period.unwrap_or(f64::NAN)),
+    (&motion::TURNING_RATE, |s| s.reading.turning_rate.unwrap_or(f64::NAN)),
+    (&motion::HEADING, |s| s.reading.direction.heading.unwrap_or(f64::NAN)),
+    (&motion::NET_ROTATION, |s| s.reading.net_rotation.unwrap_or(f64::NAN)),
+    (&motion::SPEED, |s| s.reading.speed[0]),
+    (&motion::SPEED_MIN, |s| s.reading.speed[1]),
+    (&motion::SPEED_MAX, |s| s.reading.speed[2]),
+    (&motion::SIZE, |s| s.reading.size),
+    (&motion::LEADING_RE, |s| s.reading.leading.map_or(f64::NAN, |leading| leading.0)),
+    (&motion::LEADING_IM, |s| s.reading.leading.map_or(f64::NAN, |leading| leading.1)),
+    (&motion::SLOPE, |s| s.point.slope),
 ];
 
 fn numbers(rows: &Rows<'_>) -> Vec<Column> {
     let values = |read: fn(&Sample) -> f64| Values::Number(rows.iter().map(|row| read(row.2)).collect());
-    NUMBERS.iter().map(|&(name, meaning, read)| Column::new(name, meaning, values(read))).collect()
+    NUMBERS.iter().map(|&(quantity, read)| Column::of(quantity, values(read))).collect()
 }
 
 /// The samples of both sweeps: a row per value of the parameter and direction.
@@ -121,43 +96,14 @@ pub(crate) fn sweep_columns(plan: &BranchPlan, sweeps: &Sweeps) -> Vec<Column> {
         Values::Number(all.iter().map(|entry| read(entry.1).unwrap_or(f64::NAN)).collect())
     };
     let name = &plan.computation.along.name;
+    let speed = |place: usize| move |point: &SweepPoint| point.speed.map(|speed| speed[place]);
     vec![
-        Column::new(
-            "up",
-            "1 where the parameter was swept upwards, 0 downwards",
-            Values::Whole(all.iter().map(|entry| entry.0).collect()),
-        ),
+        Column::of(&motion::UP, Values::Whole(all.iter().map(|entry| entry.0).collect())),
         Column::new(name, "the parameter that is varied", number(&|point| Some(point.parameter))),
-        Column::new(
-            "speed",
-            "mean speed; undefined where the run ended early",
-            number(&|point| point.speed.map(|speed| speed[0])),
-        ),
-        Column::new("speed_min", "smallest speed", number(&|point| point.speed.map(|speed| speed[1]))),
-        Column::new("speed_max", "largest speed", number(&|point| point.speed.map(|speed| speed[2]))),
-        Column::new(
-            "turning_rate",
-            "mean turning rate of the heading (rad per model time)",
-            number(&|point| point.turning_rate),
-        ),
-        Column::new("size", "largest size |u| of the shape", number(&|point| point.size)),
+        Column::of(&motion::SPEED, number(&speed(0))),
+        Column::of(&motion::SPEED_MIN, number(&speed(1))),
+        Column::of(&motion::SPEED_MAX, number(&speed(2))),
+        Column::of(&motion::TURNING_RATE, number(&|point| point.turning_rate)),
+        Column::of(&motion::SIZE, number(&|point| point.size)),
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use motiform_models::amplitudes;
-
-    /// The parameter along a branch becomes a column.
-    #[test]
-    fn no_parameter_has_the_name_of_a_column() {
-        for column in motions(&[]).into_iter().chain(numbers(&[])) {
-            let name = column.name.as_str();
-            assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
-        }
-        for name in ["branch", "point", "up"] {
-            assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
-        }
-    }
 }

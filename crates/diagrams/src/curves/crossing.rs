@@ -21,7 +21,7 @@ pub(super) struct Target {
     pub(super) width: f64,
 }
 
-/// Whether the curve passes the target between two neighbouring points.
+/// Returns `true` if the curve passes the target between two neighbouring points.
 pub(super) fn passes(pair: &[CurveSample], target: &Target) -> bool {
     let [a, b] = pair else { return false };
     let (along, across) = (target.varied, 1 - target.varied);

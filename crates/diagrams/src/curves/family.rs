@@ -36,7 +36,7 @@ impl<'p> PlaneBodies<'p> {
             .map_err(|error| Refused::NoBody { value: parameters[1], why: error.to_string() })
     }
 
-    /// How curves are followed, first towards larger values of the second parameter, and the range of that one.
+    /// Settings of curves, first towards larger values of the second parameter, and the range of that one.
     pub(super) fn settings(&self, bodies: &Bodies<'_>) -> (Settings, (f64, f64)) {
         let sides = &self.plan.computation.plane;
         let [first, second] = [self.plan.varied(), 1 - self.plan.varied()].map(|side| &sides[side]);

@@ -16,9 +16,9 @@ const STATE: &str = "curves.json";
 /// A folder that holds curves, as far as they are followed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveFolder {
-    /// What was asked for.
+    /// The plan.
     pub plan: CurvePlan,
-    /// What was found.
+    /// The results.
     pub found: Curves,
 }
 

@@ -2,7 +2,7 @@
 
 use super::crossing::{Target, passes};
 use super::family::PlaneBodies;
-use crate::branches::family::Bodies;
+use crate::branches::family::{Bodies, lasting};
 use crate::branches::follow::follow_kept;
 use crate::branches::result::{Branches, Sample};
 use motiform_continuation::{Allowance, Curve, CurvePoint, Degenerate, End, Motion, Point, Special};
@@ -21,11 +21,11 @@ pub struct CurveSample {
     pub direction: [f64; 2],
     /// Length along the curve from its start.
     pub arclength: f64,
-    /// What is critical.
+    /// The critical condition.
     pub special: Special,
-    /// What else happens, at a point of codimension two.
+    /// The further degeneracy, at a point of codimension two.
     pub degenerate: Option<Degenerate>,
-    /// What is left of the condition that holds along the curve.
+    /// The residual of the condition that holds along the curve.
     pub residual: f64,
     /// The slope of the condition across the curve.
     pub transversality: f64,
@@ -51,7 +51,7 @@ pub struct CurveLeg {
 /// A curve of special points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FollowedCurve {
-    /// What is critical along it.
+    /// The critical condition along it.
     pub kind: CurveKind,
     /// The special point where it was begun: branch, leg and point.
     pub start: [usize; 3],
@@ -70,7 +70,7 @@ pub struct Curves {
     pub branches: Branches,
     /// The curves in the order in which they were found.
     pub curves: Vec<FollowedCurve>,
-    /// Whether everything was done that was asked for: not interrupted.
+    /// `true` if everything was done that was asked for: not interrupted.
     pub complete: bool,
 }
 
@@ -168,7 +168,8 @@ pub fn follow_curve(
     curve_within(plan, found, (kind, start), None, watch)
 }
 
-/// As [`follow_curve`]; no more is spent on orbits than the allowance, one half of it to each side: a side on which that is spent ends with [`End::Spent`].
+/// As [`follow_curve`]; no more is spent on orbits than the allowance, one half of it to each side: a side on which that is spent ends with
+/// [`End::Spent`].
 ///
 /// # Errors
 /// As [`follow_curve`].
@@ -226,7 +227,8 @@ fn leg(
     let branches = plan.branches();
     let (bodies, plane) = (Bodies::new(&branches)?, PlaneBodies::new(plan)?.within(allowance));
     let (settings, range) = plane.settings(&bodies);
-    let settings = if reversed { settings.reversed() } else { settings };
+    let time = period(&point.motion, point.special.unwrap_or(Special::Fold)).unwrap_or(0.0);
+    let settings = lasting(&if reversed { settings.reversed() } else { settings }, time);
     let mut curve = match Curve::of(&plane, point, plan.fixed_value(), &settings, range, watch) {
         Ok(curve) => curve,
         Err(_) if watch.stopped() => return Err(Error::Interrupted),
@@ -249,7 +251,7 @@ fn leg(
     Ok(Ok((CurveLeg { samples, end }, curve.sought())))
 }
 
-/// Whether the last step passed the start, in the direction in which it was left.
+/// Returns `true` if the last step passed the start, in the direction in which it was left.
 fn comes_back(plan: &CurvePlan, samples: &[CurveSample]) -> bool {
     let [first, _, .., before, last] = samples else { return false };
     let ahead: f64 = (0..2).map(|side| first.direction[side] * last.direction[side]).sum();
@@ -306,12 +308,12 @@ fn critical(motion: &Motion, special: Special) -> Option<(f64, f64)> {
 }
 
 impl Curves {
-    /// Whether the curve through this special point was followed before.
+    /// Returns `true` if the curve through this special point was followed before.
     fn begun(&self, start: [usize; 3]) -> bool {
         self.curves.iter().any(|curve| curve.start == start)
     }
 
-    /// Whether a curve passes through this special point.
+    /// Returns `true` if a curve passes through this special point.
     fn passes(&self, plan: &CurvePlan, kind: CurveKind, start: [usize; 3]) -> bool {
         let sample = self.branches.at(start);
         let mut curves = self.curves.iter().filter(|curve| curve.kind == kind);
@@ -329,7 +331,8 @@ impl Curves {
 }
 
 impl FollowedCurve {
-    /// Whether it passes through a special point of a branch of this plan. The curve may have been begun on a branch of another one over the same plane.
+    /// Returns `true` if it passes through a special point of a branch of this plan. The curve may have been begun on a branch of another
+    /// one over the same plane.
     #[must_use]
     pub fn passes(&self, plan: &CurvePlan, sample: &Sample) -> bool {
         let period = sample.point.special.and_then(|special| period(&sample.point.motion, special));

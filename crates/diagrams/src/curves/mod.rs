@@ -1,9 +1,9 @@
 //! Curves of special points over two parameters: what bounds the regimes in a plane.
 //!
 //! A [`CurvePlan`](motiform_study::CurvePlan) is carried out by [`follow_curves`]: branches are followed along one parameter, as in
-//! [`crate::branches::follow()`], and each special point of the kinds asked for is followed through the plane, to both sides. A special point that
-//! lies on a curve already followed is recognised. A curve is the unit of work: one that was interrupted is followed again when the work
-//! is taken up ([`CurveFolder`]).
+//! [`crate::branches::follow()`], and each special point of the kinds asked for is followed through the plane, to both sides. A special
+//! point that lies on a curve already followed is recognised. A curve is the unit of work: one that was interrupted is followed again when
+//! the work is taken up ([`CurveFolder`]).
 
 mod crossing;
 mod family;

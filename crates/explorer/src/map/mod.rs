@@ -159,7 +159,7 @@ pub(crate) enum MapFile {
 /// The numbers of a row that are defined.
 pub(crate) fn numbers(row: &Row) -> Values {
     let defined = motiform_lab::scan::NUMBERS.iter().zip(row.numbers).filter(|entry| entry.1.is_finite());
-    defined.map(|((name, ..), value)| ((*name).to_owned(), json!(value))).collect()
+    defined.map(|(quantity, value)| (quantity.name.to_owned(), json!(value))).collect()
 }
 
 type Done = Result<(), Gone>;

@@ -4,7 +4,6 @@ use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Model, Outcome, Outline};
 use motiform_models::ModelInfo;
 use motiform_store::table::Table;
-pub(super) use motiform_study::units::{LENGTH, RATE, TIME};
 use motiform_study::{Dataset, Dimension, Error, Shown};
 use std::ops::Range;
 
@@ -87,26 +86,6 @@ impl<'d> Body<'d> {
         self.dataset.trajectory.get(name).unwrap_or(&[])
     }
 
-    /// The factor from model units to those of the figures.
-    pub(super) fn factor(&self, dimension: Dimension) -> f64 {
-        self.units.factor(dimension)
-    }
-
-    /// A label with its unit, which model units have not.
-    pub(super) fn label(&self, quantity: &str, dimension: Dimension) -> String {
-        self.units.label(quantity, dimension)
-    }
-
-    /// A value in model units as words with its unit; `plain` stands for it where that is of the model.
-    pub(super) fn words(&self, value: f64, dimension: Dimension, plain: &str) -> String {
-        self.units.words(value, dimension, plain)
-    }
-
-    /// The name of a unit.
-    pub(super) fn words_of(&self, dimension: Dimension) -> String {
-        self.units.name(dimension, "model length")
-    }
-
     /// The units of the figures.
     pub(super) fn units(&self) -> &Shown {
         &self.units
@@ -114,12 +93,12 @@ impl<'d> Body<'d> {
 
     /// A time in the units of the figures.
     pub(super) fn time(&self, row: usize) -> f64 {
-        self.column("t")[row] * self.factor(TIME)
+        self.column("t")[row] * self.units.factor(Dimension::TIME)
     }
 
     /// A position in the units of the figures.
     pub(super) fn position(&self, row: usize) -> [f64; 2] {
-        [self.column("x")[row], self.column("y")[row]].map(|x| x * self.factor(LENGTH))
+        [self.column("x")[row], self.column("y")[row]].map(|x| x * self.units.factor(Dimension::LENGTH))
     }
 
     /// The shape at a row.
@@ -135,7 +114,7 @@ impl<'d> Body<'d> {
         let [x, y] = self.position(row);
         match self.model.outline(&self.shape(row), self.radius, points) {
             Outline::Curve(curve) => {
-                let scale = scale * self.factor(LENGTH);
+                let scale = scale * self.units.factor(Dimension::LENGTH);
                 Some(curve.iter().map(|p| [x + scale * p[0], y + scale * p[1]]).collect())
             }
             Outline::NotACurve { .. } | Outline::NotClosed { .. } => None,

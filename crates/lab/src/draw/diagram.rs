@@ -1,7 +1,7 @@
 //! Scans: phase diagrams, and the largest exponent along one axis.
 
 use super::{Figures, words};
-use crate::scan::{Axis, CellSummary, ScanFolder, cells, dimension};
+use crate::scan::{Axis, CellSummary, ScanFolder, cells};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::order::ascending;
 use motiform_figures::{Cell, Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured, PhaseDiagram};
@@ -9,10 +9,8 @@ use motiform_models::ModelInfo;
 use motiform_models::parameters::Parameters;
 use motiform_models::tensor::TensorParameters;
 use motiform_models::tensor::reduced::{Line, Reduced};
+use motiform_study::quantity::motion::{LAMBDA_1, LAMBDA_1_ERROR};
 use motiform_study::{Error, ScanPlan, Shown};
-
-/// The number of a row that is drawn along one axis.
-const EXPONENT: &str = "lambda_1";
 
 /// Points of an analytic line.
 const POINTS: usize = 600;
@@ -67,7 +65,7 @@ pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiag
 pub fn exponents(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Result<Option<Chart>, Error> {
     let info = plan.info()?;
     let [axis] = &plan.computation.axes[..] else { return Ok(None) };
-    let factor = units.factor(dimension(EXPONENT));
+    let factor = units.factor(LAMBDA_1.dimension);
     let series: Vec<ErrorBarSeries> =
         Regime::ALL.into_iter().filter_map(|regime| exponents_of(regime, plan, cells, factor)).collect();
     if series.is_empty() {
@@ -85,7 +83,7 @@ pub fn exponents(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Resul
             title: format!("{}: largest Lyapunov exponent", plan.title),
             caption,
             x_label: symbol(info, &axis.name),
-            y_label: units.label("*λ*_1", dimension(EXPONENT)),
+            y_label: units.axis(&LAMBDA_1),
             zero_line: true,
             ..Chart::default()
         }
@@ -102,7 +100,7 @@ fn exponents_of(
 ) -> Option<ErrorBarSeries> {
     let point = |cell: &CellSummary| {
         let motion = cell.motions.iter().find(|motion| motion.regime == regime)?;
-        let (y, error) = (motion.median(EXPONENT)?, motion.median("lambda_1_error")?);
+        let (y, error) = (motion.median(LAMBDA_1.name)?, motion.median(LAMBDA_1_ERROR.name)?);
         let x = *plan.axis_values(cell.cell).first()?;
         let shown = Measured { x, y: factor * y, error: factor * error.abs() };
         (y.is_finite() && error.is_finite()).then_some(shown)

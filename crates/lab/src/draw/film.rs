@@ -1,8 +1,10 @@
 //! The animation of the body.
 
-use super::body::{Body, LENGTH};
+use super::body::Body;
 use super::{path, words};
 use motiform_figures::{Animation, Camera, Frame};
+use motiform_study::Dimension;
+use motiform_study::quantity::state;
 
 /// Frames of the film (8 seconds at 25 frames per second).
 const FRAMES: usize = 200;
@@ -38,11 +40,11 @@ pub(super) fn animation(body: &Body<'_>) -> Animation {
         camera,
         note: match body.model.radius() {
             Some(_) => size,
-            None => format!("*R*_0 = {}, {size}", body.words(body.radius, LENGTH, "")),
+            None => format!("*R*_0 = {}, {size}", body.units().words(body.radius, Dimension::LENGTH, "")),
         },
-        x_label: body.label("*x*", LENGTH),
-        y_label: body.label("*y*", LENGTH),
-        unit: body.words_of(LENGTH),
+        x_label: body.units().axis(&state::X),
+        y_label: body.units().axis(&state::Y),
+        unit: body.units().name(Dimension::LENGTH, "model length"),
         ..Animation::default()
     }
 }

@@ -2,9 +2,10 @@
 
 use super::diagram::symbol;
 use super::{FigureFormat, Picture, files, words};
-use crate::lifetimes::{LIFE, LifeAt, Lifetimes};
+use crate::lifetimes::{LifeAt, Lifetimes};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Interval, LineStyle, Measured};
 use motiform_models::ModelInfo;
+use motiform_study::quantity::statistic::LIFE;
 use motiform_study::{Error, ScanPlan, Shown};
 
 /// Points of a fitted law.
@@ -29,7 +30,7 @@ pub fn draw_lifetimes(
 /// # Errors
 /// An unknown model.
 pub fn figure(plan: &ScanPlan, found: &Lifetimes, units: &Shown) -> Result<Chart, Error> {
-    let (info, factor) = (plan.info()?, units.factor(LIFE));
+    let (info, factor) = (plan.info()?, units.factor(LIFE.dimension));
     let watched = || found.values.iter().filter(|at| at.life.watched > 0.0);
     let point = |at: &LifeAt| Some(Measured { x: at.value, y: factor * at.life.value?, error: 0.0 });
     let interval = |at: &LifeAt| Interval {
@@ -41,7 +42,7 @@ pub fn figure(plan: &ScanPlan, found: &Lifetimes, units: &Shown) -> Result<Chart
         title: format!("{}: mean life of chaos", plan.title),
         caption: caption(plan, found, info, units),
         x_label: symbol(info, &found.parameter),
-        y_label: units.label("mean life", LIFE),
+        y_label: units.axis(&LIFE),
         logarithmic_y: true,
         ..Chart::default()
     }
@@ -86,7 +87,7 @@ fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo, units: &Shown) 
             c.samples,
             c.random.words(),
             c.seed,
-            units.words(found.until, LIFE, " model time")
+            units.words(found.until, LIFE.dimension, " model time")
         ),
     ]
 }

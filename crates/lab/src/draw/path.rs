@@ -1,8 +1,10 @@
 //! The path with the body drawn along it.
 
-use super::body::{Body, LENGTH, TIME};
+use super::body::Body;
 use super::words;
 use motiform_figures::{OutlineStamp, PathFigure, PathPoint, SectionLine};
+use motiform_study::Dimension;
+use motiform_study::quantity::state;
 
 /// Points of a drawn outline.
 const OUTLINE_POINTS: usize = 96;
@@ -24,9 +26,9 @@ pub(super) fn figure(body: &Body<'_>) -> PathFigure {
         segments: vec![points(body)],
         outlines: stamps,
         section: section(body),
-        x_label: body.label("*x*", LENGTH),
-        y_label: body.label("*y*", LENGTH),
-        time_label: body.label("*t*", TIME),
+        x_label: body.units().axis(&state::X),
+        y_label: body.units().axis(&state::Y),
+        time_label: body.units().axis(&state::T),
     }
 }
 
@@ -56,7 +58,7 @@ fn count(body: &Body<'_>) -> usize {
     if wanted > 0 {
         return usize::try_from(wanted).unwrap_or(usize::MAX);
     }
-    let drawn = body.scale * body.radius * body.factor(LENGTH);
+    let drawn = body.scale * body.radius * body.units().factor(Dimension::LENGTH);
     (body.length() / (SPACING_RADII * drawn)).clamp(2.0, 32.0) as usize
 }
 
@@ -64,7 +66,7 @@ fn section(body: &Body<'_>) -> Option<SectionLine> {
     let map = body.dataset.manifest.plan.computation.return_map.as_ref()?;
     let all = body.column("t");
     let shown = all[body.rows().start]..=all[body.rows().end - 1];
-    let length = body.factor(LENGTH);
+    let length = body.units().factor(Dimension::LENGTH);
     let crossings = body.dataset.crossings.as_ref()?;
     let (times, xs) = (crossings.get("t")?, crossings.get("x")?);
     let points: Vec<[f64; 2]> = times

@@ -1,19 +1,21 @@
 //! Speed, turning rate and the sizes of the deformations against time.
 
-use super::body::{Body, RATE, TIME};
+use super::body::Body;
 use super::words;
 use crate::varying::varies;
+use motiform_dynamics::model::Observable;
 use motiform_figures::palette::CATEGORIES;
 use motiform_figures::{Curve, Panel, SeriesFigure};
-use motiform_study::Dimension;
+use motiform_study::quantity::state::{SPEED, T, TURNING_RATE};
+use motiform_study::{Dimension, Quantity};
 
 /// An observable below this throughout is not drawn but mentioned.
 const NEGLIGIBLE: f64 = 1e-9;
 
 pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
     let mut notes = Vec::new();
-    let mut panels = vec![panel(body, ("speed", "speed |***v***|", [1, -1]), 0)];
-    let turning = panel(body, ("turning_rate", "turning rate", RATE), 1);
+    let mut panels = vec![panel(body, &SPEED, 0)];
+    let turning = panel(body, &TURNING_RATE, 1);
     if turning.curves[0].values.iter().any(Option::is_none) {
         notes.push(if body.dataset.manifest.plan.computation.noise.is_some() {
             "The turning rate is undefined at rest, and where noise leaves the velocity no derivative."
@@ -28,13 +30,13 @@ pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
         if largest < NEGLIGIBLE {
             notes.push(format!("{} stays below {}.", observable.symbol, words::number(NEGLIGIBLE)));
         } else {
-            panels.push(panel(body, (observable.name, observable.symbol, [observable.length, 0]), 2 + index));
+            panels.push(panel(body, &declared(observable), 2 + index));
         }
     }
     measures(body, &mut panels, &mut notes);
     SeriesFigure {
         title: body.dataset.title(),
-        time_label: body.label("*t*", TIME),
+        time_label: body.units().axis(&T),
         times: body.rows().map(|row| body.time(row)).collect(),
         panels,
         notes,
@@ -48,14 +50,14 @@ fn measures(body: &Body<'_>, panels: &mut Vec<Panel>, notes: &mut Vec<String>) {
         let shown = &body.column(measure.name)[body.rows()];
         let high = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if varies(shown.iter().copied(), 1.0) {
-            panels.push(panel(body, (measure.name, measure.symbol, [measure.length, 0]), 2 + panels.len()));
+            panels.push(panel(body, &declared(measure), 2 + panels.len()));
         } else if shown.iter().all(|x| x.is_nan() || *x == 0.0) {
             notes.push(format!("The {} is 0 throughout.", measure.symbol));
         } else if high > 1e-9 {
             notes.push(format!(
                 "The {} stays at {}.",
                 measure.symbol,
-                body.words(high, [measure.length, 0], "")
+                body.units().words(high, declared(measure).dimension, "")
             ));
         } else {
             notes.push(format!("The {} stays below {}.", measure.symbol, words::number(NEGLIGIBLE)));
@@ -63,11 +65,17 @@ fn measures(body: &Body<'_>, panels: &mut Vec<Panel>, notes: &mut Vec<String>) {
     }
 }
 
-fn panel(body: &Body<'_>, (name, symbol, dimension): (&str, &str, Dimension), colour: usize) -> Panel {
-    let factor = body.factor(dimension);
-    let values =
-        body.column(name)[body.rows()].iter().map(|&x| x.is_finite().then_some(x * factor)).collect();
-    let label = body.label(symbol, dimension);
+/// The quantity that a model declares.
+const fn declared(observable: &Observable) -> Quantity {
+    let Observable { name, symbol, meaning, length } = *observable;
+    Quantity { name, symbol, dimension: Dimension::of(length, 0), meaning }
+}
+
+fn panel(body: &Body<'_>, quantity: &Quantity, colour: usize) -> Panel {
+    let factor = body.units().factor(quantity.dimension);
+    let values = body.column(quantity.name)[body.rows()].iter();
+    let values = values.map(|&x| x.is_finite().then_some(x * factor)).collect();
+    let label = body.units().axis(quantity);
     let colour = CATEGORIES[colour % CATEGORIES.len()];
     Panel { label: label.clone(), curves: vec![Curve { label, colour, values }] }
 }

@@ -1,8 +1,10 @@
 //! The boundary's field against time and arc length.
 
-use super::body::{Body, LENGTH, TIME};
+use super::body::Body;
 use super::words;
 use motiform_figures::SpaceTimeFigure;
+use motiform_study::Dimension;
+use motiform_study::quantity::state;
 
 /// Points along the boundary.
 const PLACES: usize = 128;
@@ -17,7 +19,7 @@ pub(super) fn figure(body: &Body<'_>) -> Option<SpaceTimeFigure> {
     if profiles.len() != rows.len() || rows.len() < 2 {
         return None;
     }
-    let length = body.factor(LENGTH);
+    let length = body.units().factor(Dimension::LENGTH);
     let places = (0..PLACES).rev(); // the first row of a picture is its top
     let values =
         places.flat_map(|place| profiles.iter().map(move |profile| profile[place] * length)).collect();
@@ -30,8 +32,8 @@ pub(super) fn figure(body: &Body<'_>) -> Option<SpaceTimeFigure> {
         columns: rows.len(),
         rows: PLACES,
         values,
-        x_label: body.label("*t*", TIME),
-        y_label: body.label("*s*", LENGTH),
-        value_label: body.label("*φ*", LENGTH),
+        x_label: body.units().axis(&state::T),
+        y_label: body.units().label("*s*", Dimension::LENGTH),
+        value_label: body.units().label("*φ*", Dimension::LENGTH),
     })
 }

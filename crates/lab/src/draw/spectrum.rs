@@ -1,17 +1,18 @@
 //! Power spectra of the deformation modes.
 
-use super::body::{Body, RATE};
+use super::body::Body;
 use super::words;
 use motiform_analysis::{Spectrum, welch};
 use motiform_figures::palette::CATEGORIES;
 use motiform_figures::{Chart, SpectrumCurve};
 use motiform_study::Dimension;
+use motiform_study::quantity::statistic::{FREQUENCY, POWER};
 
 /// Modes whose spectra are drawn.
 const MODES: usize = 4;
 
 /// The dimension of a spectral density of lengths.
-const DENSITY: Dimension = [2, 1];
+const DENSITY: Dimension = Dimension::of(2, 1);
 
 /// Minimum number of samples for a spectrum.
 const FEWEST: usize = 256;
@@ -25,18 +26,22 @@ pub(super) fn figure(body: &Body<'_>) -> Option<Chart> {
     let curves = spectra.iter().enumerate().map(|(index, spectrum)| SpectrumCurve {
         label: format!("mode {}", index + 1),
         colour: CATEGORIES[index % CATEGORIES.len()],
-        power: spectrum.power.iter().map(|power| power * body.factor(DENSITY)).collect(),
+        power: spectrum.power.iter().map(|power| power * body.units().factor(DENSITY)).collect(),
     });
     let method = format!(
         "Welch's method: {} segments, Hann window, half overlapping; each curve is the sum over the two components of a mode.",
         first.segments
     );
-    let frequencies = first.frequencies.iter().map(|frequency| frequency * body.factor(RATE)).collect();
+    let frequencies = first
+        .frequencies
+        .iter()
+        .map(|frequency| frequency * body.units().factor(FREQUENCY.dimension))
+        .collect();
     Some(Chart {
         title: format!("{}: power spectrum", body.dataset.title()),
         caption: vec![words::parameters(body), method],
-        x_label: body.label("frequency", RATE),
-        y_label: body.label("power spectral density", DENSITY),
+        x_label: body.units().axis(&FREQUENCY),
+        y_label: body.units().label(POWER.symbol, DENSITY),
         ..Chart::spectra(frequencies, curves.collect())
     })
 }

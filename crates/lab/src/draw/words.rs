@@ -1,12 +1,12 @@
 //! Captions: the parameter set, the method, the scale of the drawing. All of it comes from the manifest.
 
-use super::body::{Body, LENGTH, TIME};
+use super::body::Body;
 use motiform_dynamics::Outcome;
 use motiform_models::ModelInfo;
 use motiform_study::plan::{Named, NoiseSettings};
 use motiform_study::titles::capital;
 pub use motiform_study::titles::number;
-use motiform_study::{Shown, Ties};
+use motiform_study::{Dimension, Shown, Ties};
 
 /// A non-breaking space.
 const SPACE: char = '\u{a0}';
@@ -54,11 +54,14 @@ pub(super) fn method(body: &Body<'_>) -> String {
         length if early => {
             format!(
                 " The run did not survive its transient of {}: shown is its end.",
-                body.words(length, TIME, " time units")
+                body.units().words(length, Dimension::TIME, " time units")
             )
         }
         length if length > 0.0 => {
-            format!(" The first {} are not shown.", body.words(length, TIME, " time units"))
+            format!(
+                " The first {} are not shown.",
+                body.units().words(length, Dimension::TIME, " time units")
+            )
         }
         _ => String::new(),
     };
@@ -66,7 +69,7 @@ pub(super) fn method(body: &Body<'_>) -> String {
     let end = match manifest.outcome.outcome {
         Outcome::Completed { .. } => String::new(),
         Outcome::Escaped { t, singular: true, .. } => {
-            format!(" The solution blows up at *t** = {}.", body.words(t, TIME, ""))
+            format!(" The solution blows up at *t** = {}.", body.units().words(t, Dimension::TIME, ""))
         }
         other => format!(" The run ended early: {other}."),
     };
@@ -100,7 +103,7 @@ fn before_blow_up(body: &Body<'_>) -> String {
     match body.cut() {
         true => format!(
             " Shown to *t*{SPACE}={SPACE}{}, before the shape leaves the scale.",
-            body.words(body.column("t")[body.rows().end - 1], TIME, "")
+            body.units().words(body.column("t")[body.rows().end - 1], Dimension::TIME, "")
         ),
         false => String::new(),
     }
@@ -116,7 +119,7 @@ pub(super) fn outlines(body: &Body<'_>) -> String {
     if body.model.radius().is_some() {
         return format!("Outlines: the closed boundary, {size}.");
     }
-    let radius = body.words(body.radius, LENGTH, "");
+    let radius = body.units().words(body.radius, Dimension::LENGTH, "");
     format!("Outlines: *R*_0{SPACE}={SPACE}{radius}, {size}; the deformation itself is not exaggerated.")
 }
 
@@ -125,7 +128,11 @@ pub(super) fn section(body: &Body<'_>) -> Option<String> {
     let manifest = &body.dataset.manifest;
     let map = manifest.plan.computation.return_map.as_ref()?;
     let ends = if map.x_min > -1e300 || map.x_max < 1e300 {
-        format!(", {} < *x* < {}", body.words(map.x_min, LENGTH, ""), body.words(map.x_max, LENGTH, ""))
+        format!(
+            ", {} < *x* < {}",
+            body.units().words(map.x_min, Dimension::LENGTH, ""),
+            body.units().words(map.x_max, Dimension::LENGTH, "")
+        )
     } else {
         String::new()
     };
@@ -136,6 +143,6 @@ pub(super) fn section(body: &Body<'_>) -> Option<String> {
     };
     Some(format!(
         "Section: the segment *y* = {}{ends}, crossed in either direction.{centre}",
-        body.words(map.y, LENGTH, "")
+        body.units().words(map.y, Dimension::LENGTH, "")
     ))
 }

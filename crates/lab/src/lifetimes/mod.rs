@@ -10,8 +10,7 @@ use motiform_analysis::{LifeCount, LifeLaws, MeanLife, Stay, compare_life_laws, 
 use motiform_dynamics::Watch;
 use motiform_store::Kind;
 use motiform_study::plan::check;
-use motiform_study::units::TIME;
-use motiform_study::{Dimension, Error, ScanPlan, input};
+use motiform_study::{Error, ScanPlan, input};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
@@ -35,9 +34,6 @@ pub struct Lifetimes {
     /// The law of the mean lives.
     pub laws: LifeLaws,
 }
-
-/// The dimension of a life.
-pub const LIFE: Dimension = TIME;
 
 /// The fates of the starts at one value of the parameter.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -6,6 +6,7 @@ use crate::varying::varies;
 use motiform_dynamics::Model;
 use motiform_dynamics::model::velocity;
 use motiform_store::table::Table;
+use motiform_study::quantity::state::{RISING, T, X, Y};
 use motiform_study::study::ReturnMapSettings;
 
 /// The maxima of the speed, in order: each is the vertex of the parabola through three samples, so its error is of order
@@ -54,16 +55,7 @@ pub fn crossings_of_path(
             found.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
         }
     }
-    (table(found), centre)
-}
-
-fn table([t, x, y, rising]: [Vec<f64>; 4]) -> Table {
-    let mut table = Table::default();
-    table.push("t", "time of the crossing", t);
-    table.push("x", "x where the path crosses the segment", x);
-    table.push("y", "y of the segment", y);
-    table.push("rising", "1 where y grows, 0 where it falls", rising);
-    table
+    (Table::of(&[&T, &X, &Y, &RISING], found.into()), centre)
 }
 
 /// The centre of the recorded path.

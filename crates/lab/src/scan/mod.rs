@@ -24,7 +24,7 @@ pub use merge::{Merged, merge};
 pub use motiform_store::Opening;
 pub use motiform_study::scan::{Axis, SCAN_FORMAT, ScanComputation, ScanPlan, Shard};
 pub use part::{PartError, Parts, read_part};
-pub use rows::{NUMBERS, Row, dimension, rows_to_csv};
+pub use rows::{NUMBERS, Row, rows_to_csv};
 pub use run::Scan;
 pub use summary::{CellSummary, Motion, Totals, cells, for_each_part};
 pub use table::ScanTable;

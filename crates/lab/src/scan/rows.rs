@@ -3,45 +3,31 @@
 use super::ScanPlan;
 use motiform_analysis::regime::{Attractor, Course, Regime, Verdict};
 use motiform_store::columns::{Column, Values, to_csv};
-use motiform_study::units::{LENGTH, RATE, SPEED, TIME};
-use motiform_study::{Dimension, Error};
+use motiform_study::quantity::motion;
+use motiform_study::{Error, Quantity};
 
-/// The numbers of a row, in file order: name, meaning and dimension.
-pub const NUMBERS: [(&str, &str, Dimension); 15] = [
-    (
-        "margin",
-        "how clear the decision is: its number's distance from the limit, in units of its own uncertainty",
-        [0, 0],
-    ),
-    ("speed_mean", "time average of |v| (model length per model time)", SPEED),
-    ("speed_min", "smallest |v| (model length per model time)", SPEED),
-    ("speed_max", "largest |v| (model length per model time)", SPEED),
-    ("turning_rate", "mean turning rate of the heading (rad per model time)", RATE),
-    ("period", "time after which the body is as it was, but for the net rotation (model time)", TIME),
-    ("net_rotation", "net rotation of the body per period (rad, in -pi..pi)", [0, 0]),
-    ("drift", "distance travelled per period (model length)", LENGTH),
-    (
-        "heading",
-        "direction of the displacement (rad from the x-axis), where rotations are no symmetry",
-        [0, 0],
-    ),
-    ("swing", "peak-to-peak swing of the heading over one period (rad)", [0, 0]),
-    ("lambda_1", "largest Lyapunov exponent (inverse model time)", RATE),
-    ("lambda_1_error", "half width of its 95 % confidence interval", RATE),
-    ("escape_time", "the blow-up time t* (model time)", TIME),
-    ("time", "model time that the decision took", TIME),
-    (
-        "resolution",
-        "largest relative change of speed, turning rate and period (of chaos: speed and largest exponent) \
-        with half as many modes more, where the model has a number of modes",
-        [0, 0],
-    ),
+/// The numbers of a row, in file order.
+pub const NUMBERS: [&Quantity; 15] = [
+    &motion::MARGIN,
+    &motion::SPEED_MEAN,
+    &motion::SPEED_MIN,
+    &motion::SPEED_MAX,
+    &motion::TURNING_RATE,
+    &motion::PERIOD,
+    &motion::NET_ROTATION,
+    &motion::DRIFT,
+    &motion::HEADING,
+    &motion::SWING,
+    &motion::LAMBDA_1,
+    &motion::LAMBDA_1_ERROR,
+    &motion::ESCAPE_TIME,
+    &motion::TIME,
+    &motion::RESOLUTION,
 ];
 
-/// The dimension of a number by its name; none of other names.
-#[must_use]
-pub fn dimension(name: &str) -> Dimension {
-    NUMBERS.iter().find(|known| known.0 == name).map_or([0, 0], |known| known.2)
+/// The place of a number by its name.
+pub(super) fn place(name: &str) -> Option<usize> {
+    NUMBERS.iter().position(|known| known.name == name)
 }
 
 /// One initial state of one cell.
@@ -117,8 +103,7 @@ impl Row {
     /// A number by its name in [`NUMBERS`]; `None` if it is not defined.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
-        let place = NUMBERS.iter().position(|known| known.0 == name)?;
-        Some(self.numbers[place]).filter(|value| !value.is_nan())
+        Some(self.numbers[place(name)?]).filter(|value| !value.is_nan())
     }
 }
 
@@ -144,33 +129,22 @@ pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
     };
     let text = |of: fn(&Row) -> &str| Values::Text(rows.iter().map(|row| of(row).to_owned()).collect());
     let mut columns = vec![
-        Column::new(
-            "cell",
-            "number of the cell: i1 + n1 i2 for place i1 on the first axis",
-            whole(|row| row.cell),
-        ),
-        Column::new("sample", "number of the initial state", whole(|row| row.sample)),
+        Column::of(&motion::CELL, whole(|row| row.cell)),
+        Column::of(&motion::SAMPLE, whole(|row| row.sample)),
     ];
     for (place, axis) in plan.computation.axes.iter().enumerate() {
         let values = rows.iter().map(|row| plan.axis_values(row.cell)[place]).collect();
-        columns.push(Column::new(
-            &axis.name,
-            "the parameter, or the coordinate of the start",
-            Values::Number(values),
-        ));
+        let meaning = "the parameter, or the coordinate of the start";
+        columns.push(Column::new(&axis.name, meaning, Values::Number(values)));
     }
-    columns.push(Column::new("regime", "the motion", text(|row| row.regime.name())));
-    columns.push(Column::new("attractor", "the kind of reduced attractor", text(|row| row.attractor.name())));
-    columns.push(Column::new(
-        "course",
-        "sense of rotation, or direction to the field, where the model has no mirror or has a field; otherwise empty",
-        text(|row| row.course.map_or("", Course::name)),
-    ));
-    for (place, (name, meaning, _)) in NUMBERS.iter().enumerate() {
+    columns.push(Column::of(&motion::REGIME, text(|row| row.regime.name())));
+    columns.push(Column::of(&motion::ATTRACTOR, text(|row| row.attractor.name())));
+    columns.push(Column::of(&motion::COURSE, text(|row| row.course.map_or("", Course::name))));
+    for (place, quantity) in NUMBERS.into_iter().enumerate() {
         let values = rows.iter().map(|row| row.numbers[place]).collect();
-        columns.push(Column::new(name, *meaning, Values::Number(values)));
+        columns.push(Column::of(quantity, Values::Number(values)));
     }
-    columns.push(Column::new("why", "the evidence in one sentence", text(|row| &row.why)));
+    columns.push(Column::of(&motion::WHY, text(|row| &row.why)));
     columns
 }
 
@@ -219,24 +193,11 @@ pub(super) fn from_columns(plan: &ScanPlan, columns: Vec<Column>) -> Option<Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use motiform_models::{MODELS, ModelInfo, amplitudes};
 
     #[test]
     fn attractors_are_called_as_in_json() {
         for attractor in Attractor::ALL {
             assert_eq!(serde_json::to_value(attractor).unwrap(), attractor.name());
-        }
-    }
-
-    /// An axis becomes a column: no parameter may have the name of another column.
-    #[test]
-    fn no_parameter_has_the_name_of_a_column() {
-        let ours = ["cell", "sample", "regime", "attractor", "course", "why"]
-            .into_iter()
-            .chain(NUMBERS.map(|known| known.0));
-        for name in ours {
-            assert!(MODELS.iter().flat_map(ModelInfo::parameters).all(|spec| spec.name != name));
-            assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The results of a scan, read part by part.
 
+use super::rows::place;
 use super::{NUMBERS, PartError, Row, ScanFolder, read_part};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::order::ascending;
@@ -105,8 +106,7 @@ impl Motion {
     /// The median of a number by its name in [`NUMBERS`]; `None` if it is not defined.
     #[must_use]
     pub fn median(&self, name: &str) -> Option<f64> {
-        let place = NUMBERS.iter().position(|known| known.0 == name)?;
-        Some(self.medians[place]).filter(|value| !value.is_nan())
+        Some(self.medians[place(name)?]).filter(|value| !value.is_nan())
     }
 }
 

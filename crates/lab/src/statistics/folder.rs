@@ -14,7 +14,7 @@ use std::path::Path;
 /// The file of the summary.
 const FILE: &str = "statistics.json";
 
-/// What the plan of bodies is compared by.
+/// The file of the plan of bodies, by which results are compared.
 const PLAN: &str = "plan.json";
 
 /// Opens a folder of the statistics of so many bodies of a plan (`None`: of datasets), to write it or to go on with it.

@@ -2,7 +2,6 @@
 
 use crate::statistics::Measurement;
 use motiform_statistics::{Answer, Diffusion, Errors, MeanTime, Measured, Oscillation, Side, four_digits};
-use motiform_study::units::{LENGTH, RATE, SPEED, TIME};
 use motiform_study::{Dimension, Shown};
 use serde_json::{Value, json};
 
@@ -70,7 +69,7 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
             format!(
                 "{} {bodies}, {samples} samples every {}; {}",
                 found.bodies,
-                if units.is_physical() { four(TIME, found.dt) } else { found.dt.to_string() },
+                if units.is_physical() { four(Dimension::TIME, found.dt) } else { found.dt.to_string() },
                 over(found.errors)
             ),
         ),
@@ -78,12 +77,12 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
             "speed",
             format!(
                 "mean {}, root mean square {}",
-                value(SPEED, &found.mean_speed),
-                value(SPEED, &found.rms_speed)
+                value(Dimension::SPEED, &found.mean_speed),
+                value(Dimension::SPEED, &found.rms_speed)
             ),
         ),
-        ("persistence", format!("time {}", answer(TIME, &found.walk.persistence))),
-        ("", format!("speed {}", answer(SPEED, &found.walk.speed))),
+        ("persistence", format!("time {}", answer(Dimension::TIME, &found.walk.persistence))),
+        ("", format!("speed {}", answer(Dimension::SPEED, &found.walk.speed))),
         (
             "",
             format!(
@@ -93,17 +92,20 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
         ),
         (
             "diffusion",
-            format!("coefficient {} (persistent random walk)", answer(DIFFUSION, &found.walk.diffusion)),
+            format!(
+                "coefficient {} (persistent random walk)",
+                answer(Dimension::DIFFUSION, &found.walk.diffusion)
+            ),
         ),
     ];
     all.extend(diffusion(&found.diffusion, units));
     all.extend([
-        ("exponent", format!("{} at the shortest lag", answer([0, 0], &found.exponents[0]))),
-        ("", format!("{} over the last octave of lags", answer([0, 0], &found.exponents[1]))),
+        ("exponent", format!("{} at the shortest lag", answer(Dimension::NUMBER, &found.exponents[0]))),
+        ("", format!("{} over the last octave of lags", answer(Dimension::NUMBER, &found.exponents[1]))),
     ]);
     for (place, entry) in found.autocorrelations.iter().enumerate() {
         let (label, name) = (if place == 0 { "correlation" } else { "" }, entry.quantity.name());
-        all.push((label, format!("time of {name}: {}", answer(TIME, &entry.time))));
+        all.push((label, format!("time of {name}: {}", answer(Dimension::TIME, &entry.time))));
         all.extend(
             entry
                 .oscillation
@@ -117,14 +119,14 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
             label,
             format!(
                 "a disc of radius {} after {}",
-                four(LENGTH, passage.radius),
+                four(Dimension::LENGTH, passage.radius),
                 mean_time(&passage.time, units)
             ),
         ));
     }
     let residence = &found.residence;
     let threshold = if residence.quantity == "speed" {
-        four(SPEED, residence.threshold)
+        four(Dimension::SPEED, residence.threshold)
     } else {
         format!(
             "{}{}",
@@ -151,7 +153,7 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
 const CHANCE: f64 = 1.5;
 
 fn diffusion(found: &Diffusion, units: &Shown) -> Vec<(&'static str, String)> {
-    let answer = |found: &Answer| answer_in(units, DIFFUSION, found);
+    let answer = |found: &Answer| answer_in(units, Dimension::DIFFUSION, found);
     let mut all = vec![
         ("", format!("coefficient {} (velocities: Green-Kubo)", answer(&found.green_kubo))),
         ("", format!("coefficient {} (displacements: slope)", answer(&found.displacements))),
@@ -160,7 +162,13 @@ fn diffusion(found: &Diffusion, units: &Shown) -> Vec<(&'static str, String)> {
         let agree = difference.value.abs() <= CHANCE * difference.half_width();
         let meaning =
             if agree { "they agree" } else { "sampled coarsely, or motion that is not in the velocity" };
-        ("", format!("velocities less displacements {}: {meaning}", value_in(units, DIFFUSION, difference)))
+        (
+            "",
+            format!(
+                "velocities less displacements {}: {meaning}",
+                value_in(units, Dimension::DIFFUSION, difference)
+            ),
+        )
     }));
     all
 }
@@ -170,9 +178,9 @@ fn oscillation(found: &Oscillation, units: &Shown) -> String {
         (Answer::Unknown { reason }, _) => reason.clone(),
         (frequency, decay) => format!(
             "{} cycles per {}, decays in {} (damped cosine; deviation {:.0} %)",
-            answer(&times(frequency, units.factor(RATE))),
-            plain(&units.name(TIME, "time")),
-            answer_in(units, TIME, decay),
+            answer(&times(frequency, units.factor(Dimension::RATE))),
+            plain(&units.name(Dimension::TIME, "time")),
+            answer_in(units, Dimension::TIME, decay),
             100.0 * found.deviation
         ),
     }
@@ -189,11 +197,8 @@ fn over(errors: Errors) -> String {
 
 fn mean_time(time: &MeanTime, units: &Shown) -> String {
     let censored = format!("{:.1} % of {} not watched to the end", 100.0 * time.censored, time.count);
-    format!("{}, {censored}", answer_in(units, TIME, &time.mean))
+    format!("{}, {censored}", answer_in(units, Dimension::TIME, &time.mean))
 }
-
-/// The dimension of a coefficient of diffusion.
-const DIFFUSION: Dimension = [2, -1];
 
 /// A space and the name of the unit, as a terminal shows it; nothing in model units.
 fn unit(units: &Shown, dimension: Dimension) -> String {

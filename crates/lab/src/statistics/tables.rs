@@ -1,7 +1,9 @@
 //! The statistics as tables.
 
-use motiform_statistics::{Autocorrelation, Histogram, Measured, PowerSpectrum, Quantity, Statistics, furth};
+use motiform_statistics::{Autocorrelation, Histogram, Measured, PowerSpectrum, Statistics, furth};
+use motiform_store::Quantity;
 use motiform_store::columns::{Column, Values};
+use motiform_store::quantity::statistic;
 
 /// A table and its name.
 pub struct Named {
@@ -24,17 +26,17 @@ pub fn tables(found: &Statistics) -> Vec<Named> {
     ]
 }
 
-fn number(name: &str, meaning: &'static str, values: impl Iterator<Item = f64>) -> Column {
-    Column::new(name, meaning, Values::Number(values.collect()))
+fn number(quantity: &Quantity, values: impl Iterator<Item = f64>) -> Column {
+    Column::of(quantity, Values::Number(values.collect()))
 }
 
-fn whole(name: &str, meaning: &'static str, values: impl Iterator<Item = usize>) -> Column {
+fn whole(quantity: &Quantity, values: impl Iterator<Item = usize>) -> Column {
     let values = values.map(|value| i64::try_from(value).unwrap_or(i64::MAX));
-    Column::new(name, meaning, Values::Whole(values.collect()))
+    Column::of(quantity, Values::Whole(values.collect()))
 }
 
-fn text(name: &str, meaning: &'static str, values: impl Iterator<Item = String>) -> Column {
-    Column::new(name, meaning, Values::Text(values.collect()))
+fn text(quantity: &Quantity, values: impl Iterator<Item = String>) -> Column {
+    Column::of(quantity, Values::Text(values.collect()))
 }
 
 fn msd(found: &Statistics) -> Vec<Column> {
@@ -44,15 +46,15 @@ fn msd(found: &Statistics) -> Vec<Column> {
     };
     let fit = points.iter().map(|p| found.walk.curve.map_or(f64::NAN, |[s, time]| furth(s, time, p.lag)));
     vec![
-        number("lag", "lag (model time)", points.iter().map(|p| p.lag)),
-        number("msd", "mean-square displacement (model length^2)", points.iter().map(|p| p.value.value)),
-        number("lower", "lower end of its 95 % interval", points.iter().map(|p| p.value.lower())),
-        number("upper", "upper end of its 95 % interval", points.iter().map(|p| p.value.upper())),
-        number("exponent", "d ln msd / d ln lag", exponent(|m| m.value)),
-        number("exponent_lower", "lower end of its 95 % interval", exponent(Measured::lower)),
-        number("exponent_upper", "upper end of its 95 % interval", exponent(Measured::upper)),
-        number("fit", "fitted persistent random walk (model length^2)", fit),
-        number("windows", "overlapping windows averaged", points.iter().map(|p| p.windows)),
+        number(&statistic::LAG, points.iter().map(|p| p.lag)),
+        number(&statistic::MSD, points.iter().map(|p| p.value.value)),
+        number(&statistic::LOWER, points.iter().map(|p| p.value.lower())),
+        number(&statistic::UPPER, points.iter().map(|p| p.value.upper())),
+        number(&statistic::EXPONENT, exponent(|m| m.value)),
+        number(&statistic::EXPONENT_LOWER, exponent(Measured::lower)),
+        number(&statistic::EXPONENT_UPPER, exponent(Measured::upper)),
+        number(&statistic::FIT, fit),
+        number(&statistic::WINDOWS, points.iter().map(|p| p.windows)),
     ]
 }
 
@@ -60,15 +62,11 @@ fn autocorrelations(all: &[Autocorrelation]) -> Vec<Column> {
     let rows = || all.iter().flat_map(|found| (0..found.lags.len()).map(move |place| (found, place)));
     let rho = |of: fn(&Measured) -> f64| rows().map(move |(found, place)| of(&found.correlation[place]));
     vec![
-        text(
-            "quantity",
-            "velocity, heading, speed, or a mode",
-            rows().map(|row| row.0.quantity.name().to_owned()),
-        ),
-        number("lag", "lag (model time)", rows().map(|(found, place)| found.lags[place])),
-        number("correlation", "C(lag)/C(0)", rho(|m| m.value)),
-        number("lower", "lower end of its 95 % interval", rho(Measured::lower)),
-        number("upper", "upper end of its 95 % interval", rho(Measured::upper)),
+        text(&statistic::QUANTITY, rows().map(|row| row.0.quantity.name().to_owned())),
+        number(&statistic::LAG, rows().map(|(found, place)| found.lags[place])),
+        number(&statistic::CORRELATION, rho(|m| m.value)),
+        number(&statistic::LOWER, rho(Measured::lower)),
+        number(&statistic::UPPER, rho(Measured::upper)),
     ]
 }
 
@@ -84,14 +82,14 @@ fn distributions(found: &Statistics) -> Vec<Column> {
         all.iter().flat_map(|(name, lag, histogram)| histogram.bins.iter().map(move |bin| (*name, *lag, bin)))
     };
     vec![
-        text("quantity", "speed or turning_angle", rows().map(|row| row.0.to_owned())),
-        number("lag", "lag of a turning angle (model time)", rows().map(|row| row.1)),
-        number("from", "lower edge of the bin (model units, rad)", rows().map(|row| row.2.from)),
-        number("to", "upper edge of the bin", rows().map(|row| row.2.to)),
-        whole("count", "samples in the bin", rows().map(|row| row.2.count)),
-        number("density", "probability density", rows().map(|row| row.2.density)),
-        number("lower", "lower end of its 95 % interval", rows().map(|row| row.2.lower)),
-        number("upper", "upper end of its 95 % interval", rows().map(|row| row.2.upper)),
+        text(&statistic::QUANTITY, rows().map(|row| row.0.to_owned())),
+        number(&statistic::LAG, rows().map(|row| row.1)),
+        number(&statistic::FROM, rows().map(|row| row.2.from)),
+        number(&statistic::TO, rows().map(|row| row.2.to)),
+        whole(&statistic::COUNT, rows().map(|row| row.2.count)),
+        number(&statistic::DENSITY, rows().map(|row| row.2.density)),
+        number(&statistic::LOWER, rows().map(|row| row.2.lower)),
+        number(&statistic::UPPER, rows().map(|row| row.2.upper)),
     ]
 }
 
@@ -100,17 +98,12 @@ fn spectra(all: &[PowerSpectrum]) -> Vec<Column> {
     let power = |factor: fn(&PowerSpectrum) -> f64| {
         rows().map(move |(found, place)| factor(found) * found.power[place])
     };
-    let name = |quantity: &Quantity| quantity.name().to_owned();
     vec![
-        text("quantity", "velocity, speed, or a mode", rows().map(|row| name(&row.0.quantity))),
-        number("frequency", "cycles per model time", rows().map(|(found, place)| found.frequencies[place])),
-        number(
-            "power",
-            "power spectral density (unit^2 x model time), summed over components",
-            power(|_| 1.0),
-        ),
-        number("lower", "lower end of its 95 % interval", power(|found| found.band[0])),
-        number("upper", "upper end of its 95 % interval", power(|found| found.band[1])),
+        text(&statistic::QUANTITY, rows().map(|row| row.0.quantity.name().to_owned())),
+        number(&statistic::FREQUENCY, rows().map(|(found, place)| found.frequencies[place])),
+        number(&statistic::POWER, power(|_| 1.0)),
+        number(&statistic::LOWER, power(|found| found.band[0])),
+        number(&statistic::UPPER, power(|found| found.band[1])),
     ]
 }
 
@@ -123,17 +116,13 @@ fn passages(found: &Statistics) -> Vec<Column> {
             .into_iter()
     };
     vec![
-        number("radius", "radius of the disc (model length)", all.iter().map(|p| p.radius)),
-        number("mean", "mean first-passage time (model time)", mean(|m| m.value)),
-        number("lower", "lower end of its 95 % interval", mean(Measured::lower)),
-        number("upper", "upper end of its 95 % interval", mean(Measured::upper)),
-        number("restricted", "mean of min(time, limit)", all.iter().map(|p| p.time.restricted.value)),
-        number("limit", "limit of the restricted mean (model time)", all.iter().map(|p| p.time.limit)),
-        number(
-            "censored",
-            "share of the starts that were not watched until they left",
-            all.iter().map(|p| p.time.censored),
-        ),
-        whole("starts", "starting times", all.iter().map(|p| p.time.count)),
+        number(&statistic::RADIUS, all.iter().map(|p| p.radius)),
+        number(&statistic::MEAN, mean(|m| m.value)),
+        number(&statistic::LOWER, mean(Measured::lower)),
+        number(&statistic::UPPER, mean(Measured::upper)),
+        number(&statistic::RESTRICTED, all.iter().map(|p| p.time.restricted.value)),
+        number(&statistic::LIMIT, all.iter().map(|p| p.time.limit)),
+        number(&statistic::CENSORED, all.iter().map(|p| p.time.censored)),
+        whole(&statistic::STARTS, all.iter().map(|p| p.time.count)),
     ]
 }

@@ -5,8 +5,8 @@ use super::parser::RESERVED;
 /// Columns of trajectories, other than the coordinates.
 const TRAJECTORY: [&str; 5] = ["t", "x", "y", "heading", "turning_rate"];
 
-/// Columns of scans.
-const SCAN: [&str; 19] = [
+/// Columns of scans and atlases.
+const SCAN: [&str; 21] = [
     "cell",
     "sample",
     "regime",
@@ -26,6 +26,8 @@ const SCAN: [&str; 19] = [
     "lambda_1_error",
     "escape_time",
     "time",
+    "rows",
+    "computed",
 ];
 
 /// Columns of branches, of sweeps beneath them, and of curves of special points.

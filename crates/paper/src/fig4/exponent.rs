@@ -7,6 +7,7 @@ use motiform_analysis::Estimate;
 use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_study::Error;
+use motiform_study::quantity::motion::LAMBDA_1;
 
 /// Values of kappa2.
 const FINE: [f64; 24] = [
@@ -97,7 +98,7 @@ fn picture(
              chaotic saddle (growth before the escape, over many runs)."
         )],
         x_label: "κ_2".to_owned(),
-        y_label: "*λ*_1".to_owned(),
+        y_label: LAMBDA_1.symbol.to_owned(),
         zero_line: true,
         ..Chart::default()
     }

@@ -43,10 +43,10 @@ impl Atlas {
     /// Follows the circle from the length 6, and what begins on its branch.
     pub(super) fn follow(context: &Context<'_>) -> Result<Self, Error> {
         let mut study = study(RANGE.0, MODES)?;
-        "Steady motions of the cell".clone_into(&mut study.title);
-        let end = context.choose(RANGE.1, QUICK);
+        context.choose("Motions of the cell", "Steady motions of the cell").clone_into(&mut study.title);
+        let (end, steady) = (context.choose(RANGE.1, QUICK), context.choose(false, true));
         let along = Along { name: "length".to_owned(), from: RANGE.0, to: end };
-        let stride = Stride { steady: true, direction: Towards::Up, ..Stride::default() };
+        let stride = Stride { steady, from_stable: !steady, direction: Towards::Up, ..Stride::default() };
         let settings = BranchSettings { branches: MOST, stride, ..BranchSettings::over(along) };
         let plan = BranchPlan::new(&study, &settings)?;
         let follow = || {

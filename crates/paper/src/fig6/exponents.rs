@@ -5,6 +5,7 @@ use super::lengths::{modes_for, study};
 use motiform_analysis::Estimate;
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, Measured};
 use motiform_study::Error;
+use motiform_study::quantity::motion::LAMBDA_1;
 
 /// Hundredths of the lengths.
 const FULL: [u32; 10] = [2120, 2130, 2140, 2150, 2160, 2170, 2180, 2185, 2190, 2200];
@@ -42,7 +43,7 @@ impl Exponents {
                 self.span
             )],
             x_label: "length *L*".to_owned(),
-            y_label: "*λ*_1".to_owned(),
+            y_label: LAMBDA_1.symbol.to_owned(),
             zero_line: true,
             ..Chart::default()
         }

@@ -9,6 +9,7 @@ use motiform_analysis::Regime;
 use motiform_figures::report::ReportFigure;
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_study::Error;
+use motiform_study::quantity::motion::SPEED_MEAN;
 
 /// The paper's windows.
 const WINDOWS: [(f64, f64, LineStyle); 3] =
@@ -76,14 +77,14 @@ fn speeds(context: &Context<'_>, lengths: &Lengths) -> Result<Drawn, Error> {
     let series = |regime: Regime| {
         let point = |(length, summary): &(f64, motiform_lab::scan::CellSummary)| {
             let motion = summary.motions.iter().find(|motion| motion.regime == regime)?;
-            Some(Measured { x: *length, y: motion.median("speed_mean")?, error: 0.0 })
+            Some(Measured { x: *length, y: motion.median(SPEED_MEAN.name)?, error: 0.0 })
         };
         let points: Vec<Measured> = lengths.0.iter().filter_map(point).collect();
         ErrorBarSeries { label: regime.name().to_owned(), points, joined: false }
     };
     let figure = Chart {
         x_label: "length *L*".to_owned(),
-        y_label: "mean speed".to_owned(),
+        y_label: SPEED_MEAN.symbol.to_owned(),
         logarithmic_y: true,
         ..Chart::default()
     }

@@ -146,7 +146,7 @@ def follow_branches(
     along: tuple[str, float, float],
     starts: tuple[str | None, str | None],
     counts: tuple[int, int],
-    steps: tuple[str, float | None, float | None, float | None, bool],
+    steps: tuple[str, float | None, float | None, float | None, tuple[bool, bool]],
     progress: _Progress = None,
 ) -> tuple[str, bytes, BaseException | None]: ...
 def make_atlas(

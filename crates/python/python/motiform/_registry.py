@@ -102,5 +102,5 @@ RUN_SETTINGS: tuple[str, ...] = tuple(_RAW["run_settings"])
 REGIMES: tuple[Regime, ...] = tuple(Regime(**raw) for raw in _RAW["regimes"])
 ATTRACTORS: tuple[str, ...] = tuple(_RAW["attractors"])
 COURSES: tuple[str, ...] = tuple(_RAW["courses"])
-NUMBERS: tuple[tuple[str, str], ...] = tuple((raw["name"], raw["meaning"]) for raw in _RAW["numbers"])
-"""The numbers of a scan's rows: name and meaning."""
+NUMBERS: tuple[tuple[str, str, str], ...] = tuple((raw["name"], raw["meaning"], raw["unit"]) for raw in _RAW["numbers"])
+"""The numbers of a scan's rows: name, meaning and unit."""

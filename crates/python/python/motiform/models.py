@@ -205,6 +205,7 @@ class Model(Described):
         first_step: float | None = None,
         tolerance: float | None = None,
         steady: bool = False,
+        from_stable: bool = False,
         branches: int = 8,
         points: int = 2000,
         initial: Mapping[str, float] | None = None,
@@ -226,7 +227,7 @@ class Model(Described):
         branches, ``"FILE.json:NUMBER"`` of ``motiform equilibria --json``, ``"DATASET:t=TIME"`` or ``"DATASET:ROW"``; a dataset alone starts from
         its last state. `direction` says to which sides the start is followed. `branch_step` (0.02) and `first_step` (0.005) are the longest
         and the first step, as parts of the range; Newton's method has converged with a step below `tolerance` (1e-9). With `steady` the
-        orbits that begin at Hopf points are not followed.
+        orbits that begin at Hopf points are not followed; with `from_stable` those alone that begin where a stable motion loses its stability.
 
         More: docs/continuation.md.
         """
@@ -239,7 +240,7 @@ class Model(Described):
                 (name, low, high),
                 (from_, None if start is None else os.fspath(start)),
                 (branches, points),
-                (direction, branch_step, first_step, tolerance, steady),
+                (direction, branch_step, first_step, tolerance, (steady, from_stable)),
                 bar.callable(),
             )
         text, table, raised = found

@@ -21,7 +21,6 @@ from .errors import Incomplete, Interrupted
 from .executors import gather
 from .models import Model
 from .progress import Bar, Progress
-from .trajectory import _unit
 
 Axes = Mapping[str, "str | npt.ArrayLike"]
 Path = str | os.PathLike[str]
@@ -179,8 +178,8 @@ def dataset(plan: _motiform.ScanPlan, arrays: _motiform.Arrays) -> xr.Dataset:
         "attractor": (dims, attractors.reshape(sizes), _flags("the kind of reduced attractor", ATTRACTORS)),
         "course": (dims, courses.reshape(sizes), _flags("sense of rotation, or direction to the field", COURSES)),
     }
-    for (name, meaning), values in zip(NUMBERS, numbers, strict=True):
-        variables[name] = (dims, values.reshape(sizes), {"long_name": meaning, "units": _unit(meaning)})
+    for (name, meaning, unit), values in zip(NUMBERS, numbers, strict=True):
+        variables[name] = (dims, values.reshape(sizes), {"long_name": meaning, "units": unit})
     if whys is not None:
         texts = np.array(whys, dtype=object).reshape(sizes)
         variables["why"] = (dims, texts, {"long_name": "the evidence in one sentence"})

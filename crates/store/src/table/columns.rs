@@ -7,6 +7,7 @@ pub use super::parquet_columns::{decode, encode, metadata};
 pub use crate::absent::{decode, encode, metadata};
 
 use super::csv::write_columns;
+use crate::Quantity;
 use std::borrow::Cow;
 
 /// A column of a table.
@@ -80,6 +81,18 @@ impl<V> Column<V> {
     #[must_use]
     pub fn new(name: &str, meaning: impl Into<Cow<'static, str>>, values: V) -> Self {
         Self { name: name.to_owned(), meaning: meaning.into(), values }
+    }
+
+    /// A column of a quantity, in the units of a model.
+    #[must_use]
+    pub fn of(quantity: &Quantity, values: V) -> Self {
+        Self::new(quantity.name, quantity.described(), values)
+    }
+
+    /// A column of a quantity, in the units of the data.
+    #[must_use]
+    pub fn of_data(quantity: &Quantity, values: V) -> Self {
+        Self::new(quantity.name, quantity.meaning, values)
     }
 }
 

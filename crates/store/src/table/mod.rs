@@ -19,7 +19,7 @@ pub use columns::Column;
 pub use file::{GROUP_ROWS, TableWriter, read_columns, read_groups, read_table, write_table};
 pub use format::Format;
 
-use crate::Error;
+use crate::{Error, Quantity};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -42,6 +42,13 @@ pub struct Table {
 }
 
 impl Table {
+    /// The columns of these quantities.
+    #[must_use]
+    pub fn of(quantities: &[&Quantity], values: Vec<Vec<f64>>) -> Self {
+        let columns = quantities.iter().zip(values).map(|(quantity, values)| Column::of(quantity, values));
+        Self { columns: columns.collect() }
+    }
+
     /// Appends a column.
     pub fn push(&mut self, name: &str, meaning: impl Into<Cow<'static, str>>, values: Vec<f64>) {
         self.columns.push(Column::new(name, meaning, values));

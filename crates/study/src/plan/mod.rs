@@ -51,7 +51,7 @@ pub trait Question: Clone + PartialEq + Debug + Serialize + DeserializeOwned {
     }
 }
 
-/// What will be computed, its name and its title.
+/// A computation, its name and its title.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound = "")]
 pub struct Plan<C: Question = Computation> {

@@ -90,7 +90,8 @@ impl RunPlan {
     /// [`Error::Setting`].
     pub fn check_in_memory(&self) -> Result<(), Error> {
         let Computation { t_end, dt_out, .. } = self.computation;
-        let remedy = "this gives more than 20 million rows, too many for memory: give a longer time, or write the run with `motiform simulate`";
+        let remedy = "this gives more than 20 million rows, too many for memory: give a longer time, \
+                      or write the run with `motiform simulate`";
         check("dt_out", dt_out, t_end / dt_out <= MOST_IN_MEMORY, remedy)
     }
 

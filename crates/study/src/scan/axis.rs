@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Maximum number of values of one axis.
 const MOST_VALUES: usize = 100_000;
 
-/// What a scan varies, with its values in the order of the cells.
+/// A parameter or coordinate that a scan varies, with its values in the order of the cells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// The parameter, or the coordinate of the initial shape (for a map of basins).
@@ -38,7 +38,7 @@ impl Axis {
         Ok(axis)
     }
 
-    /// Whether it varies the start, and not a parameter: a coordinate of the shape of the model with these parameters.
+    /// Returns `true` if it varies the start, and not a parameter: a coordinate of the shape of the model with these parameters.
     ///
     /// # Errors
     /// A name that is neither, with the nearest parameter.

@@ -22,7 +22,7 @@ impl Shard {
         let read = || {
             let (index, of) = text.split_once('/')?;
             let (index, of): (usize, usize) = (index.trim().parse().ok()?, of.trim().parse().ok()?);
-            (1..=of).contains(&index).then_some(Self { index: index - 1, of })
+            (1..=of).contains(&index).then(|| Self { index: index - 1, of })
         };
         read().ok_or_else(|| Error::Setting {
             key: "shard",
@@ -31,7 +31,7 @@ impl Shard {
         })
     }
 
-    /// Whether a part belongs to it.
+    /// Returns `true` if a part belongs to it.
     #[must_use]
     pub fn holds(self, part: usize) -> bool {
         part % self.of == self.index

@@ -43,7 +43,7 @@ impl ScanPlan {
         Ok(shape)
     }
 
-    /// Whether sample 0 is drawn at random: nothing is given of it, and no axis varies the start.
+    /// Returns `true` if sample 0 is drawn at random: nothing is given of it, and no axis varies the start.
     ///
     /// # Errors
     /// An unknown model.
@@ -51,7 +51,7 @@ impl ScanPlan {
         Ok(self.computation.initial.is_empty() && !self.varies_start()?)
     }
 
-    /// Whether an axis is a coordinate of the start: the scan is a map of basins.
+    /// Returns `true` if an axis is a coordinate of the start: the scan is a map of basins.
     ///
     /// # Errors
     /// An unknown model.

@@ -35,7 +35,7 @@ pub(crate) const ORDINARY: Settings = Settings {
     max_steps: 100_000_000,
 };
 
-/// How a model's motions are named by default.
+/// The default settings by which a model's motions are named.
 pub(crate) fn settings(model: &str) -> Settings {
     let info = ModelInfo::find(model).unwrap();
     let (rtol, atol) = (info.rtol, info.absolute_tolerance(info.rtol));
@@ -93,7 +93,7 @@ impl Random {
     }
 }
 
-/// Whether `actual` lies within `tolerance` of `expected`.
+/// Asserts that `actual` lies within `tolerance` of `expected`.
 pub(crate) fn near(actual: f64, expected: f64, tolerance: f64) {
     assert!((actual - expected).abs() <= tolerance, "{actual} is not {expected} +- {tolerance}");
 }

@@ -17,10 +17,11 @@ const STARTS: usize = 150;
 /// Longest step of the oracle, and the shorter ones with which it looks again where it disagrees.
 const STEPS: [f64; 2] = [2e-3, 2e-4];
 
-/// Largest difference of the same point: in the parameter, 1e-6 of the range, and in the state, whose error near a pitchfork is the root of that.
+/// Largest difference of the same point: in the parameter, 1e-6 of the range, and in the state, whose error near a pitchfork is the root of
+/// that.
 pub(super) const SAME: [f64; 2] = [2e-6, 5e-3];
 
-/// What was compared, and what was wrong.
+/// Comparisons, and those that failed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tally {
     pub(super) branches: usize,

@@ -21,17 +21,17 @@ pub(super) const LARGEST: f64 = 30.0;
 struct Place {
     x: DVector<f64>,
     tangent: DVector<f64>,
-    /// How many eigenvalues of deviations that keep the symmetry, and of others, have positive real parts; whether the parameter grows.
+    /// Numbers of eigenvalues with positive real parts, of deviations that keep the symmetry and of others; 1 where the parameter grows.
     signs: [usize; 3],
 }
 
-/// What is found on one side of the start.
+/// The points on one side of the start.
 #[derive(Debug, Default)]
 pub(super) struct Side {
     pub(super) events: Vec<Event>,
     /// Parameters and invariants on the way.
     pub(super) passed: Vec<(f64, Vec<f64>)>,
-    /// Whether the curve came back to its start.
+    /// `true` if the curve came back to its start.
     pub(super) closed: bool,
     /// Why the curve ends, for messages.
     pub(super) end: &'static str,

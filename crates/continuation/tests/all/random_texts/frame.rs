@@ -3,12 +3,12 @@
 use super::text::Text;
 use nalgebra::{DMatrix, DVector, Schur};
 
-/// What all motions of a branch have in common.
+/// The symmetry that all motions of a branch have in common.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Frame {
     /// Order of the rotations that leave the shapes unchanged; 0 for a circle.
     pub(super) folds: u32,
-    /// Whether all amplitudes are real.
+    /// `true` if all amplitudes are real.
     pub(super) mirror: bool,
     /// The coordinates that may be other than 0.
     pub(super) kept: Vec<usize>,
@@ -52,7 +52,7 @@ impl Steady<'_> {
         self.frame.kept.len() + 2
     }
 
-    /// Whether omega is an unknown.
+    /// Returns `true` if omega is an unknown.
     fn turns(&self) -> bool {
         self.text.rotates() && !self.frame.mirror && self.frame.folds > 0
     }
@@ -153,8 +153,8 @@ pub(super) fn complement(places: &[usize], along: &[DVector<f64>]) -> DMatrix<f6
     DMatrix::from_fn(dim, all.len() - neutral, |i, j| all[neutral + j][i])
 }
 
-/// Eigenvalues `(re, im)`. (Shifted by the matrix's size: what couples entries of 0 is then small beside them. The method may stall: then the
-/// same matrix in other coordinates is tried.)
+/// Eigenvalues `(re, im)`. (Shifted by the matrix's size: what couples entries of 0 is then small beside them. The method may stall: then
+/// the same matrix in other coordinates is tried.)
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<(f64, f64)> {
     spectrum(matrix).expect("eigenvalues")
 }

@@ -2,7 +2,8 @@
 //!
 //! The oracle shares nothing with the program: it multiplies the terms out by itself, finds all steady motions by Newton's method
 //! from random states, walks along their curves in small steps of one length, and halves the steps on which the number of
-//! growing deviations changes. `MOTIFORM_RANDOM_TEXTS=200` asks for so many texts, `MOTIFORM_RANDOM_FIRST=100` for those from that number on.
+//! growing deviations changes. `MOTIFORM_RANDOM_TEXTS=200` asks for so many texts, `MOTIFORM_RANDOM_FIRST=100` for those from that number
+//! on.
 
 mod compare;
 mod curve;
@@ -19,15 +20,19 @@ use text::text;
 /// Texts that are tried without being asked for more.
 const TEXTS: u64 = 40;
 
-/// Texts on which the program was wrong: an exactly singular crossing was left unresolved (29); a pitchfork was listed twice where a shape gains five axes (120, 140,
-/// 195) or beside the end of a branch (295); two Hopf bifurcations within one step were missed (146, 166), or three that change places (296); a crossing at a small angle was
-/// 4e-5 off (158); steps led over a gap to another branch (17, 58, 147); two steady changes (97), or a steady one and a Hopf bifurcation (67), within one step were missed, also
-/// at its end (440); where a branch passes a shape of more symmetry it ended at no other of its points (335); a step led to a branch that comes within its bend, 7e-5 (123); near
-/// a shape of more symmetry the sign of a growth within its error was taken for a pitchfork (420); a crossing was listed twice, at two lengths (388).
+/// Texts on which the program was wrong: an exactly singular crossing was left unresolved (29); a pitchfork was listed twice where a shape
+/// gains five axes (120, 140,
+/// 195) or beside the end of a branch (295); two Hopf bifurcations within one step were missed (146, 166), or three that change places
+/// (296); a crossing at a small angle was
+/// 4e-5 off (158); steps led over a gap to another branch (17, 58, 147); two steady changes (97), or a steady one and a Hopf bifurcation
+/// (67), within one step were missed, also at its end (440); where a branch passes a shape of more symmetry it ended at no other of its
+/// points (335); a step led to a branch that comes within its bend, 7e-5 (123); near a shape of more symmetry the sign of a growth within
+/// its error was taken for a pitchfork (420); a crossing was listed twice, at two lengths (388).
 const ONCE_WRONG: [u64; 19] =
     [17, 29, 58, 67, 97, 120, 123, 140, 146, 147, 158, 166, 195, 295, 296, 335, 388, 420, 440];
 
-/// The same for branches of orbits: where a Hopf bifurcation breaks rotations of a shape the orbit was followed over a multiple of its period.
+/// The same for branches of orbits: where a Hopf bifurcation breaks rotations of a shape the orbit was followed over a multiple of its
+/// period.
 const ONCE_WRONG_ORBITS: [u64; 1] = [31];
 
 fn seeds(usual: std::ops::Range<u64>) -> std::ops::Range<u64> {

@@ -17,7 +17,8 @@ const PARTS: usize = 3;
 /// Largest multiplier up to which single shooting is trusted, and the longest time.
 const LIMITS: [f64; 2] = [1e4, 60.0];
 
-/// Part by which the period of the first orbit differs from that at its Hopf bifurcation; one that is over a rotation's part of it differs by a factor.
+/// Part by which the period of the first orbit differs from that at its Hopf bifurcation; one that is over a rotation's part of it differs
+/// by a factor.
 const BEGINS: f64 = 0.25;
 
 /// A special point: its kind and its parameter.

@@ -32,7 +32,7 @@ impl Orbit {
         self.tangent[self.x.len() - 1]
     }
 
-    /// How many multipliers of a kind lie outside of the unit circle; whether the parameter grows.
+    /// Number of multipliers of a kind outside of the unit circle; for the last kind 1 where the parameter grows.
     pub(super) fn sign(&self, space: usize) -> usize {
         if space == 2 {
             return usize::from(self.slope() > 0.0);
@@ -71,7 +71,7 @@ pub(super) fn flow(
 }
 
 impl Shooting<'_> {
-    /// Whether the angle is an unknown.
+    /// Returns `true` if the angle is an unknown.
     pub(super) fn turns(&self) -> bool {
         self.text.rotates() && !self.mirrored && !self.frame.mirror
     }
@@ -173,7 +173,7 @@ impl Shooting<'_> {
         Some([of(true)?, of(false)?])
     }
 
-    /// Whether the orbit is its own image, turned or mirrored, after half of its time.
+    /// The symmetry by which the orbit is its own image, turned or mirrored, after half of its time.
     pub(super) fn half(&self, x: &DVector<f64>) -> Option<&'static str> {
         let (u, n) = (self.state(x), self.frame.kept.len());
         let half = flow(self.text, &u, 0.5 * x[n], x[x.len() - 1]).0;

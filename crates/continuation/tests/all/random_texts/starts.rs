@@ -40,8 +40,8 @@ pub(super) fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Whether the motion has no neighbours at the same value of the parameter but its own images. (Terms that are missing by chance may leave a
-/// symmetry that the text does not name.)
+/// Returns `true` if the motion has no neighbours at the same value of the parameter but its own images. (Terms that are missing by chance
+/// may leave a symmetry that the text does not name.)
 fn is_alone(text: &Text, (u, omega): &Found, p: f64) -> bool {
     let dim = text.dim();
     let mut all = DMatrix::zeros(dim, dim + 1);

@@ -88,7 +88,7 @@ impl Text {
         self.symmetry.ends_with("mirror")
     }
 
-    /// What a user would type.
+    /// The definition that a user would type.
     pub(super) fn definition(&self) -> Definition {
         let sum = |terms: &Vec<Term>| {
             terms.iter().map(|term| term.text(&self.modes)).collect::<Vec<String>>().join(" + ")
@@ -168,7 +168,7 @@ impl Text {
         out
     }
 
-    /// What neither rotations nor the mirror change, if they are symmetries.
+    /// The invariants of rotations and the mirror, if they are symmetries.
     pub(super) fn invariants(&self, u: &DVector<f64>) -> Vec<f64> {
         if self.rotates() {
             return (0..self.modes.len()).map(|k| u[2 * k].hypot(u[2 * k + 1])).collect();
@@ -195,7 +195,7 @@ fn complex(random: &mut Random, size: f64, handed: bool) -> Complex<f64> {
     Complex::new(size * random.next(), if handed { size * random.next() } else { 0.0 })
 }
 
-/// What grows or decays with the parameter, and what confines it.
+/// The terms that grow or decay with the parameter, and those that confine them.
 fn own(random: &mut Random, k: usize, count: usize, handed: bool) -> Vec<Term> {
     let mut linear = Term::new(complex(random, 0.7, handed), &[Factor::Z(k)]);
     linear.slope = Complex::new(random.next(), if handed { 0.3 * random.next() } else { 0.0 });

@@ -47,7 +47,7 @@ const ORBITS: usize = 60;
 /// The same point, in the parameter and in the period.
 const SAME: [f64; 2] = [2e-7, 1e-5];
 
-/// What is found on the branches of a text, from the motion `u` at `p`.
+/// The points on the branches of a text, from the motion `u` at `p`.
 pub(super) fn points(text: &Text, u: &[f64], p: f64, larger: Larger) -> Vec<Vec<Found>> {
     let (text, u) = (text.in_units(larger), u.iter().map(|x| x * larger.length).collect::<Vec<f64>>());
     let (family, p) = (text.family(), p * larger.parameter);

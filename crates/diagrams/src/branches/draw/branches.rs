@@ -4,14 +4,14 @@ use crate::branches::family::Bodies;
 use crate::branches::result::Leg;
 use crate::branches::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
-use motiform_continuation::{End, Joins, Special};
+use motiform_continuation::{End, Special};
 use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Chart, Glyph};
 use motiform_lab::draw::{Figures, words};
 use motiform_study::plan::Named;
-use motiform_study::units::{RATE, SPEED, TIME};
-use motiform_study::{BranchPlan, Dimension, Error, Shown};
+use motiform_study::quantity::motion;
+use motiform_study::{BranchPlan, Error, Quantity, Shown};
 
-/// What a diagram shows against the parameter.
+/// The quantity of a diagram against the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ordinate {
     /// Mean speed.
@@ -31,33 +31,13 @@ pub enum Ordinate {
 }
 
 impl Ordinate {
-    fn label(self) -> &'static str {
+    const fn quantity(self) -> &'static Quantity {
         match self {
-            Self::Speed => "mean speed",
-            Self::TurningRate | Self::SignedTurningRate => "mean turning rate",
-            Self::Size => "largest size |*u*| of the shape",
-            Self::NetRotation | Self::SignedNetRotation => "net rotation per period (rad)",
-            Self::Period => "period",
-        }
-    }
-
-    /// Its dimension; none of a size, which is that of velocity and deformations together.
-    const fn dimension(self) -> Option<Dimension> {
-        match self {
-            Self::Speed => Some(SPEED),
-            Self::TurningRate | Self::SignedTurningRate => Some(RATE),
-            Self::Period => Some(TIME),
-            Self::NetRotation | Self::SignedNetRotation => Some([0, 0]),
-            Self::Size => None,
-        }
-    }
-
-    /// The label of its axis in these units.
-    fn label_in(self, units: &Shown) -> String {
-        match self.dimension() {
-            Some(dimension) => units.label(self.label(), dimension),
-            None if units.is_physical() => format!("{} (model units)", self.label()),
-            None => self.label().to_owned(),
+            Self::Speed => &motion::SPEED,
+            Self::TurningRate | Self::SignedTurningRate => &motion::TURNING_RATE,
+            Self::Size => &motion::SIZE,
+            Self::NetRotation | Self::SignedNetRotation => &motion::NET_ROTATION,
+            Self::Period => &motion::PERIOD,
         }
     }
 
@@ -70,7 +50,7 @@ impl Ordinate {
         }
     }
 
-    /// What a simulation shows; nothing where the two would not be comparable.
+    /// Its value in a simulation; nothing where the two would not be comparable.
     fn sampled(self, point: &SweepPoint) -> Option<f64> {
         match self {
             Self::Speed => point.speed.map(|speed| speed[0]),
@@ -147,11 +127,11 @@ fn diagram_in(
         title: plan.title(),
         caption: caption(plan, found, (mirror, ordinate), units)?,
         x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
-        y_label: ordinate.label_in(units),
+        y_label: units.axis(ordinate.quantity()),
         logarithmic_y: ordinate == Ordinate::Period,
         ..Chart::default()
     };
-    let factor = ordinate.dimension().map_or(1.0, |dimension| units.factor(dimension));
+    let factor = units.factor(ordinate.quantity().dimension);
     Ok(chart.with(Some(diagram).filter(|diagram| !diagram.parts.is_empty())).scaled([1.0, factor]))
 }
 
@@ -284,8 +264,8 @@ fn parts(followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
     all
 }
 
-/// The connection at which a leg ends. There the orbit is at its saddle for all but a vanishing part of the time, so that means over time are
-/// those of the saddle; a period that is infinite is marked at the last one computed.
+/// The connection at which a leg ends. There the orbit is at its saddle for all but a vanishing part of the time, so that means over time
+/// are those of the saddle; a period that is infinite is marked at the last one computed.
 fn connection(leg: &Leg, ordinate: Ordinate) -> Option<[f64; 2]> {
     let End::Homoclinic(connection) = &leg.end else { return None };
     let last = ordinate.read(leg.samples.last()?)?;
@@ -313,8 +293,8 @@ fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
             all.push(BranchMark { label: label.to_owned(), glyph, at: [sample.point.parameter, y] });
         }
         if let (Some(at), End::Homoclinic(end)) = (connection(leg, ordinate), &leg.end) {
-            let glyph = if end.joins == Joins::Itself { Glyph::Cross } else { Glyph::Zigzag };
-            all.push(BranchMark { label: end.joins.kind().to_owned(), glyph, at });
+            let glyph = if end.name() == "homoclinic" { Glyph::Cross } else { Glyph::Zigzag };
+            all.push(BranchMark { label: end.name().to_owned(), glyph, at });
         }
     }
     all

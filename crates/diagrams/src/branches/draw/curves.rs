@@ -143,7 +143,7 @@ fn regimes(plan: &CurvePlan, folder: &ScanFolder) -> Result<(usize, PhaseDiagram
     Ok((scan.computation.samples, diagram))
 }
 
-/// Whether a scan is one of the same body over the same plane.
+/// Returns `true` if a scan is one of the same body over the same plane.
 ///
 /// # Errors
 /// [`Error::Plane`].

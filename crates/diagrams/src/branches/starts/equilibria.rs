@@ -6,7 +6,7 @@ use motiform_study::plan::Named;
 use motiform_study::{Error, Given, input};
 use serde::Deserialize;
 
-/// What is read of the output of `motiform equilibria --json`.
+/// The part of the output of `motiform equilibria --json` that is read.
 #[derive(Deserialize)]
 struct List {
     model: ModelName,

@@ -30,7 +30,7 @@ pub struct StartPoint {
     pub parameters: Named,
     /// The shape in the model's coordinates.
     pub state: Named,
-    /// What it is.
+    /// Its kind.
     pub given: Given,
 }
 
@@ -139,11 +139,11 @@ impl StartPoint {
 /// Files of a folder of branches, which stand for the folder.
 const OURS: [&str; 4] = ["points", "branches", "summary", "manifest"];
 
-/// What can be a start.
+/// The remedy of errors: the files that can be a start.
 const KINDS: &str = "give a folder of `motiform continue`, the output of `motiform equilibria --json`, or a dataset of \
                      `motiform simulate`";
 
-/// Whether a motion of one model is one of the other: defaults of parameters and how they are shown do not matter.
+/// Returns `true` if a motion of one model is one of the other: defaults and display of parameters do not matter.
 fn is_same(one: &ModelName, other: &ModelName) -> bool {
     let (Some(a), Some(b)) = (one.definition(), other.definition()) else { return one == other };
     let plain = |definition: &Definition| {

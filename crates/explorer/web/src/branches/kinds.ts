@@ -17,6 +17,7 @@ const KINDS: Record<string, Kind> = {
   torus: { label: "torus", glyph: "Ring", meaning: "A second frequency begins: a pair of complex multipliers crosses the unit circle." },
   unresolved: { label: "not located", glyph: "Question", meaning: "Something changes between two points of the branch and could not be located." },
   homoclinic: { label: "homoclinic", glyph: "Cross", meaning: "The period becomes infinite: the orbit comes ever closer to an unstable steady motion, and leaves it again." },
+  connection: { label: "connection", glyph: "Zigzag", meaning: "The period becomes infinite: the orbit comes ever closer to unstable steady motions. It is not seen how these are related." },
   heteroclinic: { label: "heteroclinic", glyph: "Zigzag", meaning: "The period becomes infinite: the orbit comes ever closer to two or more unstable steady motions, one after the other." },
 };
 

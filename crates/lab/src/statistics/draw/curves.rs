@@ -1,13 +1,16 @@
 //! Autocorrelations, distributions and spectra.
 
 use super::displacement::point;
-use super::units::{density, in_units, in_words};
+use super::units::{in_words, with_axes};
 use super::{caption, title};
 use crate::statistics::{Measurement, Result};
 use motiform_figures::{BandCurve, BandPoint, Chart, ExpectedLine, Figure, LineStyle};
-use motiform_statistics::{Autocorrelation, Histogram, Quantity};
-use motiform_study::Shown;
-use motiform_study::units::{RATE, SPEED, TIME};
+use motiform_statistics::{Autocorrelation, Histogram, Quantity as Of};
+use motiform_study::quantity::state::SPEED;
+use motiform_study::quantity::statistic::{
+    CORRELATION, DENSITY, FREQUENCY, LAG, PER_DEGREE, POWER, TURNING_ANGLE,
+};
+use motiform_study::{Dimension, Quantity, Shown};
 use std::f64::consts::{PI, TAU};
 
 /// Lags are drawn up to this many of the longest correlation time.
@@ -25,12 +28,12 @@ const RATIO: f64 = 1.01;
 /// Most curves of a figure.
 const CURVES: usize = 6;
 
-fn symbol(quantity: &Quantity) -> String {
+fn symbol(quantity: &Of) -> String {
     match quantity {
-        Quantity::Velocity => "velocity ***v***".to_owned(),
-        Quantity::Heading => "heading ***v***/|***v***|".to_owned(),
-        Quantity::Speed => "speed |***v***|".to_owned(),
-        Quantity::Mode(_, name) => match name.strip_prefix("mode") {
+        Of::Velocity => "velocity ***v***".to_owned(),
+        Of::Heading => "heading ***v***/|***v***|".to_owned(),
+        Of::Speed => SPEED.symbol.to_owned(),
+        Of::Mode(_, name) => match name.strip_prefix("mode") {
             Some(number) => format!("mode {number}"),
             None => format!("mode *{}*", name.replace('_', ", ")),
         },
@@ -53,14 +56,12 @@ pub(super) fn autocorrelations(measurement: &Measurement, units: &Shown) -> Resu
     let figure = Chart {
         title: title(measurement, "autocorrelations"),
         caption: caption(measurement, units, "bands", &[])?,
-        x_label: "lag *τ*".to_owned(),
-        y_label: "*C*(*τ*)/*C*(0)".to_owned(),
         zero_line: true,
         logarithmic_x,
         ..Chart::default()
     }
     .with(varying.iter().take(CURVES).map(curve));
-    Ok(in_units(figure, [TIME, [0, 0]], units))
+    Ok(with_axes(figure, [&LAG, &CORRELATION], units))
 }
 
 /// At most so many points, evenly spaced along the axis.
@@ -119,28 +120,25 @@ pub(super) fn speeds(measurement: &Measurement, units: &Shown) -> Result<Option<
     let figure = Chart {
         title: title(measurement, "distribution of the speed"),
         caption: caption(measurement, units, "bands", &[&worth])?,
-        x_label: "speed |***v***|".to_owned(),
-        y_label: "probability density".to_owned(),
         zero_line: true,
         ..Chart::default()
     }
     .with([BandCurve { label: "measured".to_owned(), points: stairs(speeds, 1.0) }]);
-    Ok(in_units(figure, [SPEED, density(SPEED)], units))
+    let density = Quantity { dimension: SPEED.dimension.inverse(), ..DENSITY };
+    Ok(with_axes(figure, [&SPEED, &density], units))
 }
 
 /// The distributions of turning angles, in degrees.
 pub(super) fn turning(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let moving = measurement.statistics.turning.iter().filter(|turning| turning.angles.samples > 0);
     let curve = |turning: &motiform_statistics::Turning| BandCurve {
-        label: format!("*τ* = {}", in_words(units, TIME, turning.lag)),
+        label: format!("*τ* = {}", in_words(units, Dimension::TIME, turning.lag)),
         points: stairs(&turning.angles, PI / 180.0),
     };
     let level = PI / 180.0 / TAU;
     let figure = Chart {
         title: title(measurement, "turning angles between displacements of lag *τ*"),
         caption: caption(measurement, units, "bands", &[])?,
-        x_label: "turning angle (degrees)".to_owned(),
-        y_label: "probability density (per degree)".to_owned(),
         zero_line: true,
         ..Chart::default()
     }
@@ -150,7 +148,7 @@ pub(super) fn turning(measurement: &Measurement, units: &Shown) -> Result<Option
         style: LineStyle::Dotted,
         points: vec![[-180.0, level], [180.0, level]],
     }]);
-    Ok(in_units(figure, [[0, 0]; 2], units))
+    Ok(with_axes(figure, [&TURNING_ANGLE, &PER_DEGREE], units))
 }
 
 /// Power spectra with their bands.
@@ -172,16 +170,13 @@ pub(super) fn spectra(measurement: &Measurement, units: &Shown) -> Result<Option
     if let Some(line) = caption.get_mut(1) {
         *line = line.replace("; bands: 95 % intervals over bodies", "");
     }
-    let unit = if units.is_physical() { " (model units)" } else { "" };
     let figure = Chart {
         title: title(measurement, "power spectra"),
         caption,
-        x_label: "frequency".to_owned(),
-        y_label: format!("power spectral density{unit}"), // of quantities of several dimensions
         logarithmic_x: true,
         logarithmic_y: true,
         ..Chart::default()
     }
     .with(found.iter().map(curve).filter(|curve| !curve.points.is_empty()).take(CURVES));
-    Ok(in_units(figure, [RATE, [0, 0]], units))
+    Ok(with_axes(figure, [&FREQUENCY, &POWER], units))
 }

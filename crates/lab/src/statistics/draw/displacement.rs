@@ -1,6 +1,6 @@
 //! Displacements: mean square, its exponent, first-passage times.
 
-use super::units::{SQUARE, in_units, in_words};
+use super::units::{in_words, with_axes};
 use super::{caption, title};
 use crate::statistics::summary::value_in;
 use crate::statistics::{Measurement, Result};
@@ -8,8 +8,8 @@ use motiform_figures::{
     BandCurve, BandPoint, Chart, ErrorBarSeries, ExpectedLine, Figure, Interval, LineStyle, Measured as Point,
 };
 use motiform_statistics::{Measured, furth};
-use motiform_study::Shown;
-use motiform_study::units::{LENGTH, TIME};
+use motiform_study::quantity::statistic::{EXPONENT, LAG, MEAN, MSD, RADIUS};
+use motiform_study::{Dimension, Shown};
 
 /// Points of a line.
 const POINTS: usize = 200;
@@ -48,8 +48,6 @@ pub(super) fn displacements(measurement: &Measurement, units: &Shown) -> Result<
     let figure = Chart {
         title: title(measurement, "mean-square displacement"),
         caption: caption(measurement, units, "bars", &note.iter().map(String::as_str).collect::<Vec<_>>())?,
-        x_label: "lag *τ*".to_owned(),
-        y_label: "⟨|***r***(*t*+*τ*) − ***r***(*t*)|^2⟩".to_owned(),
         logarithmic_x: true,
         logarithmic_y: true,
         ..Chart::default()
@@ -57,7 +55,7 @@ pub(super) fn displacements(measurement: &Measurement, units: &Shown) -> Result<
     .with(lines)
     .with([intervals.collect::<Vec<_>>()])
     .with([measured(shown.iter().map(|p| (p.x, p.y)))]);
-    Ok(in_units(figure, [TIME, SQUARE], units))
+    Ok(with_axes(figure, [&LAG, &MSD], units))
 }
 
 /// Values whose intervals are drawn by themselves.
@@ -96,7 +94,7 @@ fn lines(measurement: &Measurement, points: &[BandPoint], units: &Shown) -> Vec<
     if let Some(persistence) = walk.persistence.known() {
         let ends = points.iter().filter(|p| p.y > 0.0).map(|p| p.y);
         let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
-        let label = format!("crossover 2*P*, *P* = {}", value_in(units, TIME, &persistence));
+        let label = format!("crossover 2*P*, *P* = {}", value_in(units, Dimension::TIME, &persistence));
         let crossover = 2.0 * persistence.value; // S^2 t^2 = 4 D t
         let points = vec![[crossover, 0.1 * low], [crossover, 10.0 * high]];
         lines.push(ExpectedLine { label, style: LineStyle::DashDotted, points });
@@ -118,7 +116,7 @@ fn diffusive(measurement: &Measurement, (first, last): (f64, f64), units: &Shown
     let label = format!(
         "diffusive: 4*D*(*τ* {} {})",
         if intercept < 0.0 { "−" } else { "+" },
-        in_words(units, TIME, (intercept / slope).abs())
+        in_words(units, Dimension::TIME, (intercept / slope).abs())
     );
     Some(ExpectedLine { label, style: LineStyle::Dotted, points: points.collect() })
 }
@@ -142,15 +140,13 @@ pub(super) fn exponents(measurement: &Measurement, units: &Shown) -> Result<Opti
     let figure = Chart {
         title: title(measurement, "exponent of the mean-square displacement"),
         caption: caption(measurement, units, "bands", &[])?,
-        x_label: "lag *τ*".to_owned(),
-        y_label: "d ln MSD / d ln *τ*".to_owned(),
         zero_line: true,
         logarithmic_x: true,
         ..Chart::default()
     }
     .with([BandCurve { label: "measured".to_owned(), points }])
     .with(lines);
-    Ok(in_units(figure, [TIME, [0, 0]], units))
+    Ok(with_axes(figure, [&LAG, &EXPONENT], units))
 }
 
 /// Mean first-passage times against the radius.
@@ -180,8 +176,6 @@ pub(super) fn passages(measurement: &Measurement, units: &Shown) -> Result<Optio
     let figure = Chart {
         title: title(measurement, "mean first-passage time out of a disc"),
         caption: caption(measurement, units, "bars", &more)?,
-        x_label: "radius *r*".to_owned(),
-        y_label: "mean first-passage time".to_owned(),
         logarithmic_x: true,
         logarithmic_y: true,
         ..Chart::default()
@@ -189,5 +183,5 @@ pub(super) fn passages(measurement: &Measurement, units: &Shown) -> Result<Optio
     .with(lines)
     .with([known.iter().filter_map(interval).collect::<Vec<_>>()])
     .with([measured(known.iter().map(|(x, m)| (*x, m.value)))]);
-    Ok(in_units(figure, [LENGTH, TIME], units))
+    Ok(with_axes(figure, [&RADIUS, &MEAN], units))
 }

@@ -108,7 +108,7 @@ fn numbers_change_only_with_the_format() {
     assert!(all.iter().all(|row| none(row) && row.course.is_none()));
     let numbers = |row: &Row| {
         let pairs = NUMBERS.iter().zip(row.numbers);
-        pairs.filter(|(known, _)| !NONE.contains(&known.0)).map(|pair| pair.1).collect::<Vec<f64>>()
+        pairs.filter(|(known, _)| !NONE.contains(&known.name)).map(|pair| pair.1).collect::<Vec<f64>>()
     };
     let digest = all.iter().flat_map(numbers).flat_map(|x| x.to_bits().to_le_bytes());
     let digest = digest.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
