@@ -8,7 +8,7 @@ use motiform_inference::Fit;
 use serde::{Deserialize, Serialize};
 
 /// Step of the noise, in natural times.
-const STEP: f64 = 0.125;
+pub(crate) const STEP: f64 = 0.125;
 /// Time that is looked at, in natural times; the first half is left to transients.
 const TIME: f64 = 100.0;
 /// A speed larger than this, in natural units, has left all bounds.
@@ -58,34 +58,51 @@ impl Driven {
 pub(crate) fn driven_share(fit: &Fit, (values, start): (&[f64], &[f64]), seed: u64) -> Option<f64> {
     let model = model(fit, values)?;
     let noise = noise(fit, model.as_ref(), STEP);
-    let alone = Noise { amplitudes: vec![0.0; noise.amplitudes.len()], ..noise.clone() };
+    let alone = without(noise.clone());
     let [with, without] =
         [noise, alone].map(|noise| mean_square_speed(model.as_ref(), start, noise, Normal::new(seed, 3)));
     let share = without? / with?;
     share.is_finite().then_some(share)
 }
 
+/// No noise, with the same steps.
+pub(crate) fn without(noise: Noise) -> Noise {
+    Noise { amplitudes: vec![0.0; noise.amplitudes.len()], ..noise }
+}
+
 fn mean_square_speed(model: &dyn Model, start: &[f64], noise: Noise, normal: Normal) -> Option<f64> {
+    let steps = (TIME / STEP) as usize;
+    let states = states(model, start, (noise, normal), steps)?;
+    let squares = states[steps / 2..].iter().map(|at| at[0] * at[0] + at[1] * at[1]);
+    Some(squares.sum::<f64>() / (steps - steps / 2) as f64)
+}
+
+/// Coordinates of the model after each step of [`STEP`]; `None` where the run leaves all bounds.
+pub(crate) fn states(
+    model: &dyn Model,
+    start: &[f64],
+    (noise, normal): (Noise, Normal),
+    steps: usize,
+) -> Option<Vec<Vec<f64>>> {
     let mut state = vec![0.0; model.dim()];
     model.encode(start, &mut state);
     state.extend([0.0; 2]);
     let body = InPlane(model);
     let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step: STEP }, 0.0, &state).ok()?;
     let mut orbit = NoisyOrbit::new(orbit, noise, normal).ok()?;
-    let steps = (TIME / STEP) as usize;
-    let mut coordinates = vec![0.0; start.len()];
-    let mut sum = 0.0;
+    let mut all = Vec::with_capacity(steps);
     for step in 1..=steps {
         let t = step as f64 * STEP;
         while orbit.t() < t {
             orbit.advance(t).ok()?;
         }
+        let mut coordinates = vec![0.0; start.len()];
         model.decode(&orbit.state()[..model.dim()], &mut coordinates);
         let square = coordinates[0] * coordinates[0] + coordinates[1] * coordinates[1];
         if square.is_nan() || square > BOUND * BOUND {
             return None;
         }
-        sum += if 2 * step > steps { square } else { 0.0 };
+        all.push(coordinates);
     }
-    Some(sum / (steps / 2) as f64)
+    Some(all)
 }

@@ -25,6 +25,7 @@ mod provenance;
 mod recorded;
 mod regime;
 pub mod report;
+mod settled;
 mod stages;
 mod start;
 mod summary;

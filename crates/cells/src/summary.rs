@@ -129,6 +129,8 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["noise"] = json!({ "measurement_factor": number(&noise.s), "eta_v": number(&noise.eta_v), "eta_shape": number(&noise.eta_shape), "centre": number(&noise.centre) });
     object["stage"] = json!(fitted.stage);
     object["handed_beside_stage"] = json!(fitted.beside_stage);
+    object["handed_beside_stretch"] = json!(fitted.beside_stretch);
+    object["handed_robust_p_value"] = json!(fitted.handedness.robust_p_value);
     object["coefficients"] = coefficients(fitted);
     let name = |c: &Coefficient| format!("{}{}", if c.imaginary { "i " } else { "" }, c.name);
     object["covariance"] = json!({
@@ -244,7 +246,10 @@ fn number(estimate: &Estimate) -> Value {
 fn place(found: &Place) -> Value {
     let mut object = Map::new();
     for coordinate in &found.coordinates {
-        object.insert(coordinate.name.clone(), number(&coordinate.estimate));
+        let [lower, upper] = coordinate.estimate.interval;
+        let mut value = number(&coordinate.estimate);
+        (value["lower"], value["upper"]) = (json!(lower), json!(upper));
+        object.insert(coordinate.name.clone(), value);
     }
     let others: Map<String, Value> = found
         .others

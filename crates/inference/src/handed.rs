@@ -5,6 +5,7 @@ use crate::filter::{NO_CENTRE_NOISE, Theta};
 use crate::fit::refit;
 use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation};
 use motiform_dynamics::Watch;
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 /// Rate at which mirror-symmetric cells may be called handed: rare enough for a thousand cells.
@@ -61,6 +62,10 @@ pub struct Handedness {
     pub degrees: usize,
     /// Probability of such a ratio in a mirror-symmetric cell (chi-square).
     pub p_value: f64,
+    /// The same of the squares of the imaginary parts over their robust covariance (Wald): errors with heavy
+    /// tails, or with memory, raise the ratio and not this.
+    #[serde(default)]
+    pub robust_p_value: f64,
     /// Imaginary parts above this are excluded: the largest end of a 95 % interval of one, relative to the
     /// largest coefficient of its equation, natural units.
     #[serde(default)]
@@ -78,7 +83,7 @@ pub struct Handedness {
 ///
 /// Give the fit of selected terms ([`crate::select`]): with fewer imaginary parts the test sees smaller ones.
 /// A cell is called handed where the ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric
-/// cells, mirror symmetric where it is exceeded in [`DOUBTED_RATE`] of them and more, and the intervals of
+/// cells, and so is the Wald statistic with robust errors; mirror symmetric where it is exceeded in [`DOUBTED_RATE`] of them and more, and the intervals of
 /// all imaginary parts exclude the size [`SEEN`]: a large p-value alone is no evidence of symmetry.
 ///
 /// # Errors    of the input; [`Error::Setting`] if `fit` is handed itself
@@ -117,13 +122,26 @@ fn compare(fit: &Fit, handed: Fit, degrees: usize) -> Handedness {
         handed.coefficients.iter().filter(|c| c.imaginary && certainty(c) > 3.0).cloned().collect();
     parts.sort_by(|a, b| certainty(b).total_cmp(&certainty(a)));
     let excluded = excluded(&handed);
+    let robust_p_value = chi_square_tail(wald(&handed), degrees);
     let symmetry = match identifiability(&handed).identifiable && fit.converged() {
-        _ if p_value < HANDED_RATE && handed.converged() && fit.converged() => Symmetry::Handed,
+        _ if p_value.max(robust_p_value) < HANDED_RATE && handed.converged() && fit.converged() => {
+            Symmetry::Handed
+        }
         true if p_value >= DOUBTED_RATE && excluded < SEEN => Symmetry::Mirror,
         _ => Symmetry::Undecided,
     };
     let bic = degrees as f64 * libm::log(numbers) - ratio;
-    Handedness { symmetry, ratio, degrees, p_value, excluded, bic, parts, fit: handed }
+    Handedness { symmetry, ratio, degrees, p_value, robust_p_value, excluded, bic, parts, fit: handed }
+}
+
+/// `c^T R^-1 c` of all imaginary parts c with robust covariance R; 0 where R has no inverse.
+fn wald(handed: &Fit) -> f64 {
+    let all = 0..handed.coefficients.len();
+    let places: Vec<usize> = all.filter(|&i| handed.coefficients[i].imaginary).collect();
+    let n = places.len();
+    let robust = DMatrix::from_fn(n, n, |i, j| handed.natural.robust[places[i]][places[j]]);
+    let parts = DVector::from_fn(n, |i, _| handed.natural.coefficients[places[i]]);
+    robust.cholesky().map_or(0.0, |factor| parts.dot(&factor.solve(&parts)))
 }
 
 /// The largest end of an interval of an imaginary part, relative to the largest coefficient of its equation,

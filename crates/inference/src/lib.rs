@@ -21,6 +21,7 @@ mod identifiability;
 mod library;
 mod linear;
 mod names;
+mod null;
 mod observation;
 mod place;
 mod scales;
@@ -44,10 +45,11 @@ pub use identifiability::{
 };
 pub use library::{Library, MOST_MODES, Term};
 pub use names::paper;
+pub use null::{WALK_RATE, walk_p_value};
 pub use observation::{LEAST_FRAMES, Observation, Track};
 pub use place::{Coordinate, Place, Placement, Plane, coordinates, place, place_among};
 pub use scales::Scales;
-pub use stage::{StageVelocity, WithStage, handed_beside_stage, stage_velocities, with_stage};
+pub use stage::{Beside, StageVelocity, WithStage, handed_beside, stage_velocities, with_stage};
 pub use subsets::{Averaged, Selection, Subset, Subsets, TIE, averaged, refit_with, select, subsets};
 pub use walk::{Bounded, Fix, PersistentWalk, persistent_walk, walk_likelihood};
 pub use warnings::{

@@ -9,7 +9,7 @@ use crate::filter::{Evaluation, Frame, NOISES, Problem, Want, evaluate};
 use crate::fit::{problem, refit};
 use crate::{Fit, Result, Settings, Track, observation};
 use motiform_dynamics::Watch;
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 /// Step of the differences, in natural units of the velocity.
@@ -23,6 +23,50 @@ const SHORTER: f64 = 0.4;
 const RIDGE: f64 = 1e-9;
 /// Share of the information on the velocity that the coefficients must leave: below, it cannot be told from the cell's own motion.
 const LEAST_LEFT: f64 = 1e-6;
+
+/// What does not turn with a cell, and can be taken for its handedness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    /// A velocity of the stage.
+    Stage,
+    /// Images that are stretched along one direction: the path is, by a small strain, and outlines have a
+    /// constant elongation.
+    Stretch,
+}
+
+impl Beside {
+    /// The number of its parameters: two of a velocity; two of a strain (along x less along y, and along the
+    /// diagonals) and two of a constant in z2.
+    fn count(self) -> usize {
+        match self {
+            Self::Stage => 2,
+            Self::Stretch => 4,
+        }
+    }
+
+    /// The units of its parameters.
+    fn units(self, fit: &Fit) -> Vec<f64> {
+        let [speed, size] = [fit.scales.amplitudes[0], fit.scales.amplitudes[1]];
+        match self {
+            Self::Stage => vec![speed; 2],
+            Self::Stretch => vec![1.0, 1.0, size, size],
+        }
+    }
+
+    /// Takes this from an observation, this time after the first one, which was at the origin.
+    fn subtract(self, by: &[f64], (t, origin): (f64, [f64; 2]), y: &mut [f64]) {
+        match self {
+            Self::Stage => (0..2).for_each(|k| y[k] -= by[k] * t),
+            Self::Stretch => {
+                let [right, up] = [0, 1].map(|k| y[k] - origin[k]);
+                y[0] -= by[0] * right + by[1] * up;
+                y[1] -= by[1] * right - by[0] * up;
+                y[2] -= by[2];
+                y[3] -= by[3];
+            }
+        }
+    }
+}
 
 /// A velocity beside the motion of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,7 +95,7 @@ pub struct StageVelocity {
 /// # Checked by  `tests/all/stage.rs`: velocities that were added, and p-values without one
 pub fn stage_velocities(tracks: &[Track], fit: &Fit) -> Result<Vec<Option<StageVelocity>>> {
     observation::check(tracks, fit.library.modes)?;
-    Ok(tracks.iter().map(|track| Score::of(track, fit)?.velocity(fit)).collect())
+    Ok(tracks.iter().map(|track| Score::of(track, fit, Beside::Stage)?.velocity(fit)).collect())
 }
 
 /// A fit with the velocities of the stage that have the highest likelihood.
@@ -70,20 +114,34 @@ pub struct WithStage {
 /// # Errors    of the input; [`crate::Error::Interrupted`]
 /// # Checked by  `tests/all/stage.rs`: a velocity that was added, within its errors
 pub fn with_stage(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<WithStage> {
+    let (steps, tracks, fit) = with(Beside::Stage, tracks, fit, watch)?;
+    let velocities = steps.iter().map(|step| [step[0], step[1]]).collect();
+    Ok(WithStage { velocities, tracks, fit })
+}
+
+/// The parameters of highest likelihood of each track, together with the terms of a fit; the tracks without what they stand for; the fit to these.
+fn with(
+    beside: Beside,
+    tracks: &[Track],
+    fit: &Fit,
+    watch: &dyn Watch,
+) -> Result<(Vec<Vec<f64>>, Vec<Track>, Fit)> {
     let settings = Settings { library: fit.library.clone(), handed: fit.handed, starts: Vec::new() };
-    let mut best =
-        WithStage { velocities: vec![[0.0; 2]; tracks.len()], tracks: tracks.to_vec(), fit: fit.clone() };
+    let mut best = (vec![vec![0.0; beside.count()]; tracks.len()], tracks.to_vec(), fit.clone());
     let mut share = 1.0;
     for _ in 0..MOST_STEPS {
         let mut next = best.clone();
-        for (k, found) in stage_velocities(&best.tracks, &best.fit)?.into_iter().enumerate() {
-            let Some(StageVelocity { velocity, .. }) = found else { continue };
-            let step = velocity.map(|v| share * v);
-            next.tracks[k] = best.tracks[k].without_velocity(step);
-            next.velocities[k] = [0, 1].map(|i| best.velocities[k][i] + step[i]);
+        for (k, track) in best.1.iter().enumerate() {
+            let Some(step) = Score::of(track, &best.2, beside).and_then(|score| score.step()) else {
+                continue;
+            };
+            let step: Vec<f64> =
+                step.iter().zip(beside.units(fit)).map(|(x, unit)| share * x * unit).collect();
+            next.1[k] = track.without(beside, &step);
+            next.0[k].iter_mut().zip(step).for_each(|(sum, step)| *sum += step);
         }
-        next.fit = refit(&next.tracks, &settings, &fit.scales, &best.fit.theta(), watch)?;
-        let gained = next.fit.log_likelihood - best.fit.log_likelihood;
+        next.2 = refit(&next.1, &settings, &fit.scales, &best.2.theta(), watch)?;
+        let gained = next.2.log_likelihood - best.2.log_likelihood;
         if gained.is_nan() || gained <= 0.0 {
             share *= SHORTER; // too far
             continue;
@@ -96,42 +154,50 @@ pub fn with_stage(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<With
     Ok(best)
 }
 
-/// The p-value of the likelihood ratio of complex against real coefficients where both have the velocity of a stage beside them.
+/// The p-value of the likelihood ratio of complex against real coefficients where both models have beside
+/// them what does not turn with the cell.
 ///
 /// # Errors    of the input; [`crate::Error::Interrupted`]
-/// # Checked by  `tests/all/stage.rs`: a circle on a stage that drifts
-pub fn handed_beside_stage(tracks: &[Track], real: &Fit, handed: &Fit, watch: &dyn Watch) -> Result<f64> {
-    let [real_there, handed_there] = [real, handed].map(|fit| with_stage(tracks, fit, watch));
-    let ratio = 2.0 * (handed_there?.fit.log_likelihood - real_there?.fit.log_likelihood);
+/// # Checked by  `tests/all/stage.rs`: a circle on a stage that drifts; `tests/all/stretch.rs`: one in
+/// stretched images
+pub fn handed_beside(
+    beside: Beside,
+    tracks: &[Track],
+    [real, handed]: [&Fit; 2],
+    watch: &dyn Watch,
+) -> Result<f64> {
+    let [real_there, handed_there] = [real, handed].map(|fit| with(beside, tracks, fit, watch));
+    let ratio = 2.0 * (handed_there?.2.log_likelihood - real_there?.2.log_likelihood);
     Ok(chi_square_tail(ratio.max(0.0), handed.coefficients.len() - real.coefficients.len()))
 }
 
-/// The scores of a track at no velocity, in natural units.
+/// The scores of a track where there is nothing beside its motion, in natural units.
 struct Score {
-    /// Derivative of the log-likelihood by the velocity.
-    slope: Vector2<f64>,
-    /// Its information on the velocity, without what coefficients and noise take up.
-    left: Matrix2<f64>,
+    /// Derivatives of the log-likelihood.
+    slope: DVector<f64>,
+    /// Its information on the parameters, without what coefficients and noise take up.
+    left: DMatrix<f64>,
     /// All of it.
-    information: Matrix2<f64>,
+    information: DMatrix<f64>,
 }
 
 impl Score {
-    fn of(track: &Track, fit: &Fit) -> Option<Self> {
+    fn of(track: &Track, fit: &Fit, beside: Beside) -> Option<Self> {
         let settings = Settings { library: fit.library.clone(), handed: fit.handed, starts: Vec::new() };
         let (still, theta) = (problem(std::slice::from_ref(track), &settings, &fit.scales), fit.theta());
-        let at = |u: [f64; 2], want| {
-            let found = evaluate(&moved(&still, u), &theta, want, true);
+        let at = |u: &[f64], want| {
+            let found = evaluate(&moved(&still, beside, u), &theta, want, true);
             (found.value.is_finite() && still.frames() > 0).then_some(found)
         };
-        let middle = at([0.0, 0.0], Want::Exact)?;
-        let [x, y] = [[STEP, 0.0], [0.0, STEP]].map(|u| {
-            let sides = [at(u, Want::Value)?, at(u.map(|v| -v), Want::Value)?];
-            let slope = (sides[0].value - sides[1].value) / (2.0 * STEP);
-            Some((slope, frames(&sides)))
-        });
-        let (x, y) = (x?, y?);
-        let own = DMatrix::from_columns(&[DVector::from_vec(x.1), DVector::from_vec(y.1)]);
+        let count = beside.count();
+        let middle = at(&vec![0.0; count], Want::Exact)?;
+        let of = |k: usize| {
+            let aside = |by: f64| (0..count).map(|i| if i == k { by } else { 0.0 }).collect::<Vec<f64>>();
+            let sides = [at(&aside(STEP), Want::Value)?, at(&aside(-STEP), Want::Value)?];
+            Some(((sides[0].value - sides[1].value) / (2.0 * STEP), DVector::from_vec(frames(&sides))))
+        };
+        let all: Vec<(f64, DVector<f64>)> = (0..count).map(of).collect::<Option<_>>()?;
+        let own = DMatrix::from_columns(&all.iter().map(|one| one.1.clone()).collect::<Vec<_>>());
         let n = fit.coefficients.len();
         let free = |i: &usize| *i < n || !fit.noise.at_bound[i - n];
         let free: Vec<usize> = (0..n + NOISES).filter(free).collect();
@@ -143,20 +209,28 @@ impl Score {
         }
         let regression = products.cholesky()?.solve(&(others.transpose() * &own));
         let rest = &own - others * regression;
-        let square = |of: &DMatrix<f64>| {
-            let products = of.transpose() * of;
-            Matrix2::from_fn(|i, j| products[(i, j)])
-        };
-        Some(Self { slope: Vector2::new(x.0, y.0), left: square(&rest), information: square(&own) })
+        let slope = DVector::from_iterator(count, all.iter().map(|one| one.0));
+        Some(Self { slope, left: rest.transpose() * &rest, information: own.transpose() * &own })
     }
 
+    /// The inverse of the information that is left; `None` where the motion of the cell takes some parameter up.
+    fn inverse(&self) -> Option<DMatrix<f64>> {
+        let scale = |i: usize, j: usize| (self.information[(i, i)] * self.information[(j, j)]).sqrt();
+        let n = self.slope.len();
+        let relative = DMatrix::from_fn(n, n, |i, j| self.left[(i, j)] / scale(i, j));
+        let least = relative.symmetric_eigenvalues().min();
+        (least >= LEAST_LEFT).then(|| self.left.clone().cholesky())?.map(|factor| factor.inverse())
+    }
+
+    /// One step of the scoring method.
+    fn step(&self) -> Option<DVector<f64>> {
+        Some(self.inverse()? * &self.slope)
+    }
+
+    /// Of the stage.
     fn velocity(&self, fit: &Fit) -> Option<StageVelocity> {
-        let inverse = self.left.cholesky()?.inverse();
-        if self.left.symmetric_eigenvalues().min() < LEAST_LEFT * self.information.trace() {
-            return None;
-        }
-        let step = inverse * self.slope;
-        let unit = fit.scales.amplitudes[0];
+        let (inverse, unit) = (self.inverse()?, fit.scales.amplitudes[0]);
+        let step = &inverse * &self.slope;
         Some(StageVelocity {
             velocity: [0, 1].map(|k| unit * step[k]),
             errors: [0, 1].map(|k| unit * inverse[(k, k)].sqrt()),
@@ -165,7 +239,7 @@ impl Score {
     }
 }
 
-/// The derivative of each frame's log-likelihood by a velocity, from evaluations on both sides: that of the
+/// The derivative of each frame's log-likelihood by a parameter, from evaluations on both sides: that of the
 /// squares of its standardised innovations. The determinant of their covariance hardly changes.
 fn frames([up, down]: &[Evaluation; 2]) -> Vec<f64> {
     let square = |e: &Vec<f64>| e.iter().map(|x| x * x).sum::<f64>();
@@ -174,13 +248,12 @@ fn frames([up, down]: &[Evaluation; 2]) -> Vec<f64> {
     up.iter().zip(down).map(|(up, down)| -0.5 * (up - down) / (2.0 * STEP)).collect()
 }
 
-/// The same frames on a stage that does not have this velocity.
-fn moved(problem: &Problem, u: [f64; 2]) -> Problem {
+/// The same frames without these parameters, in natural units.
+fn moved(problem: &Problem, beside: Beside, by: &[f64]) -> Problem {
     let mut moved = problem.clone();
     for frame in moved.stretches.iter_mut().flatten() {
         let Frame { t, y, .. } = frame;
-        y[0] -= u[0] * *t;
-        y[1] -= u[1] * *t;
+        beside.subtract(by, (*t, [0.0; 2]), y);
     }
     moved
 }
@@ -189,12 +262,17 @@ impl Track {
     /// The same track without a motion of the stage of this velocity.
     #[must_use]
     pub fn without_velocity(&self, velocity: [f64; 2]) -> Self {
+        self.without(Beside::Stage, &velocity)
+    }
+
+    /// The same track without what does not turn with the cell, of these parameters.
+    fn without(&self, beside: Beside, by: &[f64]) -> Self {
         let mut frames = self.0.clone();
-        let first = frames.first().map_or(0.0, |frame| frame.t);
+        let Some((first, origin)) = frames.first().map(|frame| (frame.t, [frame.y[0], frame.y[1]])) else {
+            return self.clone();
+        };
         for frame in &mut frames {
-            for k in 0..2 {
-                frame.y[k] -= velocity[k] * (frame.t - first);
-            }
+            beside.subtract(by, (frame.t - first, origin), &mut frame.y);
         }
         Self(frames)
     }

@@ -5,16 +5,21 @@ use motiform_inference::{HANDED_RATE, Handedness, Stretch, Symmetry, Track, Warn
 /// Significance below which innovations that are not white leave a cell without motion and place.
 const COLOURED: f64 = 1e-6;
 
-/// Serious warnings, and what speaks against the test of handedness; `beside_stage`: its p-value beside a velocity of the stage.
+/// Serious warnings, and what speaks against the test of handedness; `beside`: its p-values beside a velocity of the stage, and in stretched images.
 pub(super) fn doubts(
     tracks: &[Track],
     warnings: &[Warning],
     handedness: &Handedness,
-    beside_stage: Option<f64>,
+    [beside_stage, beside_stretch]: [Option<f64>; 2],
 ) -> Vec<String> {
     let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
     let handed = handedness.symmetry == Symmetry::Handed;
-    if handedness.is_doubted() && !handed {
+    if handedness.p_value < HANDED_RATE && !handed {
+        doubts.push(format!(
+            "whether the cell is handed is not decided: its likelihood says so (p = {:.1e}), but its imaginary parts are within their robust errors (p = {:.1e}), or the fit did not converge",
+            handedness.p_value, handedness.robust_p_value
+        ));
+    } else if handedness.is_doubted() && !handed {
         doubts.push(format!(
             "whether the cell is handed is not decided: a mirror-symmetric one has such a likelihood ratio with p = {:.1e}",
             handedness.p_value
@@ -22,6 +27,9 @@ pub(super) fn doubts(
     }
     if let Some(p) = beside_stage.filter(|p| *p >= HANDED_RATE) {
         doubts.push(format!("it is handed, or the stage drifts: beside a velocity that does not turn with the cell, a mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"));
+    }
+    if let Some(p) = beside_stretch.filter(|p| *p >= HANDED_RATE) {
+        doubts.push(format!("it is handed, or the images are stretched: beside a strain of the path and an elongation that do not turn with the cell, a mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"));
     }
     let suspected = |found: &Stretch| found.is_suspected(tracks.len()) && !found.is_clear(tracks.len());
     if let Some(found) = tracks.iter().filter_map(Stretch::of).find(suspected).filter(|_| handed) {

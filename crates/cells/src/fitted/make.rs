@@ -5,10 +5,11 @@ use super::doubts::doubts;
 use crate::regime::{FittedRegime, regime_of};
 use crate::stages::Stages;
 use crate::{Checks, FitOptions, Result};
+use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
 use motiform_inference::{
-    Fit, Placement, Plane, Selection, Settings, Symmetry, Track, averaged, drift, fit, handed_beside_stage,
-    handedness, identifiability, place_among, select, warnings,
+    Beside, Fit, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, averaged, drift, fit,
+    handed_beside, handedness, identifiability, place_among, select, walk_p_value, warnings,
 };
 
 /// Fits these tracks, stage by stage.
@@ -36,12 +37,13 @@ pub(crate) fn fitted(
     let checks = Checks::of(tracks, model);
     let warnings = warnings(tracks, model, drift.as_ref())?;
     // no stage that is kept: few cells are handed
-    let beside_stage = match handed {
-        true => Some(handed_beside_stage(tracks, &selection.fit, &handedness.fit, watch)?),
-        false => None,
+    let beside = |what| match handed {
+        true => handed_beside(what, tracks, [&selection.fit, &handedness.fit], watch).map(Some),
+        false => Ok(None),
     };
-    let mut doubts = doubts(tracks, &warnings, &handedness, beside_stage);
-    let regime = stages.get("regime", watch, |watch| {
+    let (beside_stage, beside_stretch) = (beside(Beside::Stage)?, beside(Beside::Stretch)?);
+    let mut doubts = doubts(tracks, &warnings, &handedness, [beside_stage, beside_stretch]);
+    let mut regime = stages.get("regime", watch, |watch| {
         if !known.identifiable || !doubts.is_empty() {
             return Ok(None);
         }
@@ -52,6 +54,12 @@ pub(crate) fn fitted(
         doubts.push(
             "the fitted equations blow up without noise, and a cell that was tracked did not".to_owned(),
         );
+    }
+    if let Some(found) = regime.as_mut().filter(|_| !handed)
+        && let Some(doubt) = walk_not_excluded(tracks, (&whole, &selection), found.regime, watch)?
+    {
+        found.regime = None;
+        doubts.push(doubt);
     }
     let averaged =
         if handed || !whole.converged() { Vec::new() } else { averaged(&whole, &selection.subsets) };
@@ -71,8 +79,28 @@ pub(crate) fn fitted(
         averaged,
         stage: Vec::new(),
         beside_stage,
+        beside_stretch,
         between: None,
     }))
+}
+
+/// That a cell which is named after a motion may be a persistent random walk, as a doubt.
+fn walk_not_excluded(
+    tracks: &[Track],
+    (whole, selection): (&Fit, &Selection),
+    name: Option<Regime>,
+    watch: &dyn Watch,
+) -> Result<Option<String>> {
+    if name.is_none_or(|name| name == Regime::Motionless) {
+        return Ok(None);
+    }
+    let p = walk_p_value(tracks, whole, selection, watch)?;
+    let doubt = || {
+        format!(
+            "a persistent random walk, whose velocity decays and is renewed by noise, is not excluded (p = {p:.1e})"
+        )
+    };
+    Ok((p >= WALK_RATE).then(doubt))
 }
 
 /// Why the cell has no place; empty where it may have one.
@@ -81,6 +109,7 @@ fn unplaced(doubts: &[String], regime: Option<&FittedRegime>, handed: bool) -> V
     if regime.is_some_and(FittedRegime::is_carried) {
         reasons.push("noise carries the displacement: without it the equations rest, and the paper's planes are about motion without noise".to_owned());
     }
+    reasons.extend(regime.and_then(FittedRegime::no_intervals).map(str::to_owned));
     if handed {
         reasons.push("the cell is handed, and the paper's planes are not".to_owned());
     }

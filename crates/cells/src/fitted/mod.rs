@@ -8,7 +8,6 @@ pub(crate) use make::fitted;
 
 use crate::Checks;
 use crate::regime::FittedRegime;
-use motiform_analysis::regime::Regime;
 use motiform_inference::{
     Averaged, BetweenCells, Drift, Fit, HANDED_RATE, Handedness, Identifiability, Placement, Selection,
     Symmetry, Warning,
@@ -52,6 +51,9 @@ pub struct Fitted {
     /// Of a cell that its likelihood calls handed: the p-value of the same test beside a velocity of the stage.
     #[serde(default)]
     pub beside_stage: Option<f64>,
+    /// The same beside a small strain of the path and a constant elongation of the outlines, as images have that are stretched.
+    #[serde(default)]
+    pub beside_stretch: Option<f64>,
     /// Of several cells together: errors of the model's coefficients from the differences between cells.
     pub between: Option<BetweenCells>,
 }
@@ -118,14 +120,10 @@ impl Fitted {
         self.known.identifiable
     }
 
-    /// Why the intervals of the coefficients are not stated: of steady motions they hold the truth too rarely. Such a cell stays next to one point of the shape, and what noise
-    /// moves it off that point is known with errors of the same size, which the likelihood takes for information.
+    /// Why the intervals of the coefficients are not stated: [`FittedRegime::no_intervals`].
     #[must_use]
     pub fn no_intervals(&self) -> Option<&'static str> {
-        let best = self.regime.as_ref()?.best;
-        matches!(best, Regime::Straight | Regime::Circular).then_some(
-            "the motion is steady: the cell stays next to one point of the shape, and intervals from its noise about it hold the truth in 81 to 86 % of cases only (simulated cells)",
-        )
+        self.regime.as_ref()?.no_intervals()
     }
 
     /// A coefficient over all tied sets.

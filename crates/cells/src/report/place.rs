@@ -84,8 +84,14 @@ fn ellipse(place: &Place) -> Vec<[f64; 2]> {
 
 fn table(place: &Place, plane: &str) -> Table {
     let row = |c: &Coordinate| {
-        let slice = c.slice.map_or_else(|| "free".to_owned(), plain);
-        vec![Cell::text(literal(&c.name)), Cell::number(estimate(&c.estimate)), Cell::number(slice)]
+        let [low, high] = c.estimate.interval.map(plain);
+        // what is off the slice is that of the best set alone
+        let (interval, slice) = match c.slice {
+            None => (format!("{low} to {high}"), "free".to_owned()),
+            Some(slice) => (String::new(), plain(slice)),
+        };
+        let name = Cell::text(literal(&c.name));
+        vec![name, Cell::number(estimate(&c.estimate)), Cell::number(interval), Cell::number(slice)]
     };
     Table {
         caption: format!(
@@ -93,7 +99,7 @@ fn table(place: &Place, plane: &str) -> Table {
             plain(place.distance),
             plain(place.deviation)
         ),
-        head: ["parameter", "cell", "value on the slice"].map(str::to_owned).to_vec(),
+        head: ["parameter", "cell", "95 % interval", "value on the slice"].map(str::to_owned).to_vec(),
         rows: place.coordinates.iter().chain(&place.others).map(row).collect(),
     }
 }

@@ -10,7 +10,7 @@ use motiform_cells::{
     Agreement, CellFit, CellTrack, Correction, FitOptions, FitWork, Fitted, Observation, Prediction, Sample,
     Units, fit_cells, fit_together, fits_json, fitted_population, observe,
 };
-use motiform_inference::{Place, Placement, Symmetry};
+use motiform_inference::{Estimate, Place, Placement, Symmetry};
 use motiform_statistics::{four_digits, with_error};
 use motiform_store::Opening;
 use std::fmt::Write;
@@ -285,7 +285,10 @@ fn place(placement: &Placement) -> String {
             let Place { coordinates, distance, deviation, .. } = &**found;
             let at: Vec<String> = coordinates
                 .iter()
-                .map(|c| format!("{} = {:.4} ± {:.4}", c.name, c.estimate.value, c.estimate.error))
+                .map(|c| {
+                    let Estimate { value, error, interval: [low, high], .. } = c.estimate;
+                    format!("{} = {value:.4} ± {error:.4} (95 %: {low:.4} to {high:.4})", c.name)
+                })
                 .collect();
             format!(" {}; {distance:.3} off the slice ({deviation:.1} standard errors)", at.join(", "))
         }

@@ -10,6 +10,7 @@
 
 mod average;
 mod conditional;
+mod mixture;
 mod search;
 
 use crate::filter::Theta;
@@ -17,6 +18,7 @@ use crate::fit::refit;
 use crate::{Fit, Library, Result, Settings, Track, observation};
 pub use average::{Averaged, averaged};
 pub(crate) use conditional::Conditional;
+pub(crate) use mixture::{Mixture, Scatter, over_sets};
 use motiform_dynamics::Watch;
 use search::{Choice, search};
 use serde::{Deserialize, Serialize};

@@ -31,7 +31,7 @@ fn intervals_over_tied_sets_hold_the_truth() {
     assert!(over >= alone && over >= 8, "{alone} {over}");
 }
 
-/// Of one set the interval is 1.96 of its errors; of two that differ by a term the weight of the term is that
+/// Of one set the interval is 1.96 of its errors, the larger of the expected and the robust one; of two that differ by a term the weight of the term is that
 /// of its set, and its interval is the same.
 #[test]
 fn mixtures_are_those_of_their_sets() {
@@ -41,10 +41,11 @@ fn mixtures_are_those_of_their_sets() {
     let set = |kept: &[usize], excess: f64| Subset { kept: kept.to_vec(), names: Vec::new(), excess };
     let sets = |ties: Vec<Subset>| Subsets { penalty: 0.0, ties, complete: true };
     for (one, own) in averaged(&whole, &sets(vec![set(&all, 0.0)])).iter().zip(&whole.coefficients) {
-        let [low, high] = own.estimate.interval;
+        let half = 1.959_964 * own.estimate.error.max(own.estimate.robust);
+        let [low, high] = [-half, half].map(|by| own.estimate.value + by);
         assert!(
-            (one.interval[0] - low).abs() < 1e-3 * (high - low)
-                && (one.interval[1] - high).abs() < 1e-3 * (high - low)
+            (one.interval[0] - low).abs() < 1e-3 * half && (one.interval[1] - high).abs() < 1e-3 * half,
+            "{one:?}"
         );
         assert!((one.value - own.estimate.value).abs() < 1e-9 * own.estimate.error && one.weight == 1.0);
     }
@@ -53,9 +54,31 @@ fn mixtures_are_those_of_their_sets() {
     let share = 1.0 / (1.0 + libm::exp(-1.0));
     let (own, unit) = (&whole.coefficients[0].estimate, whole.coefficients[0].estimate.error);
     assert!((both[0].weight - share).abs() < 1e-12);
-    assert!((0..2).all(|end| (both[0].interval[end] - own.interval[end]).abs() < 1e-3 * unit), "{both:?}");
+    let half = 1.959_964 * own.error.max(own.robust);
+    let ends = [own.value - half, own.value + half];
+    assert!((0..2).all(|end| (both[0].interval[end] - ends[end]).abs() < 1e-3 * unit), "{both:?}");
     assert!((both[0].value - own.value).abs() < 1e-9 * unit);
     // what no set asks for has an interval, too
     let none = averaged(&whole, &sets(vec![set(&without, 0.0)]));
     assert!(none[0].weight == 0.0 && none[0].interval[0] < none[0].interval[1]);
+}
+
+/// Robust errors count where they are larger: an independent term whose robust error is twice the expected one.
+#[test]
+fn the_larger_error_counts() {
+    let experiment = Experiment { frames: 150, ..Experiment::new(full(0.5, 0.1), 0.02, 4) };
+    let mut whole = fit(&[experiment.track()], &Settings::default(), &()).expect("it converges");
+    let n = whole.coefficients.len();
+    for i in 0..n {
+        for j in 0..n {
+            whole.natural.covariance[i][j] = if i == j { 1e-4 } else { 0.0 };
+            whole.natural.robust[i][j] = if i == j { 1e-4 * if i == 0 { 4.0 } else { 0.25 } } else { 0.0 };
+        }
+    }
+    let all = averaged(&whole, &subsets(&whole));
+    for (i, error) in [(0, 0.02), (1, 0.01)] {
+        let unit = whole.scales.coefficient(&whole.coefficients[i].term);
+        let width = (all[i].interval[1] - all[i].interval[0]) / unit;
+        assert!((width / (2.0 * 1.959_964 * error) - 1.0).abs() < 1e-3, "{i}: {width}");
+    }
 }

@@ -10,6 +10,7 @@ mod four_modes;
 mod handed;
 mod identifiability;
 mod library;
+mod null;
 mod order_five;
 mod place;
 mod stage;

@@ -2,10 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
-use crate::common::{Experiment, FULL, circle, full};
+use crate::common::{Experiment, FULL, circle, full, vertex_noise};
 use motiform_dynamics::Complex;
 use motiform_inference::{
-    Library, Observation, Placement, Plane, Settings, Track, fit, place, place_among, select,
+    Fit, Library, Observation, Place, Placement, Plane, Selection, Settings, Track, coordinates, draws, fit,
+    place, place_among, refit_with, select,
 };
 
 /// The same motion in other units: lengths, modes and times multiplied (both modes alike, as they share one process noise).
@@ -116,4 +117,112 @@ fn refusals() {
             println!("  {reasons:?}");
         }
     }
+}
+
+/// A zigzag of Fig. 5(b) in a record of this many frames: kappa2 = 0.9, kappa3 = 0.1.
+fn zigzag(frames: usize, seed: u64) -> ([Track; 1], Fit, Selection) {
+    let errors = vertex_noise(1.2);
+    let experiment =
+        Experiment { errors, interval: 0.5, frames, ..Experiment::new(full(0.9, 0.1), 0.01, seed) };
+    let tracks = [experiment.track()];
+    let whole = fit(&tracks, &Settings::default(), &()).unwrap();
+    let selection = select(&tracks, &whole, &()).unwrap();
+    (tracks, whole, selection)
+}
+
+fn placed(whole: &Fit, selection: &Selection) -> Option<Box<Place>> {
+    match place_among(whole, selection, Plane::Full) {
+        Placement::Placed(placed) => Some(placed),
+        Placement::Refused { .. } => None,
+    }
+}
+
+/// kappa3 of short zigzags: the best set may lack `z3: z1^3`, and its own interval is then many errors off.
+/// That of the place is over all tied sets.
+#[test]
+fn places_over_tied_sets_hold_the_truth() {
+    let (mut alone, mut over, mut all) = (0, 0, 0);
+    for seed in 0..12 {
+        let (_, whole, selection) = zigzag(250, 300 + seed);
+        let (Some(found), Placement::Placed(best)) =
+            (placed(&whole, &selection), place(&selection.fit, Plane::Full))
+        else {
+            continue;
+        };
+        let holds = |place: &Place| {
+            let [low, high] = place.coordinates[1].estimate.interval;
+            println!("{seed}: {} sets, {low:.4} to {high:.4}", selection.subsets.ties.len());
+            u32::from((low..=high).contains(&0.1))
+        };
+        (alone, over, all) = (alone + holds(&best), over + holds(&found), all + 1);
+    }
+    println!("held by the best set {alone}, by all tied sets {over} of {all}");
+    assert!(all >= 6 && over > alone && over + 1 >= all, "{alone} {over} {all}");
+}
+
+/// A model of few terms, all of them certain: there is one set, and the quantiles of the coordinates of draws
+/// from its fit are the ends of the intervals.
+#[test]
+fn places_of_one_set_are_those_of_draws() {
+    let experiment = Experiment { frames: 500, ..Experiment::new(full(0.5, 0.1), 0.005, 21) };
+    let tracks = [experiment.track()];
+    let settings = Settings { library: Library::tensor().select(&FULL).unwrap(), ..Settings::default() };
+    let whole = fit(&tracks, &settings, &()).unwrap();
+    let selection = select(&tracks, &whole, &()).unwrap();
+    let found = placed(&whole, &selection).unwrap();
+    let Placement::Placed(alone) = place(&whole, Plane::Full) else { panic!("refused") };
+    let drawn: Vec<[f64; 2]> =
+        draws(&whole, 4000, 1).iter().filter_map(|values| coordinates(&whole, Plane::Full, values)).collect();
+    for (k, (coordinate, alone)) in found.coordinates.iter().zip(&alone.coordinates).enumerate() {
+        let mut values: Vec<f64> = drawn.iter().map(|at| at[k]).collect();
+        values.sort_by(f64::total_cmp);
+        let quantile = |share: f64| values[(share * values.len() as f64) as usize];
+        let [low, high] = coordinate.estimate.interval;
+        // draws have expected errors, intervals the larger ones
+        let larger = (alone.estimate.robust / alone.estimate.error).max(1.0);
+        println!("{low:.4} to {high:.4}, drawn {:.4} to {:.4}", quantile(0.025), quantile(0.975));
+        let ratio = (high - low) / (quantile(0.975) - quantile(0.025)) / larger;
+        assert!((0.93..1.07).contains(&ratio), "{ratio}: {coordinate:?}");
+        let off = 0.5 * (low + high) - quantile(0.5);
+        assert!(off.abs() < 0.05 * (high - low), "{coordinate:?}");
+    }
+}
+
+/// Fits of every tied set, and draws from each in proportion to its weight: the quantiles of their
+/// coordinates are those of the place.
+#[test]
+fn places_are_those_of_draws_from_all_tied_sets() {
+    let mut compared = 0;
+    for seed in 300..312 {
+        let (tracks, whole, selection) = zigzag(250, seed);
+        let Some(found) = placed(&whole, &selection) else { continue };
+        // all must have the coordinates for a comparison
+        let ties = &selection.subsets.ties;
+        let complete =
+            |names: &[String]| ["z2: z2", "z3: z3"].iter().all(|one| names.iter().any(|n| n == one));
+        if !(2..=12).contains(&ties.len()) || !ties.iter().all(|set| complete(&set.names)) {
+            continue;
+        }
+        let mut samples: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
+        for set in ties {
+            let of_set = refit_with(&tracks, &whole, &set.kept, &()).unwrap();
+            let count = (4000.0 * libm::exp(-0.5 * set.excess)) as usize;
+            for values in draws(&of_set, count, 1) {
+                let Some(at) = coordinates(&of_set, Plane::Full, &values) else { continue };
+                (0..2).for_each(|k| samples[k].push(at[k]));
+            }
+        }
+        for (k, samples) in samples.iter_mut().enumerate() {
+            samples.sort_by(f64::total_cmp);
+            let quantile = |share: f64| samples[(share * samples.len() as f64) as usize];
+            let [low, high] = found.coordinates[k].estimate.interval;
+            println!("{seed}: {low:.4} to {high:.4}, drawn {:.4} to {:.4}", quantile(0.025), quantile(0.975));
+            let width = high - low;
+            assert!(
+                (low - quantile(0.025)).abs() < 0.15 * width && (high - quantile(0.975)).abs() < 0.15 * width
+            );
+        }
+        compared += 1;
+    }
+    assert!(compared >= 2, "{compared}");
 }

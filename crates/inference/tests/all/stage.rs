@@ -3,7 +3,7 @@
 use crate::common::{Equations, Experiment, FULL, full};
 use motiform_dynamics::Complex;
 use motiform_inference::{
-    Fit, HANDED_RATE, Library, Settings, Symmetry, Track, Warning, fit, handed_beside_stage, handedness,
+    Beside, Fit, HANDED_RATE, Library, Settings, Symmetry, Track, Warning, fit, handed_beside, handedness,
     stage_velocities, warnings, with_stage,
 };
 
@@ -88,7 +88,7 @@ fn a_drift_is_no_handedness() {
     let real = fitted(&track);
     let tracks = [track];
     let found = handedness(&tracks, &real, &()).expect("a fit");
-    let p = handed_beside_stage(&tracks, &real, &found.fit, &()).expect("fits");
+    let p = handed_beside(Beside::Stage, &tracks, [&real, &found.fit], &()).expect("fits");
     println!("circle: {:.1e}, beside a stage {p:.1e}", found.p_value);
     assert!(found.p_value < HANDED_RATE && p > HANDED_RATE, "{:.1e} {p:.1e}", found.p_value);
     let mut handed = full(0.5, 0.1);
@@ -97,7 +97,7 @@ fn a_drift_is_no_handedness() {
     let real = fitted(&track);
     let tracks = [track];
     let found = handedness(&tracks, &real, &()).expect("a fit");
-    let p = handed_beside_stage(&tracks, &real, &found.fit, &()).expect("fits");
+    let p = handed_beside(Beside::Stage, &tracks, [&real, &found.fit], &()).expect("fits");
     println!("handed: {:.1e}, beside a stage {p:.1e}", found.p_value);
     assert_eq!(found.symmetry, Symmetry::Handed);
     assert!(p < HANDED_RATE, "{p:.1e}");

@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{Experiment, diagonal, full};
+use crate::common::{Equations, Experiment, FULL, diagonal, full};
 use motiform_dynamics::{Complex, Normal};
-use motiform_inference::{Observation, Stretch, Track};
+use motiform_inference::{
+    Beside, HANDED_RATE, Library, Observation, Settings, Stretch, Track, fit, handed_beside, handedness,
+};
 
 /// A cell that steps in independent random directions, elongated along each step by chance and by `constant` always.
 fn random_steps(frames: usize, constant: Complex<f64>, seed: u64) -> Track {
@@ -89,4 +91,35 @@ fn turning_bodies_have_none() {
     });
     let found = Stretch::of(&Track(legs.collect())).unwrap();
     assert!(found.is_possible(1) && !found.is_clear(1), "{found:?}");
+}
+
+/// y of a cell of radius 0.6 multiplied by 1 - part, to first order: its path, and a constant in z2.
+fn stretched(track: &Track, part: f64) -> Track {
+    let mut frames = track.0.clone();
+    for frame in &mut frames {
+        frame.y[1] *= 1.0 - part;
+        frame.y[2] += 0.25 * part * 0.6;
+    }
+    Track(frames)
+}
+
+/// A circle in images that are stretched by 5 % is called handed by its likelihood, and not beside a strain of
+/// the path and a constant elongation; a cell that is handed stays so.
+#[test]
+fn a_stretch_is_no_handedness() {
+    let p_values = |equations: Equations, noise: f64| {
+        let still = Experiment { frames: 600, ..Experiment::new(equations, noise, 9) }.track();
+        let tracks = [stretched(&still, 0.05)];
+        let library = Library::tensor().select(&FULL).unwrap();
+        let real = fit(&tracks, &Settings { library, ..Settings::default() }, &()).unwrap();
+        let found = handedness(&tracks, &real, &()).unwrap();
+        (found.p_value, handed_beside(Beside::Stretch, &tracks, [&real, &found.fit], &()).unwrap())
+    };
+    let circle = p_values(full(0.5, 0.3), 0.005);
+    let mut equations = full(0.5, 0.1);
+    equations[3].1 = Complex::new(-0.5, 0.1);
+    let handed = p_values(equations, 0.02);
+    println!("circle {circle:?}, handed {handed:?}");
+    assert!(circle.0 < HANDED_RATE && circle.1 > HANDED_RATE, "{circle:?}");
+    assert!(handed.0 < HANDED_RATE && handed.1 < HANDED_RATE, "{handed:?}");
 }

@@ -1,6 +1,10 @@
 //! Motions times misspecifications: what is said with confidence and is wrong, and whether intervals hold as printed.
 //!
-//! `MOTIFORM_RUNS=20 cargo test --release -p motiform-cells --test all matrix:: -- --ignored --nocapture` makes the tables of docs/inference.md; MOTIFORM_CASE picks rows whose words contain it.
+//! `MOTIFORM_RUNS=20 cargo test --release -p motiform-cells --test all matrix:: -- --ignored --nocapture` makes the tables of docs/inference.md; MOTIFORM_CASE picks rows whose words contain it,
+//! MOTIFORM_SEED is the first seed (0), MOTIFORM_KEEP a folder for the fits as JSON, MOTIFORM_THREADS their threads (2). MOTIFORM_QUICK leaves simulated cells and most draws out, in a tenth of the
+//! time: cells with a wrong statement are then among those found wrong.
+
+#![allow(clippy::panic, reason = "a test may fail")]
 
 mod changes;
 mod judge;
@@ -11,6 +15,7 @@ use changes::{ALL, Change};
 use judge::Tally;
 use laws::{Law, full, reduced};
 use motiform_cells::{CellFit, FitOptions, Sample, fit_cells};
+use motiform_inference::Placement;
 use motiform_tracks::Tracks;
 use motiform_tracks::modes::ModeOptions;
 
@@ -56,6 +61,32 @@ fn walkers() -> Vec<(&'static str, Walker)> {
 
 fn runs() -> u64 {
     std::env::var("MOTIFORM_RUNS").ok().and_then(|text| text.parse().ok()).unwrap_or(3)
+}
+
+/// Seeds of the cells of a row, from a base on.
+fn seeds(base: u64) -> impl Iterator<Item = u64> {
+    let first = std::env::var("MOTIFORM_SEED").ok().and_then(|text| text.parse().ok()).unwrap_or(0);
+    (0..runs()).map(move |run| base + first + run)
+}
+
+fn threads() -> usize {
+    std::env::var("MOTIFORM_THREADS").ok().and_then(|text| text.parse().ok()).unwrap_or(2)
+}
+
+fn options() -> FitOptions {
+    match std::env::var("MOTIFORM_QUICK") {
+        Ok(_) => FitOptions { drift: false, simulations: 0, draws: 10, ..FitOptions::default() },
+        Err(_) => FitOptions::default(),
+    }
+}
+
+/// Keeps the fits of a row, where a folder is named.
+fn keep(words: &str, fits: &[CellFit]) {
+    let Ok(folder) = std::env::var("MOTIFORM_KEEP") else { return };
+    for (number, fit) in fits.iter().enumerate() {
+        let text = serde_json::to_string(fit).expect("a fit");
+        std::fs::write(format!("{folder}/{words}, {number}.json"), text).expect("the folder exists");
+    }
 }
 
 fn wanted(words: &str) -> bool {
@@ -109,6 +140,31 @@ fn nothing_wrong_is_said_of_a_sample() {
     }
 }
 
+/// A quasi-periodic cell of less than two periods, whose fitted equations end in a circle after the record: no circle. A cell that circles is named, and has no place, for
+/// the reason for which its coefficients have no intervals.
+#[test]
+fn steady_motions_are_those_that_the_record_shows_and_have_no_place() {
+    let options = FitOptions { drift: false, simulations: 0, ..FitOptions::default() };
+    let laws = laws();
+    let of = |name: &str, change: Change, seed| {
+        let law = &laws.iter().find(|law| law.0 == name).expect("a row").1;
+        let record = change.record(law, law, SAMPLING, seed).expect("it stays in bounds");
+        cells(vec![record], &options, 1).remove(0).fitted.expect("a fit")
+    };
+    let modulated = of("quasi-periodic", Change::Short, 7000);
+    assert_eq!(modulated.motion_name(), "undecided", "{}", modulated.why());
+    // gamma = .02 in 50 units of time: one e-folding
+    assert!(modulated.no_intervals().is_some_and(|why| why.contains("three e-foldings")));
+    assert!(modulated.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
+    let circle = of("circular", Change::None, 7000);
+    assert_eq!(circle.motion_name(), "circular", "{}", circle.why());
+    let reason = circle.no_intervals().expect("steady");
+    for place in &circle.places {
+        let Placement::Refused { reasons } = place else { panic!("{place:?}") };
+        assert!(reasons.iter().any(|one| one == reason), "{reasons:?}");
+    }
+}
+
 /// The equations alone make all of a zigzag's motion and none of a resting cell's.
 #[test]
 fn the_equations_make_all_of_a_zigzag_and_nothing_of_rest() {
@@ -139,8 +195,9 @@ fn table() {
                 continue;
             }
             let other = &laws[(number + 1) % laws.len()].1;
-            let record = |seed| change.record(law, other, SAMPLING, 7000 + seed);
-            let fits = cells((0..runs()).filter_map(record).collect(), &FitOptions::default(), 2);
+            let record = |seed| change.record(law, other, SAMPLING, seed);
+            let fits = cells(seeds(7000).filter_map(record).collect(), &options(), threads());
+            keep(&words, &fits);
             let mut tally = Tally::default();
             let truth = (motion_of(law, other, change), change.keeps_the_law());
             fits.iter().for_each(|fit| tally.judge(fit, law, truth));
@@ -154,9 +211,9 @@ fn table() {
             if !wanted(&words) {
                 continue;
             }
-            let record =
-                |seed| tracks(vec![walker.outlines(8000 + seed)]).drifting([part * walker.speed, 0.0]);
-            let fits = cells((0..runs()).map(record).collect(), &FitOptions::default(), 2);
+            let record = |seed| tracks(vec![walker.outlines(seed)]).drifting([part * walker.speed, 0.0]);
+            let fits = cells(seeds(8000).map(record).collect(), &options(), threads());
+            keep(&words, &fits);
             let mut tally = Tally::default();
             fits.iter().for_each(|fit| tally.walker(fit));
             print(&words, &tally);

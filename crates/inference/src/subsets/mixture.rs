@@ -1,0 +1,100 @@
+//! Numbers over all sets of terms that the data do not tell apart.
+
+use super::{Conditional, Subsets};
+use crate::Fit;
+use nalgebra::{DMatrix, DVector};
+
+/// A number over the tied sets: of each its weight, and mean and standard deviation of its normal distribution.
+#[derive(Clone, Debug)]
+pub(crate) struct Mixture(Vec<[f64; 3]>);
+
+impl Mixture {
+    /// The mixture of these parts, with weights that need not sum to 1.
+    pub(crate) fn new(mut parts: Vec<[f64; 3]>) -> Self {
+        let all: f64 = parts.iter().map(|part| part[0]).sum();
+        parts.iter_mut().for_each(|part| part[0] /= all);
+        Self(parts)
+    }
+
+    /// Its mean.
+    pub(crate) fn mean(&self) -> f64 {
+        self.0.iter().map(|[w, m, _]| w * m).sum()
+    }
+
+    /// Its standard deviation: within the sets and between them.
+    pub(crate) fn deviation(&self) -> f64 {
+        let mean = self.mean();
+        self.0.iter().map(|[w, m, s]| w * (s * s + (m - mean) * (m - mean))).sum::<f64>().sqrt()
+    }
+
+    /// Its 2.5 % and 97.5 % quantiles.
+    pub(crate) fn interval(&self) -> [f64; 2] {
+        [0.025, 0.975].map(|share| self.quantile(share))
+    }
+
+    /// A quantile, by bisection.
+    fn quantile(&self, share: f64) -> f64 {
+        let below = |x: f64| -> f64 {
+            let normal = |[w, m, s]: &[f64; 3]| {
+                let step = if x >= *m { 1.0 } else { 0.0 };
+                w * if *s > 0.0 { 0.5 * libm::erfc((m - x) / (s * std::f64::consts::SQRT_2)) } else { step }
+            };
+            self.0.iter().map(normal).sum()
+        };
+        let end =
+            |sign: f64| self.0.iter().map(|[_, m, s]| sign * m + 10.0 * s).fold(f64::NEG_INFINITY, f64::max);
+        let (mut low, mut high) = (-end(-1.0), end(1.0));
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            if below(middle) < share { low = middle } else { high = middle }
+        }
+        0.5 * (low + high)
+    }
+}
+
+/// The robust covariance of all terms, for sets of them.
+pub(crate) struct Scatter(Option<DMatrix<f64>>);
+
+impl Scatter {
+    /// `C^-1 R C^-1` of the expected covariance C and the robust one R; none where C has no inverse.
+    pub(crate) fn of(whole: &Fit) -> Self {
+        let n = whole.coefficients.len();
+        let robust = DMatrix::from_fn(n, n, |i, j| whole.natural.robust[i][j]);
+        Self(whole.covariance().try_inverse().map(|inverse| &inverse * robust * &inverse))
+    }
+
+    /// The robust standard error of a number of a set, from `D g`: the expected covariance D of the set, and the gradient g. The estimates of the set are `D C^-1` times those of
+    /// all terms, so their robust covariance is `D C^-1 R C^-1 D`. 0 where it is not known.
+    pub(crate) fn error(&self, carried: &DVector<f64>) -> f64 {
+        self.0.as_ref().map_or(0.0, |scatter| carried.dot(&(scatter * carried)).max(0.0).sqrt())
+    }
+}
+
+/// A value of every tied set, with the weight `exp(-excess/2)`: the best set has 1.
+///
+/// The value of a set follows from the estimates and errors that it has from the fit with all terms, the others set to 0 (no set is fitted again). One that
+/// needs coefficients which a set does not have is taken of the set with these added. The outer list is that of `needed`: one value for each list of
+/// coefficients that a value needs.
+pub(crate) fn over_sets<T>(
+    whole: &Fit,
+    subsets: &Subsets,
+    needed: &[Vec<usize>],
+    value: impl Fn(usize, &Conditional) -> T,
+) -> Vec<Vec<(f64, T)>> {
+    let all = whole.coefficients.len();
+    let full = Conditional::new(&whole.natural.coefficients, whole.covariance());
+    let mut values: Vec<Vec<(f64, T)>> = needed.iter().map(|_| Vec::new()).collect();
+    for set in &subsets.ties {
+        let weight = libm::exp(-0.5 * set.excess);
+        let own = full.without((0..all).filter(|i| !set.kept.contains(i)));
+        for (number, (needed, values)) in needed.iter().zip(&mut values).enumerate() {
+            if needed.iter().all(|i| set.kept.contains(i)) {
+                values.push((weight, value(number, &own)));
+                continue;
+            }
+            let dropped = |i: &usize| !set.kept.contains(i) && !needed.contains(i);
+            values.push((weight, value(number, &full.without((0..all).filter(dropped)))));
+        }
+    }
+    values
+}
