@@ -263,10 +263,7 @@ impl std::fmt::Display for Connection {
                 write!(f, "the orbit approaches a connection of a saddle{with} at {place}")
             }
             ConnectionKind::SaddleFocus => {
-                write!(
-                    f,
-                    "the orbit approaches a connection of a saddle-focus{with} (Shilnikov) at {place}"
-                )
+                write!(f, "the orbit approaches a connection of a saddle-focus{with} (Shilnikov) at {place}")
             }
             ConnectionKind::Resonant => {
                 write!(f, "the orbit approaches a resonant connection of a saddle{with} at {place}")

@@ -25,8 +25,6 @@ impl Joins {
             Self::Different => "different",
         }
     }
-
-
 }
 
 /// The words of what a saddle is connected with.

@@ -196,7 +196,10 @@ impl std::fmt::Display for End {
             Self::Closed => write!(f, "the branch came back to its start"),
             Self::Degenerate { kind } => write!(f, "the curve ends: {}", kind.name()),
             Self::Lost { off } => {
-                write!(f, "the critical multiplier is not resolved any more: after the shortest step it is off by {off:.1e}")
+                write!(
+                    f,
+                    "the critical multiplier is not resolved any more: after the shortest step it is off by {off:.1e}"
+                )
             }
             Self::PointLimit => write!(f, "as many points as were asked for"),
             Self::Spent => write!(f, "the steps along orbits that were allowed are spent"),

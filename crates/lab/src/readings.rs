@@ -34,7 +34,8 @@ pub fn dimension(model: &dyn Model, column: &str) -> Dimension {
     if let Some(known) = [&T, &X, &Y, &SPEED, &TURNING_RATE].into_iter().find(|known| known.name == column) {
         return known.dimension;
     }
-    if let Some(seen) = model.observables().iter().chain(model.measures()).find(|known| known.name == column) {
+    if let Some(seen) = model.observables().iter().chain(model.measures()).find(|known| known.name == column)
+    {
         return Dimension::of(seen.length, 0);
     }
     match model.coordinates().iter().position(|known| known.name == column) {

@@ -3,8 +3,8 @@
 use crate::errors::{of_keywords, python};
 use motiform_dynamics::model::Coordinate;
 use motiform_models::ModelInfo;
-use motiform_study::study::RunSettings;
 use motiform_study::Shown;
+use motiform_study::study::RunSettings;
 use motiform_study::{Error, Random, presets, remarks};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;

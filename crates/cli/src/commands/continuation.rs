@@ -8,7 +8,8 @@ use crate::progress::Progress;
 use motiform_diagrams::draw::branch_figures;
 use motiform_diagrams::starts::StartPoint;
 use motiform_diagrams::{
-    BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, follow_kept, nine, stated, stretches, summary,
+    BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, follow_kept, nine, stated, stretches,
+    summary,
 };
 use motiform_lab::draw::{self, Figures, Picture};
 use motiform_store::{Folder, Journal, Opening};

@@ -227,7 +227,8 @@ fn orbits_that_begin_on_stable_motions_can_be_followed_alone() {
     let stable = "continue oscillates.toml --along p=-1:1 --json";
     let list = folder.run("equilibria oscillates.toml --set s=0.5 --json").expect(0).json();
     let number = |entry: &Value| entry["motion"] == "motionless" && entry["unstable"] == 1;
-    let number = 1 + list["equilibria"].as_array().expect("a list").iter().position(number).expect("the rest");
+    let number =
+        1 + list["equilibria"].as_array().expect("a list").iter().position(number).expect("the rest");
     folder.write("equilibria.json", &list.to_string());
     let unstable = format!("continue --start equilibria.json:{number} --along p=-1:1 --branches 2 --json");
     for (command, from_stable, branches) in
@@ -235,7 +236,11 @@ fn orbits_that_begin_on_stable_motions_can_be_followed_alone() {
     {
         let option = if from_stable { " --from-stable" } else { "" };
         let json = folder.run(&format!("{command}{option}")).expect(0).json();
-        assert_eq!(json["branches"].as_array().expect("branches").len(), branches, "{command}{option}: {json}");
+        assert_eq!(
+            json["branches"].as_array().expect("branches").len(),
+            branches,
+            "{command}{option}: {json}"
+        );
         assert_eq!(json["branches"][0]["special"][0]["kind"], "hopf", "{json}");
     }
 }

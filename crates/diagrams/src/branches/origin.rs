@@ -130,7 +130,8 @@ impl Origin {
         match self {
             Self::Special { branch, leg, point } => {
                 let samples = &branches[branch].legs[leg].samples;
-                stable(samples[..point].iter().rev().find(ordinary)) || stable(samples[point..].iter().find(ordinary))
+                stable(samples[..point].iter().rev().find(ordinary))
+                    || stable(samples[point..].iter().find(ordinary))
             }
             Self::Loop { branch, leg } => stable(branches[branch].legs[leg].samples.last()),
             _ => true,

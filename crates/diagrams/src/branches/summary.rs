@@ -5,8 +5,7 @@ use super::result::{Branches, Followed, Leg, Sample};
 use super::stretches::stretches;
 use motiform_analysis::RelativeEquilibrium;
 use motiform_continuation::{
-    Joins,
-    Broken, Certificate, Coefficient, Connection, End, NormalForm, Passed, PeriodLaw, Point, Special,
+    Broken, Certificate, Coefficient, Connection, End, Joins, NormalForm, Passed, PeriodLaw, Point, Special,
 };
 use motiform_study::BranchPlan;
 use serde::Serialize;
