@@ -47,8 +47,9 @@ impl NearBifurcation {
     }
 }
 
-/// The nearest bifurcations below and above the fitted value of gamma, kappa2 and kappa3, as far as the model has them: the motion of the fitted equations is
-/// followed over 10 standard errors or half the value to both sides, whichever is more. Empty without a named motion, or where it is neither steady nor periodic.
+/// The nearest bifurcations below and above the fitted value of gamma, kappa2 and kappa3, as far as the model has them: the motion of
+/// the fitted equations is followed over 10 standard errors or half the value to both sides, whichever is more. Empty without a named
+/// motion, or where it is neither steady nor periodic.
 ///
 /// # Errors
 /// [`Error::Interrupted`].

@@ -29,9 +29,9 @@ pub struct CellTrack {
     pub track: Track,
     /// Frames of the track, by their place in it, at which a piece begins: the stage jumps there, and no displacement counts.
     pub breaks: Vec<usize>,
-    /// Whether the jumps were subtracted from the outlines: then the path goes on across them.
+    /// `true` if the jumps were subtracted from the outlines: then the path goes on across them.
     pub bridged: bool,
-    /// Whether all cells drift together, and that was not subtracted.
+    /// `true` if all cells drift together, and that was not subtracted.
     pub drifts: bool,
     /// Mean radius R0 over these frames; 0 without any.
     pub radius: f64,

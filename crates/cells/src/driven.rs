@@ -18,8 +18,9 @@ const LEAST_MODELS: usize = 8;
 
 /// The share of the motion that the equations make without their noise.
 ///
-/// The mean square speed without noise over that of the same equations with the fitted noise, both from the same state of the cell, over 50 natural times after as many: 0 where
-/// the body rests without noise, 1 where the noise adds nothing; above 1 where it slows the body.
+/// The mean square speed without noise over that of the same equations with the fitted noise, both from the same state of the cell,
+/// over 50 natural times after as many: 0 where the body rests without noise, 1 where the noise adds nothing; above 1 where it slows
+/// the body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Driven {
     /// The median over models that the data allow.

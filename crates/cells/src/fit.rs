@@ -24,14 +24,14 @@ pub struct FitOptions {
     pub seed: u64,
     /// Cells simulated by the fit, to be compared with the observed one; 0 for none.
     pub simulations: usize,
-    /// Whether the nearest bifurcations are looked for.
+    /// `true` if the nearest bifurcations are looked for.
     pub bifurcations: bool,
-    /// Whether the fit is repeated on every second and every fourth frame.
+    /// `true` if the fit is repeated on every second and every fourth frame.
     pub drift: bool,
     /// One fit of all cells instead of one of each.
     #[serde(default)]
     pub together: bool,
-    /// Whether a velocity of the stage that a cell shows is fitted and subtracted.
+    /// `true` if a velocity of the stage that a cell shows is fitted and subtracted.
     #[serde(default)]
     pub stage: bool,
 }
@@ -116,7 +116,8 @@ pub(crate) fn fit_or_reason(
     match fit_cell(cell, options, watch) {
         Ok(fit) => Ok(Some(fit)),
         Err(Error::Study(motiform_study::Error::Interrupted)) => Ok(None),
-        // Equations that are no model, or that cannot be analysed, are this cell's matter; other errors of studies, such as files that cannot be written, end the work.
+        // Equations that are no model, or that cannot be analysed, are this cell's matter; other errors of studies, such as files that
+        // cannot be written, end the work.
         Err(Error::Study(motiform_study::Error::Models(error))) => Ok(Some(without_fit(cell, &error))),
         Err(Error::Study(motiform_study::Error::Analysis(error))) => Ok(Some(without_fit(cell, &error))),
         Err(Error::Study(error)) => Err(error),
@@ -175,7 +176,8 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
     })
 }
 
-/// The fit of the pieces of a record, and the path that it describes: with [`FitOptions::stage`] both without the velocity of the stage, where there is one.
+/// The fit of the pieces of a record, and the path that it describes: with [`FitOptions::stage`] both without the velocity of the
+/// stage, where there is one.
 fn on_stage(
     pieces: &[Track],
     path: Track,

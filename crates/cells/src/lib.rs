@@ -1,8 +1,9 @@
 //! Tracked cells: outlines in, and out come the observed motion, the fitted equations, their regime and their place.
 //!
-//! [`Sample::read`] turns files into cells with modes and quality ([`motiform_tracks`]); [`FieldOfView`] says what stage and camera add to all of them. [`observe()`] says how a cell moves, from its samples
-//! alone. [`fit_cell`] fits a model ([`motiform_inference`]), asks what the data determine, names the motion of the models that the data
-//! allow, and places them on the paper's planes. What cannot be decided is a value with its reasons, never a name.
+//! [`Sample::read`] turns files into cells with modes and quality ([`motiform_tracks`]); [`FieldOfView`] says what stage and camera add
+//! to all of them. [`observe()`] says how a cell moves, from its samples alone. [`fit_cell`] fits a model ([`motiform_inference`]),
+//! asks what the data determine, names the motion of the models that the data allow, and places them on the paper's planes. What cannot
+//! be decided is a value with its reasons, never a name.
 
 mod bifurcations;
 mod cell;

@@ -4,7 +4,8 @@ use motiform_dynamics::{Model, Noise};
 use motiform_inference::{Fit, equations};
 use motiform_models::amplitudes::info;
 
-/// The equations with these coefficients in natural units. The names of the model are kept once per set of terms: its values are given apart.
+/// The equations with these coefficients in natural units. The names of the model are kept once per set of terms: its values are given
+/// apart.
 pub(crate) fn model(fit: &Fit, coefficients: &[f64]) -> Option<Box<dyn Model>> {
     let values = equations(&fit.library, fit.handed, coefficients);
     let names = info(&equations(&fit.library, fit.handed, &[])).ok()?;

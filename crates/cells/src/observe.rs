@@ -30,8 +30,8 @@ const LEAST_REPEATS: f64 = 4.0;
 const LEAST_TURNS: f64 = 2.0;
 /// Standard errors by which a mean must differ from 0.
 const CLEAR: f64 = 4.0;
-/// A shape that deviates from its mean by more than this part of the radius, and by more than the mean itself, is not that of a straight motion
-/// with noise.
+/// A shape that deviates from its mean by more than this part of the radius, and by more than the mean itself, is not that of a
+/// straight motion with noise.
 const MOST_WOBBLE: f64 = 0.05;
 /// Largest scatter of heading (rad), and of speed and turning rate relative to their means, of a steady motion.
 const STEADY: f64 = 0.25;
@@ -131,8 +131,8 @@ fn resampled(
     Motion { regime: None, why, confidence: None }
 }
 
-/// Statistics over cells, each with the weight of its length: intervals are those over cells where there are 8 and more. Cells of another sampling interval than most are left
-/// out; `None` without a cell that is long enough.
+/// Statistics over cells, each with the weight of its length: intervals are those over cells where there are 8 and more. Cells of
+/// another sampling interval than most are left out; `None` without a cell that is long enough.
 #[must_use]
 pub fn population_statistics(found: &[Observation]) -> Option<(usize, MotionStatistics)> {
     let all: Vec<_> = found.iter().filter_map(|one| Some(&one.measures.as_ref()?.series)).collect();

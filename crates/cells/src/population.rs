@@ -28,8 +28,8 @@ pub struct NameShare {
 
 /// A number over cells.
 ///
-/// Intervals are those of the 2.5 % and 97.5 % quantiles of 2000 resamples of whole cells with replacement; none with fewer than 8 cells. Resampling `n`
-/// cells scatters by `sqrt((n - 1)/n)` too little; the distances from the value are widened by the inverse.
+/// Intervals are those of the 2.5 % and 97.5 % quantiles of 2000 resamples of whole cells with replacement; none with fewer than 8
+/// cells. Resampling `n` cells scatters by `sqrt((n - 1)/n)` too little; the distances from the value are widened by the inverse.
 ///
 /// Source: Efron (1979), Ann. Stat. 7, 1; the factor: Efron and Tibshirani (1993), An Introduction to the Bootstrap, sec. 6.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -65,9 +65,11 @@ pub struct FittedPopulation {
     pub cells: usize,
     /// Names and their shares, the most frequent first.
     pub regimes: Vec<NameShare>,
-    /// The motion of the cells whose coefficients count: the most frequent name of a fit that converged with bounded coefficients; cells with other motions, or none, have other laws. `None` where no cell has a name.
+    /// The motion of the cells whose coefficients count: the most frequent name of a fit that converged with bounded coefficients; cells
+    /// with other motions, or none, have other laws. `None` where no cell has a name.
     pub law: Option<&'static str>,
-    /// Cells whose coefficients count: fits with all terms that converged and leave no coefficient unbounded, of this motion and of one set of modes.
+    /// Cells whose coefficients count: fits with all terms that converged and leave no coefficient unbounded, of this motion and of one set
+    /// of modes.
     pub fitted: usize,
     /// Coefficients over these cells.
     pub coefficients: Vec<PopulationCoefficient>,

@@ -1,8 +1,9 @@
 //! Simulated cells beside the observed one: does the fitted model move like the cell?
 //!
-//! Cells are simulated by equations drawn from the estimate with the fitted noise, from where the observed one starts, and seen at the same frames with errors of the
-//! same covariance: so the spread of the simulated cells holds that of the noise and the uncertainty of the coefficients. The same statistics are taken of all of them, and a rank test says for each whether the observed cell could be one of
-//! the simulated ones. Definitions: docs/cells.md, section 'Simulated cells'.
+//! Cells are simulated by equations drawn from the estimate with the fitted noise, from where the observed one starts, and seen at the
+//! same frames with errors of the same covariance: so the spread of the simulated cells holds that of the noise and the uncertainty of
+//! the coefficients. The same statistics are taken of all of them, and a rank test says for each whether the observed cell could be one
+//! of the simulated ones. Definitions: docs/cells.md, section 'Simulated cells'.
 
 mod envelope;
 mod record;
@@ -61,7 +62,7 @@ pub struct Prediction {
 }
 
 impl Prediction {
-    /// Whether too many simulated cells blow up for a comparison: the model does not describe the cell.
+    /// `true` if too many simulated cells blow up for a comparison: the model does not describe the cell.
     #[must_use]
     pub fn is_unstable(&self) -> bool {
         self.lost as f64 > MOST_LOST * (self.cells + self.lost) as f64
@@ -81,7 +82,8 @@ impl Prediction {
         })
     }
 
-    /// That the cell differs from simulated ones in more than one statistic, as a clause; `None` where that contradicts the fit, which says it.
+    /// That the cell differs from simulated ones in more than one statistic, as a clause; `None` where that contradicts the fit, which says
+    /// it.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
         let differ = self.count(Agreement::Differs);
@@ -100,7 +102,8 @@ impl Prediction {
     }
 }
 
-/// Simulates cells by a fit and compares them with the track of the observed one; `None` if the watch stopped the work, or where there are too few frames.
+/// Simulates cells by a fit and compares them with the track of the observed one; `None` if the watch stopped the work, or where there
+/// are too few frames.
 ///
 /// # Checked by  tests/all/prediction.rs: p-values of the true model are uniform; wrong models are found
 #[must_use]

@@ -1,11 +1,13 @@
-//! The table `[fit]` of a fitted model's study file: the data and settings that the equations come from, and how well their parameters are known.
+//! The table `[fit]` of a fitted model's study file: the data and settings that the equations come from, and how well their parameters
+//! are known.
 
 use crate::work::digest;
 use crate::{CellFit, FitOptions, Fitted, Result, Sample, Units};
 use motiform_inference::paper;
 use toml::Value;
 
-/// The study file of a fit: the model, then `[fit]`. Simulations do not read that table; it is there to make the fit again, and for its covariance.
+/// The study file of a fit: the model, then `[fit]`. Simulations do not read that table; it is there to make the fit again, and for its
+/// covariance.
 ///
 /// # Errors
 /// Equations that are no model.

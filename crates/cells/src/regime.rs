@@ -44,7 +44,7 @@ pub struct FittedRegime {
     /// See [`FittedRegime::is_carried`].
     #[serde(default)]
     pub carried: bool,
-    /// Whether a linear rate of the best model is so slow that the record holds less than three of its e-foldings.
+    /// `true` if a linear rate of the best model is so slow that the record holds less than three of its e-foldings.
     #[serde(default)]
     pub slow: bool,
     /// How much of the motion the equations make without their noise; `None` with few draws, or where these blow up.
@@ -53,21 +53,23 @@ pub struct FittedRegime {
 }
 
 impl FittedRegime {
-    /// Whether the best model blows up: then it is no model of a cell that was tracked.
+    /// `true` if the best model blows up: then it is no model of a cell that was tracked.
     #[must_use]
     pub fn blows_up(&self) -> bool {
         self.best == Regime::BlowUp
     }
 
-    /// Whether the models rest without their noise, although the cell moves: then the displacement is that of the noise, and the motion is no rest.
+    /// `true` if the models rest without their noise, although the cell moves: then the displacement is that of the noise, and the motion is
+    /// no rest.
     #[must_use]
     pub fn is_carried(&self) -> bool {
         self.carried
     }
 
-    /// Why neither intervals of the coefficients nor a place are stated: of steady motions they hold the truth too rarely. Such a cell stays next to one point of the shape,
-    /// and what noise moves it off that point is known with errors of the same size, which the likelihood takes for information. In a record of less than three e-foldings
-    /// of a linear rate this and a nonlinear term do the same: the set with one of them alone has small errors, and both are wrong.
+    /// Why neither intervals of the coefficients nor a place are stated: of steady motions they hold the truth too rarely. Such a cell
+    /// stays next to one point of the shape, and what noise moves it off that point is known with errors of the same size, which the
+    /// likelihood takes for information. In a record of less than three e-foldings of a linear rate this and a nonlinear term do the same:
+    /// the set with one of them alone has small errors, and both are wrong.
     #[must_use]
     pub fn no_intervals(&self) -> Option<&'static str> {
         if self.slow {
@@ -82,9 +84,10 @@ impl FittedRegime {
 }
 
 /// Classifies models drawn from the estimate: from the sets of terms that the data do not tell apart, each with the share of its weight
-/// `exp(-excess/2)`, and from the normal distribution of each set's coefficients. Noise is left out: the motion is that of the equations, from a state that the
-/// cell had in the middle of its record. Equations with several motions, or with states that blow up, have that of the cell. A steady motion that equations reach only after
-/// the end of the record counts as undetermined: the cell did not show it.
+/// `exp(-excess/2)`, and from the normal distribution of each set's coefficients. Noise is left out: the motion is that of the
+/// equations, from a state that the cell had in the middle of its record. Equations with several motions, or with states that blow up,
+/// have that of the cell. A steady motion that equations reach only after the end of the record counts as undetermined: the cell did
+/// not show it.
 ///
 /// # Errors
 /// Equations that are no model; [`motiform_study::Error::Interrupted`].
@@ -148,7 +151,7 @@ fn shown(end: Regime, settles: impl Fn() -> bool) -> Regime {
     }
 }
 
-/// Whether a linear rate has less than three e-foldings in this many natural times.
+/// `true` if a linear rate has less than three e-foldings in this many natural times.
 fn is_slow(fit: &Fit, time: f64) -> bool {
     let linear = |name: &str| (1..=MOST_MODES).any(|n| name == format!("z{n}: z{n}"));
     let mut all = fit.coefficients.iter().zip(&fit.natural.coefficients);
@@ -172,8 +175,9 @@ fn sets(tracks: &[Track], whole: &Fit, selection: &Selection, watch: &dyn Watch)
     ties.iter().enumerate().map(with_share).collect()
 }
 
-/// A study of the equations with these coefficients in natural units, in which every number is of order 1. The names of a model are kept as long as the
-/// process: they are those of the set of terms, and the values are given apart. It begins at these coordinates of the model.
+/// A study of the equations with these coefficients in natural units, in which every number is of order 1. The names of a model are
+/// kept as long as the process: they are those of the set of terms, and the values are given apart. It begins at these coordinates of
+/// the model.
 pub(crate) fn natural_study(
     fit: &Fit,
     (values, start): (&[f64], &[f64]),

@@ -17,8 +17,9 @@ pub(crate) fn time_left(tracks: &[Track], fit: &Fit) -> f64 {
     left.unwrap_or(0.0) / fit.scales.time
 }
 
-/// Whether equations that end in a steady motion reach it within this time: without noise, from these coordinates, speed and sizes of the modes keep their values in the
-/// last half of it. Otherwise the steady motion is not what the cell showed, but what the equations foretell for later.
+/// `true` if equations that end in a steady motion reach it within this time: without noise, from these coordinates, speed and sizes of
+/// the modes keep their values in the last half of it. Otherwise the steady motion is not what the cell showed, but what the equations
+/// foretell for later.
 pub(crate) fn settles(fit: &Fit, (values, start): (&[f64], &[f64]), time: f64) -> bool {
     let steps = (time.min(MOST_TIME) / STEP) as usize;
     let run = || {

@@ -2,7 +2,8 @@
 
 use motiform_inference::{Observation, Scales, Track};
 
-/// Two frames whose displacement is the velocity of the first one: the frame at this place, and the first later one whose displacement is clear, or the last.
+/// Two frames whose displacement is the velocity of the first one: the frame at this place, and the first later one whose displacement
+/// is clear, or the last.
 pub(crate) fn pair(track: &Track, place: usize) -> Option<[&Observation; 2]> {
     let first = track.0.get(place)?;
     let later = track.0[place + 1..].iter().find(|frame| clear(first, frame)).or(track.0.last())?;
@@ -17,14 +18,15 @@ pub(crate) fn coordinates([first, later]: [&[f64]; 2], by: f64, scales: &Scales)
     velocity.into_iter().chain(shape).collect()
 }
 
-/// The state in the middle of the longest track, where transients are over: coordinates of the model in natural units; `None` without two frames.
+/// The state in the middle of the longest track, where transients are over: coordinates of the model in natural units; `None` without
+/// two frames.
 pub(crate) fn observed(tracks: &[Track], scales: &Scales) -> Option<Vec<f64>> {
     let track = tracks.iter().max_by_key(|track| track.0.len())?;
     let [first, later] = pair(track, track.0.len() / 2)?;
     Some(coordinates([&first.y, &later.y], later.t - first.t, scales))
 }
 
-/// Whether the displacement is 5 times its error.
+/// `true` if the displacement is 5 times its error.
 fn clear(a: &Observation, b: &Observation) -> bool {
     let variance = |frame: &Observation| 0.5 * (frame.covariance[0][0] + frame.covariance[1][1]);
     libm::hypot(b.y[0] - a.y[0], b.y[1] - a.y[1]) > 5.0 * (variance(a) + variance(b)).sqrt()

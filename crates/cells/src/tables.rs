@@ -19,7 +19,8 @@ const MODES: [&Quantity; 8] = [
     &frame::Z5_IM,
 ];
 
-/// The modes of all frames: cell, frame, time, centre, mean radius, z2 to z5 with the standard errors of z2 and z3, area, and what is wrong.
+/// The modes of all frames: cell, frame, time, centre, mean radius, z2 to z5 with the standard errors of z2 and z3, area, and what is
+/// wrong.
 #[must_use]
 pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
     let rows: Vec<(&CellTrack, &FrameModes)> =

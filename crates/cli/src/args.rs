@@ -213,7 +213,8 @@ pub(crate) struct LyapunovOptions {
 
 #[derive(Args)]
 pub(crate) struct ReproduceOptions {
-    /// fig1, fig2, ... fig6, equations (consequences of the equations as written), models (what both models have in common); all of these if none is given. Further: extensions (the presets with equations given as text)
+    /// fig1, fig2, ... fig6, equations (consequences of the equations as written), models (what both models have in common); all of these
+    /// if none is given. Further: extensions (the presets with equations given as text)
     #[arg(value_name = "FIGURE")]
     pub(crate) figures: Vec<String>,
     /// Coarser scans and shorter runs, in about a minute of CPU time; claims for which this is too little evidence are not judged

@@ -14,7 +14,8 @@ const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
 #[cfg(not(unix))]
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
-/// True from the first signal on; the second one ends the process with exit code 130. Until the first call signals end the process, as usual.
+/// True from the first signal on; the second one ends the process with exit code 130. Until the first call signals end the process, as
+/// usual.
 pub(crate) fn interrupted() -> Arc<AtomicBool> {
     static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
     let flag = FLAG.get_or_init(|| {

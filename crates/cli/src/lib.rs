@@ -1,7 +1,9 @@
-//! The laboratory for deformable self-propelled domains - cells, droplets and other bodies whose shape and motion drive each other - as a library.
+//! The laboratory for deformable self-propelled domains - cells, droplets and other bodies whose shape and motion drive each other - as
+//! a library.
 //!
-//! A body is a shape state with a velocity read off it: `x' = v(shape)`. Write its equations once, over any scalar, and everything here works for it: its motion is
-//! simulated and named, its exponents and branches are computed, its parameters scanned, and all of it drawn.
+//! A body is a shape state with a velocity read off it: `x' = v(shape)`. Write its equations once, over any scalar, and everything here
+//! works for it: its motion is simulated and named, its exponents and branches are computed, its parameters scanned, and all of it
+//! drawn.
 //!
 //! # From a model of one's own to a named motion and a figure
 //!
@@ -11,12 +13,14 @@
 //! v' = (gamma - |v|^2) v - k w,    w' = (v - w) / tau
 //! ```
 //!
-//! For `k tau < 1` it goes straight with the speed `sqrt(gamma - k)`. Beyond, it goes in circles: speed `sqrt(gamma - 1/tau)`, turning rate `sqrt(k tau - 1)/tau`.
+//! For `k tau < 1` it goes straight with the speed `sqrt(gamma - k)`. Beyond, it goes in circles: speed `sqrt(gamma - 1/tau)`, turning
+//! rate `sqrt(k tau - 1)/tau`.
 //!
 #![doc = concat!("```\n", include_str!("../examples/own_model.rs"), "```")]
 //!
-//! Everything that takes a study takes this one: [`lab::scan`] maps its motions over parameters and resumes, [`diagrams::follow`](diagrams::follow()) follows its branches and finds
-//! that circles begin at `k tau = 1`, [`lab::analyse::lyapunov`] computes its exponents, [`lab::statistics`] those of many bodies.
+//! Everything that takes a study takes this one: [`lab::scan`] maps its motions over parameters and resumes,
+//! [`diagrams::follow`](diagrams::follow()) follows its branches and finds that circles begin at `k tau = 1`,
+//! [`lab::analyse::lyapunov`] computes its exponents, [`lab::statistics`] those of many bodies.
 //!
 //! # The ideas, one page each
 //!
@@ -48,7 +52,7 @@ pub use motiform_store as store;
 pub use motiform_study as study;
 pub use motiform_tracks as tracks;
 
-/// What most programs need: the traits of a model, studies and plans, and the verbs.
+/// The names that most programs need: the traits of a model, studies and plans, and the verbs.
 pub mod prelude {
     pub use motiform_analysis::{Regime, regime::Verdict};
     pub use motiform_diagrams::follow;

@@ -8,7 +8,7 @@ use motiform_study::Error;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// How a successful command ended.
+/// The end of a successful command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum End {
     /// All results are as requested.
@@ -90,8 +90,8 @@ impl std::fmt::Display for StdoutFailed {
 
 impl std::error::Error for StdoutFailed {}
 
-/// Prints an error on standard error. Exit code 2: nothing was found, because of the input or because files could not be written; 1 where numbers are
-/// there and only a figure cannot be drawn; 130 if it was a stop.
+/// Prints an error on standard error. Exit code 2: nothing was found, because of the input or because files could not be written; 1
+/// where numbers are there and only a figure cannot be drawn; 130 if it was a stop.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     // Standard error is the last resort: nothing is left to say if it fails too.
     let remedy = remedy::end(error);

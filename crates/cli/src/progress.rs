@@ -1,4 +1,5 @@
-//! Progress of work that takes longer than some seconds, and Ctrl-C: a bar with rate and remaining time on a terminal, else a line every ten seconds.
+//! Progress of work that takes longer than some seconds, and Ctrl-C: a bar with rate and remaining time on a terminal, else a line
+//! every ten seconds.
 
 use crate::interrupt::interrupted;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -22,7 +23,7 @@ pub(crate) struct Progress {
     total: f64,
     /// When the next line is due, where standard error is no terminal.
     next: Option<Mutex<Instant>>,
-    /// Whether Ctrl-C was pressed.
+    /// `true` if Ctrl-C was pressed.
     stopped: Arc<AtomicBool>,
 }
 
@@ -64,7 +65,7 @@ impl Progress {
     }
 }
 
-/// How far the work is after some seconds: `34.2 % done after 12 s, about 23 s left`.
+/// The progress of the work after some seconds: `34.2 % done after 12 s, about 23 s left`.
 fn sentence(done: f64, spent: f64) -> String {
     let line = format!("{:.1} % done after {spent:.0} s", 100.0 * done);
     if done > 0.0 { format!("{line}, about {:.0} s left", spent * (1.0 / done - 1.0)) } else { line }

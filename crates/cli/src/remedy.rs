@@ -1,4 +1,4 @@
-//! What to type after an error: the library speaks of values, the command line of its options.
+//! The remedy after an error, as it is typed: the library speaks of values, the command line of its options.
 
 use motiform_cells::Error as CellError;
 use motiform_store::{Error as StoreError, Kind};

@@ -1,9 +1,9 @@
-//! Whether standard output was closed when the program started (`motiform ... >&-`): the only file of this crate with `unsafe`.
+//! The state of standard output when the program started, which may have been closed (`motiform ... >&-`): the only file of this crate with `unsafe`.
 //!
 //! The standard library opens `/dev/null` in the place of a standard descriptor that is closed, before `main`: every result would be lost
-//! in silence, with exit code 0. In `main` that cannot be told from `> /dev/null` or Python's `subprocess.DEVNULL`, which are asked for. The
-//! loader calls the functions of a section of the program before that, and one of them looks. It has no arguments, allocates nothing, and uses nothing of the
-//! standard library that has to be set up. Tests: tests/all/closed_output.rs.
+//! in silence, with exit code 0. In `main` that cannot be told from `> /dev/null` or Python's `subprocess.DEVNULL`, which are asked
+//! for. The loader calls the functions of a section of the program before that, and one of them looks. It has no arguments, allocates
+//! nothing, and uses nothing of the standard library that has to be set up. Tests: tests/all/closed_output.rs.
 
 #![allow(
     unsafe_code,
@@ -27,7 +27,7 @@ extern "C" fn look() {
     CLOSED.store(fcntl_getfd(stdout) == Err(Errno::BADF), Ordering::Relaxed);
 }
 
-/// Whether standard output was closed when the program started.
+/// `true` if standard output was closed when the program started.
 pub(crate) fn was_closed() -> bool {
     CLOSED.load(Ordering::Relaxed)
 }

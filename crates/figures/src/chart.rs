@@ -42,11 +42,11 @@ pub struct Chart {
     pub x_label: String,
     /// Label of the y axis.
     pub y_label: String,
-    /// Whether the value 0 is in sight and has a line (of no account on a logarithmic axis).
+    /// `true` if the value 0 is in sight and has a line (of no account on a logarithmic axis).
     pub zero_line: bool,
-    /// Whether the x axis is logarithmic.
+    /// `true` if the x axis is logarithmic.
     pub logarithmic_x: bool,
-    /// Whether the y axis is logarithmic.
+    /// `true` if the y axis is logarithmic.
     pub logarithmic_y: bool,
     /// The data, drawn in this order.
     pub layers: Vec<Layer>,
@@ -60,7 +60,7 @@ impl Chart {
         self
     }
 
-    /// Whether it shows no data: lines of theory alone are no figure.
+    /// `true` if it shows no data: lines of theory alone are no figure.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.layers.iter().all(|layer| layer.marks().rank() == Rank::Theory)

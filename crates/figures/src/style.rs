@@ -51,7 +51,7 @@ const COLUMN: f64 = 86.0;
 const SLIDE: f64 = 640.0;
 
 impl Width {
-    /// What sheets of this width are laid out for.
+    /// The medium that sheets of this width are laid out for.
     #[must_use]
     pub fn room(self) -> Room {
         match self {

@@ -25,7 +25,7 @@ pub(crate) struct Context<'c> {
     pub quick: bool,
     /// Threads of scans; changes no number.
     pub threads: usize,
-    /// How figures are drawn.
+    /// The style of figures.
     pub style: &'c Style,
     /// Progress, and whether to stop.
     pub watch: &'c dyn Watch,

@@ -143,7 +143,7 @@ impl Study {
         Ok(coordinates.iter().map(|&Coordinate { name, meaning }| (name, meaning)).collect())
     }
 
-    /// What a unit of length and one of time are; empty where they are those of the model.
+    /// The units of length and time; empty where they are those of the model.
     #[getter]
     fn units(&self) -> &str {
         &self.0.figure.units

@@ -25,13 +25,14 @@ pub struct CommonDrift {
 }
 
 impl CommonDrift {
-    /// Whether the cells drift together.
+    /// `true` if the cells drift together.
     #[must_use]
     pub fn is_seen(&self) -> bool {
         self.p_value < LEVEL
     }
 
-    /// With the mean velocity v_c of each of n cells, m their mean and C their covariance: T^2 = n m^T C^-1 m, and p = (1 + T^2/(n - 1))^(-(n - 2)/2), exact for normal v_c.
+    /// With the mean velocity v_c of each of n cells, m their mean and C their covariance: T^2 = n m^T C^-1 m, and p = (1 + T^2/(n -
+    /// 1))^(-(n - 2)/2), exact for normal v_c.
     ///
     /// Source: Hotelling (1931), Ann. Math. Stat. 2, 360.
     pub(super) fn of(grid: &Grid) -> Option<Self> {

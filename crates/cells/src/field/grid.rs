@@ -104,7 +104,7 @@ impl Grid {
     }
 }
 
-/// Whether the place of an outline is that of the cell on the images, also where the stage was elsewhere for a moment.
+/// `true` if the place of an outline is that of the cell on the images, also where the stage was elsewhere for a moment.
 fn is_placed(frame: &FrameModes) -> bool {
     let hides = |flag: &Flag| {
         flag.leaves_out() && !matches!(flag, Flag::TooFewVertices { .. } | Flag::PositionJump { .. })

@@ -39,7 +39,7 @@ pub struct Jitter {
 }
 
 impl Jitter {
-    /// Whether there is one.
+    /// `true` if there is one.
     #[must_use]
     pub fn is_seen(&self) -> bool {
         self.p_value < LEVEL && self.deviation > 0.0
@@ -53,9 +53,10 @@ impl Jitter {
         place.and_then(|k| of.get(k)).copied().unwrap_or_default()
     }
 
-    /// With the residual h of each cell from what its neighbours in time interpolate, of variance v without what is common, H = sum h/v / sum 1/v over cells has the variance g sigma^2 + 1/sum(1/v), g the sum of squares
-    /// of the stencil: that gives the deviation sigma of a jitter that is white in time. The displacements e of highest posterior density minimise sum (H - A e)^2 sum 1/v + sum e^2/sigma^2, A the stencil
-    /// (conjugate gradients). Of two stencils the one that leaves less of the cells' own motion is taken.
+    /// With the residual h of each cell from what its neighbours in time interpolate, of variance v without what is common, H = sum h/v /
+    /// sum 1/v over cells has the variance g sigma^2 + 1/sum(1/v), g the sum of squares of the stencil: that gives the deviation sigma of a
+    /// jitter that is white in time. The displacements e of highest posterior density minimise sum (H - A e)^2 sum 1/v + sum e^2/sigma^2, A
+    /// the stencil (conjugate gradients). Of two stencils the one that leaves less of the cells' own motion is taken.
     ///
     /// The test shifts each cell in time at random, and asks how often sum H^2 sum 1/v is as large.
     pub(super) fn of(grid: &Grid) -> Option<Self> {

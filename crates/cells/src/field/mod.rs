@@ -1,7 +1,8 @@
 //! The field of view as an instrument: what the stage and the camera add to all cells, found in all of them together.
 //!
-//! Jumps of the stage are found first and left out of what follows, then a jitter of whole frames, then a drift. What is found can be subtracted from the outlines
-//! ([`Correction`]). All cells that are read together are taken as one field of view. Definitions: docs/cells.md, section 'The field of view'.
+//! Jumps of the stage are found first and left out of what follows, then a jitter of whole frames, then a drift. What is found can be
+//! subtracted from the outlines ([`Correction`]). All cells that are read together are taken as one field of view. Definitions:
+//! docs/cells.md, section 'The field of view'.
 
 mod correction;
 mod drift;
@@ -54,13 +55,13 @@ impl FieldOfView {
         Self { cells: grid.cells(), jumps, jitter, drift, pixel, corrected: Vec::new() }
     }
 
-    /// Whether a drift is seen that was not subtracted.
+    /// `true` if a drift is seen that was not subtracted.
     #[must_use]
     pub fn drifts(&self) -> bool {
         !self.is_corrected(Correction::Drift) && self.drift.is_some_and(|drift| drift.is_seen())
     }
 
-    /// Whether this was subtracted from the outlines.
+    /// `true` if this was subtracted from the outlines.
     #[must_use]
     pub fn is_corrected(&self, what: Correction) -> bool {
         self.corrected.contains(&what)

@@ -10,7 +10,8 @@ const NEAR: f64 = 1e-3;
 /// Least pitch, relative to the radius sqrt(A/pi): finer grids are those of printed digits.
 const LEAST: f64 = 0.01;
 
-/// The pitch of the grid on which all vertices lie: the least step of a coordinate from vertex to vertex, where nearly all steps are multiples of it.
+/// The pitch of the grid on which all vertices lie: the least step of a coordinate from vertex to vertex, where nearly all steps are
+/// multiples of it.
 pub(super) fn pitch(tracks: &Tracks) -> Option<f64> {
     let every = (tracks.outlines() / MOST).max(1);
     let outlines = || tracks.cells.iter().flat_map(|cell| &cell.frames).step_by(every);

@@ -5,7 +5,8 @@ use motiform_inference::{HANDED_RATE, Handedness, Stretch, Symmetry, Track, Warn
 /// Significance below which innovations that are not white leave a cell without motion and place.
 const COLOURED: f64 = 1e-6;
 
-/// Serious warnings, and what speaks against the test of handedness; `beside`: its p-values beside a velocity of the stage, and in stretched images.
+/// Serious warnings, and what speaks against the test of handedness; `beside`: its p-values beside a velocity of the stage, and in
+/// stretched images.
 pub(super) fn doubts(
     tracks: &[Track],
     warnings: &[Warning],
@@ -41,7 +42,7 @@ pub(super) fn doubts(
     doubts
 }
 
-/// Whether there is no motion and no place with this warning.
+/// `true` if there is no motion and no place with this warning.
 fn serious(warning: &Warning) -> bool {
     match warning {
         Warning::Unbounded { .. }

@@ -36,16 +36,19 @@ pub struct Fitted {
     pub checks: Checks,
     /// What makes the fit doubtful.
     pub warnings: Vec<Warning>,
-    /// Why there is neither motion nor place nor a symmetry: serious warnings, handedness that is not decided, blow-up, simulated cells that are unlike the observed one.
+    /// Why there is neither motion nor place nor a symmetry: serious warnings, handedness that is not decided, blow-up, simulated cells
+    /// that are unlike the observed one.
     pub doubts: Vec<String>,
     /// The motion; `None` where the coefficients are not determined.
     pub regime: Option<FittedRegime>,
     /// Places on the planes of Fig. 4 and Fig. 1.
     pub places: [Placement; 2],
-    /// The coefficients of all terms over all sets that the data do not tell apart, with intervals that hold the choice of terms; none of a handed model.
+    /// The coefficients of all terms over all sets that the data do not tell apart, with intervals that hold the choice of terms; none of a
+    /// handed model.
     #[serde(default)]
     pub averaged: Vec<Averaged>,
-    /// Velocities of the stage that were subtracted before the fit, one for each piece of the record; none without `--correct drift`, or where none is seen.
+    /// Velocities of the stage that were subtracted before the fit, one for each piece of the record; none without `--correct drift`, or
+    /// where none is seen.
     #[serde(default)]
     pub stage: Vec<[f64; 2]>,
     /// Of a cell that its likelihood calls handed: the p-value of the same test beside a velocity of the stage.
@@ -65,7 +68,7 @@ impl Fitted {
         if self.rejects_real() { &self.handedness.fit } else { &self.selection.fit }
     }
 
-    /// Whether real coefficients are rejected: the model then has complex ones.
+    /// `true` if real coefficients are rejected: the model then has complex ones.
     fn rejects_real(&self) -> bool {
         self.handedness.symmetry == Symmetry::Handed
     }
@@ -76,7 +79,8 @@ impl Fitted {
         if self.doubts.is_empty() { self.handedness.symmetry } else { Symmetry::Undecided }
     }
 
-    /// The motion in a word: that of the equations, [`PERSISTENT_WALK`] where these rest without their noise and the cell moves, or `undecided`.
+    /// The motion in a word: that of the equations, [`PERSISTENT_WALK`] where these rest without their noise and the cell moves, or
+    /// `undecided`.
     #[must_use]
     pub fn motion_name(&self) -> &'static str {
         if self.is_walk() {
@@ -85,7 +89,8 @@ impl Fitted {
         self.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name())
     }
 
-    /// Whether noise carries all of the displacement: the models that the data allow rest without it, while the speed exceeds its errors of observation.
+    /// `true` if noise carries all of the displacement: the models that the data allow rest without it, while the speed exceeds its errors of
+    /// observation.
     #[must_use]
     pub fn is_walk(&self) -> bool {
         self.doubts.is_empty() && self.regime.as_ref().is_some_and(FittedRegime::is_carried)
@@ -108,13 +113,13 @@ impl Fitted {
         format!("{rest}; {acts}")
     }
 
-    /// Whether the cell is handed.
+    /// `true` if the cell is handed.
     #[must_use]
     pub fn is_handed(&self) -> bool {
         self.symmetry() == Symmetry::Handed
     }
 
-    /// Whether the data determine the coefficients of the model.
+    /// `true` if the data determine the coefficients of the model.
     #[must_use]
     pub fn is_identifiable(&self) -> bool {
         self.known.identifiable
@@ -138,7 +143,7 @@ impl Fitted {
         self.averaged.iter().filter(|one| one.weight > 0.0 && best.coefficient(&one.name).is_none())
     }
 
-    /// Whether the stage drifts, or may be what makes the cell handed.
+    /// `true` if the stage drifts, or may be what makes the cell handed.
     pub(crate) fn shows_stage(&self) -> bool {
         let carried = |warning: &Warning| matches!(warning, Warning::Carried { .. });
         self.warnings.iter().any(carried) || self.beside_stage.is_some_and(|p| p >= HANDED_RATE)

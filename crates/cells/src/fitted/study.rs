@@ -13,8 +13,8 @@ const SAMPLES: f64 = 20.0;
 const PER_SECOND: f64 = 3.0;
 
 impl Fitted {
-    /// The model as a study, in the units of the data, with its noise, from a state of the cell where its motion was looked at. It is drawn with the radius of the
-    /// cell, and shown at a speed that suits its rates.
+    /// The model as a study, in the units of the data, with its noise, from a state of the cell where its motion was looked at. It is drawn
+    /// with the radius of the cell, and shown at a speed that suits its rates.
     ///
     /// # Errors
     /// Equations that are no model.
@@ -44,8 +44,8 @@ impl Fitted {
     }
 }
 
-/// The plane about the cell: kappa2 with kappa3 or gamma, as in the paper's diagrams, each from 0 to twice its value; that of the model where it has none of
-/// these.
+/// The plane about the cell: kappa2 with kappa3 or gamma, as in the paper's diagrams, each from 0 to twice its value; that of the model
+/// where it has none of these.
 fn plane(study: &Study) -> Vec<Axis> {
     let named = |name: &str| {
         let place = study.info().ok()?.parameters().iter().position(|spec| spec.name == name)?;

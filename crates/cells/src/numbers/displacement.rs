@@ -14,8 +14,8 @@ const MOST: f64 = 1e6;
 
 /// Mean of |r(t + lag) - r(t)|^2 over all pairs of places that are seen so far apart, in one piece.
 ///
-/// Each pair has the same weight. Lags are multiples of the sampling interval; places at other times count at the nearest one. Intervals: eight blocks of the record by where pairs begin, each left out in turn, at lags up
-/// to an eighth of the record.
+/// Each pair has the same weight. Lags are multiples of the sampling interval; places at other times count at the nearest one.
+/// Intervals: eight blocks of the record by where pairs begin, each left out in turn, at lags up to an eighth of the record.
 pub(super) fn of_cell(places: &Places) -> Vec<AtLag> {
     let grids = grids(places);
     let whole: usize = grids.iter().map(Vec::len).sum();

@@ -1,4 +1,5 @@
-//! Numbers of a cell without any model of its shape: path, speed, turning, displacement, persistence, form. From centroids and polygons with gaps.
+//! Numbers of a cell without any model of its shape: path, speed, turning, displacement, persistence, form. From centroids and polygons
+//! with gaps.
 //!
 //! Definitions: docs/cells.md, section 'Numbers without a model'.
 

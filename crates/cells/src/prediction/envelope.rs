@@ -8,7 +8,7 @@ const LEVELS: [f64; 2] = [0.01, 0.05];
 /// Share of the simulated curves within the band, point by point.
 const BAND: f64 = 0.95;
 
-/// Whether the observed cell could be one of the simulated ones, by one statistic.
+/// `true` if the observed cell could be one of the simulated ones, by one statistic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Agreement {
@@ -39,7 +39,8 @@ pub struct Envelope {
     pub agreement: Agreement,
     /// The probability of a curve at least as far off, if the cell is one of the simulated ones.
     pub p_value: f64,
-    /// Place of the point that is farthest off, and how far: in standard deviations of the simulated curves, positive where the cell has more.
+    /// Place of the point that is farthest off, and how far: in standard deviations of the simulated curves, positive where the cell has
+    /// more.
     pub worst: (usize, f64),
     /// Median of the simulated curves, point by point.
     pub median: Vec<f64>,
@@ -54,10 +55,12 @@ impl Envelope {
     ///
     /// `u = max_k |T(k) - m(k)|/s(k)`,   `p = (1 + #{simulated with u at least that of the curve})/(n + 1)`
     ///
-    /// with mean m and standard deviation s over all n + 1 curves: under the null hypothesis they are exchangeable, so `P(p <= a) <= a` exactly, for all
-    /// points together. Points where all curves agree to round-off, or that are not finite in some curve, do not count; `None` if none is left.
+    /// with mean m and standard deviation s over all n + 1 curves: under the null hypothesis they are exchangeable, so `P(p <= a) <= a`
+    /// exactly, for all points together. Points where all curves agree to round-off, or that are not finite in some curve, do not count;
+    /// `None` if none is left.
     ///
-    /// Source: Myllymaki et al. (2017), J. R. Stat. Soc. B 79, 381 (studentised maximum absolute difference); Barnard (1963), J. R. Stat. Soc. B 25, 294.
+    /// Source: Myllymaki et al. (2017), J. R. Stat. Soc. B 79, 381 (studentised maximum absolute difference); Barnard (1963), J. R. Stat.
+    /// Soc. B 25, 294.
     ///
     /// # Checked by  tests/all/prediction.rs; the tests below: p-values of exchangeable curves
     #[must_use]

@@ -16,8 +16,8 @@ pub struct Record {
 }
 
 impl Record {
-    /// The frames of a track at the nearest multiples of its sampling interval; `None` for fewer than 40 frames. Of two frames at one multiple the first
-    /// is kept. `modes`: those of the model, as far as they are known.
+    /// The frames of a track at the nearest multiples of its sampling interval; `None` for fewer than 40 frames. Of two frames at one
+    /// multiple the first is kept. `modes`: those of the model, as far as they are known.
     #[must_use]
     pub fn of(track: &Track, modes: usize) -> Option<Self> {
         let dt = track.interval();
@@ -39,7 +39,7 @@ impl Record {
         self.frames.iter().flatten().next().map_or(0, |y| y.len() / 2)
     }
 
-    /// Whether a frame is there, frame by frame.
+    /// `true` if a frame is there, frame by frame.
     pub(super) fn mask(&self) -> impl Iterator<Item = bool> + '_ {
         self.frames.iter().map(Option::is_some)
     }

@@ -12,8 +12,8 @@ const STEP: f64 = 1.0 / 16.0;
 /// A state larger than this, in natural units, has left all bounds.
 const BOUND: f64 = 30.0;
 
-/// The record of a cell by the equations with these coefficients (units of the data) and the fitted noise, from where the observed one starts within its errors, at its
-/// frames, with errors of its covariances times the fitted factor; `None` if it leaves all bounds.
+/// The record of a cell by the equations with these coefficients (units of the data) and the fitted noise, from where the observed one
+/// starts within its errors, at its frames, with errors of its covariances times the fitted factor; `None` if it leaves all bounds.
 pub(super) fn simulated(
     fit: &Fit,
     coefficients: &[f64],

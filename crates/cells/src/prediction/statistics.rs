@@ -160,7 +160,8 @@ impl Asked {
         Statistic { kind, at, values: self.lags.iter().map(|&lag| value(lag)).collect() }
     }
 
-    /// `<Re z2(t + lag) exp(2 i heading(t))> / <|z2|>`: whether, and how long before or after, the body is elongated along (1) or across (-1) its motion.
+    /// `<Re z2(t + lag) exp(2 i heading(t))> / <|z2|>`: whether, and how long before or after, the body is elongated along (1) or across
+    /// (-1) its motion.
     fn alignment(&self, moves: &Moves, shape: &[Option<[f64; 2]>]) -> Statistic {
         let side = SIDE.min(shape.len() / 8).cast_signed();
         let size = mean(shape.iter().flatten().map(|z| libm::hypot(z[0], z[1])));

@@ -1,5 +1,5 @@
-//! Tracked cells as HTML pages: `report.html` for the data set, and a page per cell with its outlines, its motion, the fitted equations, their place on
-//! the paper's planes, and simulated cells beside the observed one.
+//! Tracked cells as HTML pages: `report.html` for the data set, and a page per cell with its outlines, its motion, the fitted
+//! equations, their place on the paper's planes, and simulated cells beside the observed one.
 //!
 //! Turns results of [`crate`] into pages and figures; computes nothing but the regimes beneath the places ([`Maps`]). Definitions on
 //! the pages are those of docs/cells.md, docs/statistics.md and docs/inference.md.
@@ -66,7 +66,7 @@ pub(crate) struct Setting<'p> {
     pub units: Units,
     /// Regimes beneath places.
     pub maps: &'p Maps,
-    /// How figures are drawn.
+    /// The style of figures.
     pub format: &'p FigureFormat,
 }
 
@@ -99,10 +99,11 @@ impl Setting<'_> {
 /// What takes a page: its name and content.
 pub type Sink<'w> = dyn Fn(&str, &[u8]) -> Result<(), Error> + Sync + 'w;
 
-/// Draws one page per cell, with a picture of its path beside those of simulated cells, on `threads` threads, and the page of the data set, and gives each to `write` as soon as it is drawn, the one of the data set
-/// last. Links are relative, so that a folder of them can be moved. `together`: one fit of all cells, which has a place on the page of the data set. False
-/// if the watch stopped the work. Figures of the pages have the style of `format`; where it asks for PDF, each is also a set of files,
-/// `PAGE-figure-NUMBER`. Units are those of the data.
+/// Draws one page per cell, with a picture of its path beside those of simulated cells, on `threads` threads, and the page of the data
+/// set, and gives each to `write` as soon as it is drawn, the one of the data set last. Links are relative, so that a folder of them
+/// can be moved. `together`: one fit of all cells, which has a place on the page of the data set. False if the watch stopped the work.
+/// Figures of the pages have the style of `format`; where it asks for PDF, each is also a set of files, `PAGE-figure-NUMBER`. Units are
+/// those of the data.
 ///
 /// # Errors
 /// Numbers that do not fit on an axis; those of `write`.

@@ -55,7 +55,8 @@ mod tests {
     use super::*;
     use motiform_inference::Library;
 
-    /// A rate is one of its equation's amplitude: the units of coefficient and factors together are those of z1 (length/time) or z2, z3 (length), over time.
+    /// A rate is one of its equation's amplitude: the units of coefficient and factors together are those of z1 (length/time) or z2, z3
+    /// (length), over time.
     #[test]
     fn coefficients_have_units() {
         let units = Units { length: "µm".to_owned(), time: "s".to_owned(), y_down: false };

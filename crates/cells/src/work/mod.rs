@@ -1,8 +1,8 @@
 //! A folder of fits that is being computed: each is written as soon as it is done, so that the work can be continued.
 //!
-//! `_fit.json` says what is computed (settings, units, and a digest of every cell's frames); `_cells/N.json.gz` are the finished fits. Of one fit of
-//! all cells together, `_cells` has the finished stages. When all are done, the results are written into the same folder, and `_cells` is removed once the
-//! pages are drawn, which need the whole fits.
+//! `_fit.json` says what is computed (settings, units, and a digest of every cell's frames); `_cells/N.json.gz` are the finished fits.
+//! Of one fit of all cells together, `_cells` has the finished stages. When all are done, the results are written into the same folder,
+//! and `_cells` is removed once the pages are drawn, which need the whole fits.
 
 mod manifest;
 
@@ -38,8 +38,8 @@ impl FitWork {
     /// Opens the folder of fits of these cells, creating it if it does not exist, and reads the cells in it that are done.
     ///
     /// # Errors
-    /// A folder that exists without [`Opening::Resume`] or [`Opening::Replace`], or that is none of ours; [`Error::OtherFits`]: other cells or
-    /// settings there; a folder in which another process computes; files that cannot be written.
+    /// A folder that exists without [`Opening::Resume`] or [`Opening::Replace`], or that is none of ours; [`Error::OtherFits`]: other cells
+    /// or settings there; a folder in which another process computes; files that cannot be written.
     pub fn open(
         path: &Path,
         sample: &Sample,
@@ -110,8 +110,8 @@ impl FitWork {
         self.done.iter().filter(|done| done.is_none()).count()
     }
 
-    /// Makes the fits that are not done, on `threads` threads, and writes each at once. Those in progress stop soon after `watch` requests it.
-    /// `None` for those that the watch left out.
+    /// Makes the fits that are not done, on `threads` threads, and writes each at once. Those in progress stop soon after `watch` requests
+    /// it. `None` for those that the watch left out.
     ///
     /// # Errors
     /// Files that cannot be written: what was written before is kept.

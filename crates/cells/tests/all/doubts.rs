@@ -10,8 +10,8 @@ use motiform_inference::{Placement, Symmetry};
 use motiform_tracks::centroid;
 use motiform_tracks::modes::ModeOptions;
 
-/// Weakly handed cells: where the likelihood ratio is between both levels, nothing is said; beyond, they are handed; neither is ever called mirror symmetric with a
-/// ratio that speaks against it.
+/// Weakly handed cells: where the likelihood ratio is between both levels, nothing is said; beyond, they are handed; neither is ever
+/// called mirror symmetric with a ratio that speaks against it.
 #[test]
 fn a_cell_that_may_be_handed_has_neither_motion_nor_place() {
     let mut seen = [0; 3];
@@ -48,7 +48,8 @@ fn a_cell_that_may_be_handed_has_neither_motion_nor_place() {
     assert!(seen[0] > 0 && seen[2] > 0, "{seen:?}");
 }
 
-/// A cell that moves straight, and from the middle on another one that circles, where the first one ended: no step shows it, but the fit of both does not describe the record.
+/// A cell that moves straight, and from the middle on another one that circles, where the first one ended: no step shows it, but the
+/// fit of both does not describe the record.
 #[test]
 fn a_fit_that_its_cell_contradicts_has_neither_name_nor_symmetry() {
     let body = |kappa2: f64, kappa3: f64| {
@@ -107,7 +108,8 @@ fn records_of_two_cells_or_two_units_are_neither_named_nor_fitted() {
     }
 }
 
-/// A circling cell in images whose pixels are taken for squares and are not: the fit of stretched outlines is called handed by its likelihood, and is not.
+/// A circling cell in images whose pixels are taken for squares and are not: the fit of stretched outlines is called handed by its
+/// likelihood, and is not.
 #[test]
 fn outlines_of_pixels_that_are_not_square_are_doubted() {
     let fitted = |scale: f64| {

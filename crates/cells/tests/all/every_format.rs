@@ -55,7 +55,8 @@ fn every_format_gives_the_same_modes_and_the_same_motion() {
         .collect();
     let reference = read(formats::csv, &drawn, Format::Csv);
     assert_eq!(reference.frames(), 500);
-    // coordinates of 3000 pixels, 300 um, have a round-off of 4e-14 um; differences of such numbers and sums of 48 of them lose 100 times that
+    // coordinates of 3000 pixels, 300 um, have a round-off of 4e-14 um; differences of such numbers and sums of 48 of them lose 100 times
+    // that
     let round = 1e-11;
     // ImageJ keeps f32: 2^-13 pixels at 3000, of which a mode averages 48
     let single = 1e-4 * SCALE[0];

@@ -61,7 +61,8 @@ fn a_field_of_view_that_moves_is_found() {
     assert!(field(walkers(2)).drift.is_none());
 }
 
-/// What is subtracted leaves the paths of a still stage: the drift to its error, a jump to its error, of the jitter half of the variance: the walkers' own turns hide the rest.
+/// What is subtracted leaves the paths of a still stage: the drift to its error, a jump to its error, of the jitter half of the
+/// variance: the walkers' own turns hide the rest.
 #[test]
 fn corrections_leave_what_a_still_stage_shows() {
     let still = sample(walkers(12));
@@ -140,7 +141,8 @@ fn pixels_are_found() {
     assert_eq!(field(rounded).pixel, None);
 }
 
-/// One cell on a stage that jumps, which it shows by itself: the fit of its pieces is that of the still stage within its errors, and so is the name.
+/// One cell on a stage that jumps, which it shows by itself: the fit of its pieces is that of the still stage within its errors, and so
+/// is the name.
 #[test]
 fn a_stage_jump_ends_no_cell() {
     let circle = || tracks(vec![body("fig4", &[("kappa2", 0.5), ("kappa3", 0.5)], (0.6, 0.01), 400)]);
@@ -160,7 +162,8 @@ fn a_stage_jump_ends_no_cell() {
     assert_eq!(observe(&bridged.cells[0]).measures.expect("long").frames, 400);
 }
 
-/// A circle on a stage that drifts by 2 % of its speed: never handed; with the drift subtracted it is a circle again, with the coefficients of the still stage.
+/// A circle on a stage that drifts by 2 % of its speed: never handed; with the drift subtracted it is a circle again, with the
+/// coefficients of the still stage.
 #[test]
 fn a_drift_is_no_handedness() {
     let circle = || tracks(vec![body("fig4", &[("kappa2", 0.5), ("kappa3", 0.3)], (2.0, 0.01), 600)]);

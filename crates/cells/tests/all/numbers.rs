@@ -17,7 +17,8 @@ fn known(numbers: &Numbers, key: &str) -> Measured {
     row.value.known().expect(key)
 }
 
-/// Forty walkers with a tenth of the frames missing: intervals of persistence and diffusion hold the truth, and the displacement is Fuerth's.
+/// Forty walkers with a tenth of the frames missing: intervals of persistence and diffusion hold the truth, and the displacement is
+/// Fuerth's.
 #[test]
 fn walkers_have_their_persistence_and_diffusion() {
     let (speed, persistence) = (WALK.speed, WALK.persistence);

@@ -42,8 +42,9 @@ fn a_motion_that_repeats_without_turning_is_a_zigzag() {
     assert_eq!(zigzag.motion.regime, Some(Regime::Zigzag), "{}", zigzag.motion.why);
 }
 
-/// A body whose heading turns through `TAU + net` in each of 16 periods: its velocity is `(1 + 0.6 cos w t) (cos h, sin h)`, of a period of 63 frames, at the
-/// heading `h = 0.5 + (w + net / period) t`, and its ellipse lies along it. Positions are exact integrals, by the midpoint rule in a thousand parts a frame.
+/// A body whose heading turns through `TAU + net` in each of 16 periods: its velocity is `(1 + 0.6 cos w t) (cos h, sin h)`, of a
+/// period of 63 frames, at the heading `h = 0.5 + (w + net / period) t`, and its ellipse lies along it. Positions are exact integrals,
+/// by the midpoint rule in a thousand parts a frame.
 fn looping(net: f64) -> Observation {
     let (w, dt, parts) = (std::f64::consts::TAU / 31.5, 0.5, 1000);
     let rate = w * (1.0 + net / std::f64::consts::TAU);

@@ -35,7 +35,8 @@ fn the_fit_of_a_cell_moves_like_the_cell_and_that_of_another_does_not() {
     }
 }
 
-/// Straight and circular cells whose triangles are far smaller than their ellipses: the noise of both modes is the same in the units of the data, not in natural ones.
+/// Straight and circular cells whose triangles are far smaller than their ellipses: the noise of both modes is the same in the units of
+/// the data, not in natural ones.
 #[test]
 fn simulated_cells_have_the_noise_of_the_observed_one_in_each_mode() {
     for (kappa2, kappa3) in [(1.5, 1.0), (0.9, 0.6)] {

@@ -58,8 +58,8 @@ fn path(heading: impl Fn(f64) -> f64, speed: impl Fn(f64) -> f64, dt: f64, frame
     all
 }
 
-/// Heading A sin(2 pi t/P): the swing is 2 A, there are two corners a period, and the chord of a leg is J_0(A) P/2 along the mean direction and H_0(A) P/2
-/// to the side (Bessel's and Struve's functions; here by their series).
+/// Heading A sin(2 pi t/P): the swing is 2 A, there are two corners a period, and the chord of a leg is J_0(A) P/2 along the mean
+/// direction and H_0(A) P/2 to the side (Bessel's and Struve's functions; here by their series).
 #[test]
 fn a_zigzag_has_its_legs_turns_and_period() {
     let (amplitude, period, dt, frames) = (0.8, 20.0, 0.5, 600);

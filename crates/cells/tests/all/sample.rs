@@ -1,4 +1,5 @@
-//! The sample recordings in `examples/`: synthetic cells in TrackMate's format, and one as a table. `MOTIFORM_UPDATE=1 cargo test --release -p motiform-cells sample::` writes them.
+//! The sample recordings in `examples/`: synthetic cells in TrackMate's format, and one as a table. `MOTIFORM_UPDATE=1 cargo test
+//! --release -p motiform-cells sample::` writes them.
 
 use super::bodies::{RADIUS, outlines, preset};
 use super::recordings::{Shape, Walker};
@@ -47,7 +48,8 @@ fn the_recording_for_fits_is_read_with_its_units() {
     assert_eq!((cell.frames.len(), cell.frames[1].t), (300, 5.0));
 }
 
-/// A cell that circles by the equations, a random walker whose shape fluctuates by itself and of which every tenth frame is missing, and a rod.
+/// A cell that circles by the equations, a random walker whose shape fluctuates by itself and of which every tenth frame is missing,
+/// and a rod.
 fn cells() -> [Vec<Outline>; 3] {
     let mut study = preset("fig4", 0.01, (1.0, FRAMES));
     for name in ["kappa2", "kappa3"] {

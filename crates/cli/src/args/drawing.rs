@@ -117,12 +117,12 @@ impl StyleOptions {
         }
     }
 
-    /// How the figures become files, in model units.
+    /// The way from figures to files, in model units.
     pub(crate) fn format(&self) -> FigureFormat {
         self.format_in(Shown::default())
     }
 
-    /// How the figures become files, in these units.
+    /// The way from figures to files, in these units.
     pub(crate) fn format_in(&self, units: Shown) -> FigureFormat {
         let medium = self.medium.map(|shown| match shown {
             ShownIn::Journal => Medium::Journal,

@@ -106,7 +106,7 @@ impl Observable {
     }
 }
 
-/// What a diagram shows.
+/// The quantity that a diagram shows.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Observable {
     /// Mean speed

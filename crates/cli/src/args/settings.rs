@@ -14,14 +14,14 @@ pub(crate) trait Keys {
     const NAMES: &'static [&'static str];
 }
 
-/// How an orbit is integrated, and what is drawn at random.
+/// The integration of an orbit, and random numbers.
 pub(crate) struct Method;
 
 impl Keys for Method {
     const NAMES: &'static [&'static str] = &["stepper", "step", "rtol", "atol", "seed"];
 }
 
-/// What is recorded of a run, and its noise.
+/// The record of a run, and its noise.
 pub(crate) struct Recording;
 
 impl Keys for Recording {
@@ -85,7 +85,7 @@ impl<K: Keys> Args for RunOptions<K> {
     }
 }
 
-/// What stands for a number in help texts, where it is not X.
+/// The placeholder of a number in help texts, where it is not X.
 const SYMBOLS: [(&str, &str); 8] = [
     ("t_end", "T"),
     ("transient", "T"),

@@ -9,7 +9,8 @@ use std::path::PathBuf;
 #[derive(Args)]
 #[command(mut_arg("transient", |transient| transient.help("Model time to leave out: integrated before recording; of datasets, rows before this time")))]
 pub(crate) struct StatisticsOptions {
-    /// A model or a preset (`motiform models` lists them), a study file ending in .toml, or folders written by `motiform simulate`, one body each
+    /// A model or a preset (`motiform models` lists them), a study file ending in .toml, or folders written by `motiform simulate`, one
+    /// body each
     #[arg(value_name = "MODEL|STUDY.toml|DATASET", required_unless_present = "preset")]
     pub(crate) subjects: Vec<PathBuf>,
     /// Start from a preset of the model, e.g. fig5a

@@ -42,7 +42,8 @@ pub(crate) struct SamplesOptions {
 /// The initial state of an orbit, and the numerical method.
 #[derive(Args)]
 pub(crate) struct MethodOptions {
-    /// Set an initial value (repeatable); values not given are those of the preset's start, or 0. Without any, the start is that of the preset, or small and random
+    /// Set an initial value (repeatable); values not given are those of the preset's start, or 0. Without any, the start is that of the
+    /// preset, or small and random
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) initial: Vec<(String, f64)>,
     /// Random starts: SIZE is each coordinate within +-SIZE (mode n of the cell: SIZE/n^2; default for one start: 0.01), MIN:MAX

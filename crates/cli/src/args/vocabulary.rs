@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// What every option means. An option of another meaning needs another name.
+/// The meaning of every option. An option of another meaning needs another name.
 const MEANINGS: &[(&str, &str)] = &[
     ("all", "compute all rows again, not only a sample"),
     ("along", "the parameter along which motions are followed, with its range"),

@@ -61,7 +61,7 @@ fn branches(options: &ContinueOptions, plan: BranchPlan, units: &Shown) -> anyho
     end(undrawn, folder.found.complete)
 }
 
-/// What the options describe, and what its start is, if it was taken from an earlier result.
+/// The plan of the options, and its start, if it was taken from an earlier result.
 fn study(options: &ContinueOptions) -> Result<(Study, Option<Given>), Error> {
     let (mut study, given) = subject(options)?;
     subject::note_noise(&mut study);
@@ -137,7 +137,7 @@ pub(super) fn prepare<T>(
     Ok((Some(folder), before))
 }
 
-/// What was found; nothing is left of the output if nothing could be computed.
+/// The result; nothing is left of the output if nothing could be computed.
 pub(super) fn or_abandon<T>(
     files: Option<Folder>,
     found: Result<T, Error>,
@@ -175,7 +175,7 @@ pub(super) fn write(
     Ok((Some(files.shown().display().to_string()), undrawn))
 }
 
-/// How the command ends.
+/// The end of the command.
 pub(super) fn end(undrawn: Option<Error>, complete: bool) -> anyhow::Result<End> {
     if let Some(error) = undrawn {
         return Err(anyhow::Error::new(error).context("the points are written, the figures are not"));

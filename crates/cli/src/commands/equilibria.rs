@@ -61,7 +61,7 @@ fn table(found: &[Equilibrium]) -> anyhow::Result<String> {
     Ok(text)
 }
 
-/// Whether the row stands for a family.
+/// `true` if the row stands for a family.
 fn family(one: &Equilibrium) -> String {
     match one.family {
         0 => String::new(),

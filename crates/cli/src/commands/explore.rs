@@ -129,7 +129,7 @@ fn open(address: &str) -> Option<Handover> {
     Some(handover)
 }
 
-/// Whether a folder was written by `motiform fit` or `motiform observe`.
+/// `true` if a folder was written by `motiform fit` or `motiform observe`.
 fn is_fit(folder: &Path) -> bool {
     matches!(kind_of(folder), Some(Kind::Fits | Kind::Observations))
 }

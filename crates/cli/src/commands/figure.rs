@@ -145,7 +145,7 @@ fn chosen(path: &Path, name: Option<&str>, options: &FigureOptions) -> anyhow::R
     }
 }
 
-/// What a folder has to draw.
+/// The figures of a folder.
 enum Content {
     /// Figures, and whether their numbers are files, too.
     Figures(Figures, bool),

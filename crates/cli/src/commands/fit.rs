@@ -107,7 +107,7 @@ fn compute(
     found
 }
 
-/// What was not interrupted.
+/// The results that were not interrupted.
 fn or_none(fit: motiform_cells::Result<CellFit>) -> motiform_cells::Result<Option<CellFit>> {
     match fit {
         Err(motiform_cells::Error::Study(motiform_study::Error::Interrupted)) => Ok(None),
@@ -260,7 +260,7 @@ fn sets(fitted: &Fitted) -> Result<String, std::fmt::Error> {
     Ok(text)
 }
 
-/// How cells simulated by the fit compare with the observed one.
+/// The comparison of cells simulated by the fit with the observed one.
 fn simulated(prediction: &Prediction) -> String {
     let (cells, lost) = (prediction.cells, prediction.lost);
     if prediction.is_unstable() {

@@ -54,7 +54,7 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
     })
 }
 
-/// How each cell moves; `None`, and a warning, if Ctrl-C stopped it.
+/// The motion of each cell; `None`, and a warning, if Ctrl-C stopped it.
 fn observe_all(cells: &[&CellTrack]) -> Option<Vec<Observation>> {
     let watch = Progress::new(cells.len() as f64, "cells");
     let mut found = Vec::with_capacity(cells.len());
@@ -74,7 +74,7 @@ fn observe_all(cells: &[&CellTrack]) -> Option<Vec<Observation>> {
     Some(found)
 }
 
-/// What people read: each cell, all of them together, and the files that were written.
+/// The text for people: each cell, all of them together, and the files that were written.
 fn text(sample: &Sample, found: &[Observation], files: &[PathBuf]) -> anyhow::Result<String> {
     let (mut text, units) = (head(sample), Units::of(sample));
     for one in found {

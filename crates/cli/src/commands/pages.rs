@@ -9,8 +9,8 @@ use motiform_lab::draw::FigureFormat;
 use motiform_study::Error;
 use std::collections::HashMap;
 
-/// Draws the pages of observed cells, with their fits as far as these are done; `together`: with the one fit of all cells. Each goes to `write` at once. If
-/// Ctrl-C stopped the drawing, a warning and `false`: not all pages are drawn.
+/// Draws the pages of observed cells, with their fits as far as these are done; `together`: with the one fit of all cells. Each goes to
+/// `write` at once. If Ctrl-C stopped the drawing, a warning and `false`: not all pages are drawn.
 pub(crate) fn draw(
     sample: &Sample,
     (cells, observations): (&[&CellTrack], &[Observation]),

@@ -57,8 +57,8 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     Ok(if report.all_hold() { End::Done } else { End::NotAsAsked })
 }
 
-/// The figures of the report as files: `figure-3b.svg` and `.png` are Fig. 3(b) of the paper, `figure-3.1.svg` the page's further Figure 3.1, `.csv`
-/// the numbers that it shows, `.txt` the words that a medium leaves to the text around it.
+/// The figures of the report as files: `figure-3b.svg` and `.png` are Fig. 3(b) of the paper, `figure-3.1.svg` the page's further
+/// Figure 3.1, `.csv` the numbers that it shows, `.txt` the words that a medium leaves to the text around it.
 fn write_figures(report: &Report, format: &FigureFormat, files: &Folder) -> Result<(), Error> {
     for (number, section) in report.numbered() {
         for (figure, name) in section.figures.iter().zip(section.figure_names(number)) {

@@ -104,7 +104,7 @@ impl Target {
         })
     }
 
-    /// What was found in its place, in sentences.
+    /// The findings in its place, in sentences.
     fn notes(&self) -> &[String] {
         match self {
             Self::Nowhere => &[],

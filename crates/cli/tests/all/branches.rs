@@ -50,8 +50,8 @@ fn planar(folder: &Folder, name: &str, parameters: &str, [x, y]: [&str; 2]) {
     folder.write(name, &text);
 }
 
-/// Circular motion of the cell begins at a drift pitchfork of straight motion and oscillates from 12.973310 on: with 42 unknowns the neutral
-/// direction has parts below round-off.
+/// Circular motion of the cell begins at a drift pitchfork of straight motion and oscillates from 12.973310 on: with 42 unknowns the
+/// neutral direction has parts below round-off.
 #[test]
 fn the_branches_of_the_cell_have_no_false_points() {
     let folder = Folder::new();
@@ -100,8 +100,9 @@ fn the_reduced_model_has_one_list_from_all_starts_and_ranges() {
     assert!(resonant.1.abs() < resonant.2 && resonant.2 < 1e-3, "{resonant:?}");
 }
 
-/// Along kappa2 = -.06 pulsating straight motion ends in a cycle of the circle, whose second mode grows with -kappa2 and whose first decays with gamma, and the ellipse at rest, whose second
-/// mode decays with 2 kappa2: each is joined to the other one within the shapes with a mirror axis.
+/// Along kappa2 = -.06 pulsating straight motion ends in a cycle of the circle, whose second mode grows with -kappa2 and whose first
+/// decays with gamma, and the ellipse at rest, whose second mode decays with 2 kappa2: each is joined to the other one within the
+/// shapes with a mirror axis.
 #[test]
 fn pulsating_straight_motion_of_the_reduced_model_ends_in_a_cycle_of_circle_and_ellipse() {
     let folder = Folder::new();

@@ -24,8 +24,8 @@ fn holds(all: &[&Value], along: &str, kind: &str, exact: f64) {
     }
 }
 
-/// Along kappa2 = -.06 circular motion oscillates from gamma = .024 on, and straight motion begins at 0; the cell's circle is deformed by its second mode
-/// from length 4 pi on.
+/// Along kappa2 = -.06 circular motion oscillates from gamma = .024 on, and straight motion begins at 0; the cell's circle is deformed
+/// by its second mode from length 4 pi on.
 #[test]
 fn errors_of_special_points_cover_exact_values() {
     let folder = Folder::new();
@@ -68,8 +68,8 @@ fn the_list_of_the_zigzag_does_not_depend_on_steps_and_tolerance() {
     }
 }
 
-/// Beside a connection orbits are so sensitive that the doubling at 1.162139 was subcritical from one start and supercritical from another. What begins there
-/// is stable up to 1.16355.
+/// Beside a connection orbits are so sensitive that the doubling at 1.162139 was subcritical from one start and supercritical from
+/// another. What begins there is stable up to 1.16355.
 #[test]
 fn coefficients_do_not_depend_on_the_start_and_the_tolerance() {
     let folder = Folder::new();
@@ -95,8 +95,8 @@ fn coefficients_do_not_depend_on_the_start_and_the_tolerance() {
     }
 }
 
-/// What begins at the special points of the zigzag and of circular motion: by the coefficient of the normal form, as published; and the saddle that the
-/// zigzag ends at.
+/// What begins at the special points of the zigzag and of circular motion: by the coefficient of the normal form, as published; and the
+/// saddle that the zigzag ends at.
 #[test]
 fn coefficients_and_saddles_are_stated_with_their_errors() {
     let folder = Folder::new();
@@ -159,8 +159,9 @@ fn a_saddle_node_on_a_circle_is_named_where_it_is() {
     assert!((branch["stable"][0][0].as_f64().unwrap() - 1.0).abs() <= error, "stable up to the end");
 }
 
-/// At the Hopf bifurcation of the cell's circular motion an unstable periodic modulation begins. Close to it the normal form predicts the growth rate of
-/// deviations from the modulated motion: -2 times that of deviations from circular motion. Multipliers are compared with eigenvalues.
+/// At the Hopf bifurcation of the cell's circular motion an unstable periodic modulation begins. Close to it the normal form predicts
+/// the growth rate of deviations from the modulated motion: -2 times that of deviations from circular motion. Multipliers are compared
+/// with eigenvalues.
 #[test]
 fn orbits_of_the_cell_grow_as_the_normal_form_says() {
     let folder = Folder::new();

@@ -85,8 +85,8 @@ fn one_command_leads_from_the_zigzag_to_the_hopf_bifurcation_of_circular_motion(
     assert_eq!(hopf["branch"], 2, "what begins there is known");
 }
 
-/// Rest, straight and circular motion of Ohta and Ohkuma's body: each begins at a pitchfork of the one before, at gamma = 0 and at kappa^2/(a b) + kappa/2 = 0.75,
-/// and a branch does not go on into its own images, from whichever of them it is followed.
+/// Rest, straight and circular motion of Ohta and Ohkuma's body: each begins at a pitchfork of the one before, at gamma = 0 and at
+/// kappa^2/(a b) + kappa/2 = 0.75, and a branch does not go on into its own images, from whichever of them it is followed.
 #[test]
 fn branches_that_gain_a_symmetry_end_at_a_pitchfork() {
     let folder = Folder::new();
@@ -117,8 +117,8 @@ fn branches_that_gain_a_symmetry_end_at_a_pitchfork() {
     }
 }
 
-/// At zero force the body can move in any direction. This point is neither a fold nor a pitchfork, and no branch starts there. The folds beside it are those of the motion against the force:
-/// for a body without an ellipse they lie at g = 2 (gamma/3)^(3/2).
+/// At zero force the body can move in any direction. This point is neither a fold nor a pitchfork, and no branch starts there. The
+/// folds beside it are those of the motion against the force: for a body without an ellipse they lie at g = 2 (gamma/3)^(3/2).
 #[test]
 fn a_force_that_vanishes_is_no_bifurcation() {
     let folder = Folder::new();

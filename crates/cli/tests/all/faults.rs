@@ -46,8 +46,8 @@ pub(crate) fn struck(mut command: Command) -> (Done, bool) {
     (done, struck)
 }
 
-/// Fails each call in turn, with `prepare` before and `check` after each run; returns how many calls there are. A push tries every fifth one, another fifth
-/// for each command and kind of fault.
+/// Fails each call in turn, with `prepare` before and `check` after each run; returns how many calls there are. A push tries every
+/// fifth one, another fifth for each command and kind of fault.
 fn each_call(words: &str, kind: &str, prepare: impl Fn(&Folder), check: impl Fn(&Folder, &Done)) -> usize {
     let step = every().min(5);
     for at in (1 + (words.len() + kind.len()) % step..).step_by(step) {

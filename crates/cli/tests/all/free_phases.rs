@@ -3,7 +3,8 @@
 use crate::common::Folder;
 use serde_json::Value;
 
-/// Velocity and ellipse with these two equations, and a fifth mode of constant size sqrt(.1) with a free phase where there is an equation for it.
+/// Velocity and ellipse with these two equations, and a fifth mode of constant size sqrt(.1) with a free phase where there is an
+/// equation for it.
 fn model(z1: &str, z2: &str, z5: Option<&str>) -> String {
     let modes = if z5.is_some() { "1, 2, 5" } else { "1, 2" };
     let z5 = z5.map(|z5| format!("z5 = \"{z5}\"\n")).unwrap_or_default();
@@ -53,8 +54,8 @@ fn steady_motions_keep_their_names_and_numbers() {
     }
 }
 
-/// The cycle of Fig. 1 between ellipses: `lambda_+- = gamma +- 2 r2`, `r2 = sqrt(-kappa2 / 8)`. Alone, beside the mode, and where the mode's size adds
-/// .05 |z5|^2 = .005 to the growth of the ellipse.
+/// The cycle of Fig. 1 between ellipses: `lambda_+- = gamma +- 2 r2`, `r2 = sqrt(-kappa2 / 8)`. Alone, beside the mode, and where the
+/// mode's size adds .05 |z5|^2 = .005 to the growth of the ellipse.
 #[test]
 fn a_heteroclinic_cycle_keeps_its_name_and_its_rates() {
     let z1 = "(-0.04 - |z1|^2)*z1 + 2*conj(z1)*z2";

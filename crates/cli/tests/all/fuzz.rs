@@ -1,5 +1,5 @@
-//! A sample of damaged command lines, each given to the program itself: it ends with a word and a known exit code. Far more of them are parsed in the process
-//! (`src/args/fuzz.rs`).
+//! A sample of damaged command lines, each given to the program itself: it ends with a word and a known exit code. Far more of them are
+//! parsed in the process (`src/args/fuzz.rs`).
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

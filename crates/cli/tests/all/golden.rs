@@ -1,5 +1,6 @@
-//! Everything that commands print and write, to the byte: `golden/*.txt` lists commands and the digest of each of their outputs. A change that moves
-//! one is named in CHANGELOG.md; `MOTIFORM_UPDATE=1 cargo test --release -p motiform --test all golden` renews the digests.
+//! Everything that commands print and write, to the byte: `golden/*.txt` lists commands and the digest of each of their outputs. A
+//! change that moves one is named in CHANGELOG.md; `MOTIFORM_UPDATE=1 cargo test --release -p motiform --test all golden` renews the
+//! digests.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(target_os = "linux")]

@@ -1,5 +1,5 @@
-//! Long runs that are killed keep what is finished: branches, curves, orbits, bodies and chapters are not computed again, and the result is, to the
-//! byte, that of a run that nobody disturbed.
+//! Long runs that are killed keep what is finished: branches, curves, orbits, bodies and chapters are not computed again, and the
+//! result is, to the byte, that of a run that nobody disturbed.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(target_os = "linux")]

@@ -178,8 +178,8 @@ fn short_averages_have_no_error() {
     assert!(said.contains("(no error)") && said.contains("too short"), "{said}");
 }
 
-/// Far out this body grows by a factor of e in each 1/30 of a time, and its velocity follows a million times faster. The slopes of such an approach
-/// have large errors, and a law through them once gave singularities at 15.95 to 17.55, depending on the tolerance.
+/// Far out this body grows by a factor of e in each 1/30 of a time, and its velocity follows a million times faster. The slopes of such
+/// an approach have large errors, and a law through them once gave singularities at 15.95 to 17.55, depending on the tolerance.
 #[test]
 fn a_blow_up_without_a_singularity_has_one_time() {
     let escape = |rtol: &str| {

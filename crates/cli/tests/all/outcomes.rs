@@ -116,8 +116,9 @@ fn every_stepper_ends_a_blow_up() {
     }
 }
 
-/// A body that grows exponentially along a slow direction, stiff far out: half a million explicit steps. The classification follows it by the implicit method; the run is the
-/// independent reference. Without singularity the time is that at which the norm passes the bound.
+/// A body that grows exponentially along a slow direction, stiff far out: half a million explicit steps. The classification follows it
+/// by the implicit method; the run is the independent reference. Without singularity the time is that at which the norm passes the
+/// bound.
 #[test]
 fn a_stiff_blow_up_has_the_time_of_the_explicit_run() {
     let folder = Folder::new();

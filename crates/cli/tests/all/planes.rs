@@ -40,8 +40,9 @@ fn passes(curves: &[Vec<[f64; 2]>], [x, y]: [f64; 2]) -> bool {
     crossings(curves, y).iter().any(|found| (found - x).abs() < 2e-3) // points lie up to .02 of the ranges apart
 }
 
-/// The condition under which straight motion of the paper's full model begins to turn: the sum of the principal minors of its stability matrix for odd
-/// deviations vanishes, beside the eigenvalue 0 of rotations. `r` is the amplitude of `z1`, a root of the condition that `z2` is steady.
+/// The condition under which straight motion of the paper's full model begins to turn: the sum of the principal minors of its stability
+/// matrix for odd deviations vanishes, beside the eigenvalue 0 of rotations. `r` is the amplitude of `z1`, a root of the condition that
+/// `z2` is steady.
 fn turning(kappa2: f64, kappa3: f64) -> f64 {
     let s = |r: f64| 0.5 * (r * r - 1.0);
     let u = |r: f64| (0.0125 * r.powi(3) + 0.4 * r * s(r)) / kappa3;
@@ -61,7 +62,8 @@ fn between<'j>(summary: &'j Value, sides: [&str; 2]) -> &'j Value {
     all.iter().find(|entry| side(entry, 0) && side(entry, 1)).unwrap_or_else(|| panic!("{sides:?}: {all:#?}"))
 }
 
-/// Known values: the formula of `turning`; 1.121937264 (Hopf of circular motion) and .783547485, 1.148047264 (the zigzag begins to rotate) at kappa3 = .1.
+/// Known values: the formula of `turning`; 1.121937264 (Hopf of circular motion) and .783547485, 1.148047264 (the zigzag begins to
+/// rotate) at kappa3 = .1.
 #[test]
 fn the_plane_of_the_papers_fig_4_has_its_regions_and_lines() {
     let folder = Folder::new();

@@ -6,8 +6,9 @@ use crate::common;
 
 use common::Folder;
 
-/// The ellipse grows and turns: `z2 = sqrt(0.3) exp(0.7 i t)`, a turning rate of -0.7 / 2 (the angle of an ellipse is half that of z2, and `z_n`
-/// is multiplied by `exp(-i n a)` when the body turns by a). The velocity decays: d v/dt = (-0.4 + 0.3 sqrt(0.3)) v at the most.
+/// The ellipse grows and turns: `z2 = sqrt(0.3) exp(0.7 i t)`, a turning rate of -0.7 / 2 (the angle of an ellipse is half that of z2,
+/// and `z_n` is multiplied by `exp(-i n a)` when the body turns by a). The velocity decays: d v/dt = (-0.4 + 0.3 sqrt(0.3)) v at the
+/// most.
 const SPINNING: &str = r#"
 [model.amplitudes]
 modes = [1, 2]

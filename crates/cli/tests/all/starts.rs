@@ -207,7 +207,8 @@ fn a_study_sets_steps_and_sides() {
     assert!(wrong.stderr.contains("did you mean up"), "{}", wrong.stderr);
 }
 
-/// `z1' = (p + i) z1 - |z1|^2 z1` oscillates from p = 0 on; the real part w of z2, `w' = s w - w^3`, makes the rest unstable where s is positive.
+/// `z1' = (p + i) z1 - |z1|^2 z1` oscillates from p = 0 on; the real part w of z2, `w' = s w - w^3`, makes the rest unstable where s is
+/// positive.
 const OSCILLATES: &str = r#"
 [model.amplitudes]
 modes = [1, 2]

@@ -1,5 +1,5 @@
-//! Equations whose symmetry is not stated have the same motions: `symmetry = "none"` and a start of exact symmetry change what is looked for, and no
-//! name.
+//! Equations whose symmetry is not stated have the same motions: `symmetry = "none"` and a start of exact symmetry change what is
+//! looked for, and no name.
 
 #![allow(clippy::panic, reason = "a test may fail")]
 
@@ -19,8 +19,8 @@ fn number(json: &Value, path: &str) -> f64 {
     json.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path} of {json}"))
 }
 
-/// Pulsating straight motion has period 228.156 at (-.02, -.044) and speeds from .00793 to .1001 (another program); its exponents are the same, with
-/// a zero for the heading, that of the rotations or of the family.
+/// Pulsating straight motion has period 228.156 at (-.02, -.044) and speeds from .00793 to .1001 (another program); its exponents are
+/// the same, with a zero for the heading, that of the rotations or of the family.
 #[test]
 fn pulsating_straight_motion_keeps_its_name() {
     let folder = Folder::new();
@@ -71,8 +71,8 @@ fn steady_motions_keep_their_names_and_their_neutral_directions() {
     }
 }
 
-/// A start of exact symmetry stays on an unstable motion, also on the circle, which it comes to as close as numbers go: `simulate` and `lyapunov` say
-/// so.
+/// A start of exact symmetry stays on an unstable motion, also on the circle, which it comes to as close as numbers go: `simulate` and
+/// `lyapunov` say so.
 #[test]
 fn runs_that_stay_on_an_unstable_motion_say_so() {
     let folder = Folder::new();

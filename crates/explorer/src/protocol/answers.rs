@@ -74,7 +74,8 @@ messages! {
     /// Models, presets and regimes, in the order of lists and legends.
     #[derive(Serialize, Deserialize)]
     Registry { models: Vec<Model>, presets: Vec<Preset>, regimes: Vec<Regime>, }
-    /// A tracked cell, and the model that was fitted to it: time from the first frame, x, y, R0, then the parts of z2, z3, .. of each frame.
+    /// A tracked cell, and the model that was fitted to it: time from the first frame, x, y, R0, then the parts of z2, z3, .. of each
+    /// frame.
     #[derive(Serialize)]
     Tracked { model: String, name: String, length: String, time: String, frames: Vec<Vec<f64>>, }
     /// The first message; `restart` is the command that starts this server again.

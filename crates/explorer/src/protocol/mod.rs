@@ -125,8 +125,8 @@ messages! {
         y: Option<f64>,
         count: u16,
     }
-    /// So many further bodies at the place of the body; none: the swarm ends. `spread`: how far off they are that begin near it, relative to the
-    /// size of the shape.
+    /// So many further bodies at the place of the body; none: the swarm ends. `spread`: how far off they are that begin near it, relative
+    /// to the size of the shape.
     #[derive(Copy, Deserialize)]
     #[serde(deny_unknown_fields)]
     Swarm { bodies: u16, from: SwarmStart, spread: f64, }

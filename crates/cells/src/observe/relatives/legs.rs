@@ -14,8 +14,9 @@ const UNCLEAR: f64 = 0.3;
 
 /// The legs of a record: it bends to one side, then to the other.
 ///
-/// The unwrapped heading has extremes: it turns back by more than the least turn after each. Between two extremes is a turn; its corner is where
-/// the heading is half-way. A leg is the path between two corners; its length is that of the chord. A path that bends to one side alone has none.
+/// The unwrapped heading has extremes: it turns back by more than the least turn after each. Between two extremes is a turn; its corner
+/// is where the heading is half-way. A leg is the path between two corners; its length is that of the chord. A path that bends to one
+/// side alone has none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ObservedLegs {
     /// Smallest turn that counts (rad): 0.3, and at least four errors of the heading.

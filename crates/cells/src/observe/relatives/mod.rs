@@ -1,5 +1,5 @@
-//! What the classifier of simulated motions looks at (docs/regimes.md), taken from the samples of a record: spectra with their peaks, rests, legs and
-//! turns, rotation, the 0-1 test. Definitions: docs/cells.md, section 'Observed motion'.
+//! What the classifier of simulated motions looks at (docs/regimes.md), taken from the samples of a record: spectra with their peaks,
+//! rests, legs and turns, rotation, the 0-1 test. Definitions: docs/cells.md, section 'Observed motion'.
 
 mod legs;
 mod rests;
@@ -79,7 +79,8 @@ fn middles(series: &Series) -> &[Observation] {
     &series.frames[series.lag / 2..][..series.speeds.len()]
 }
 
-/// `z2 exp(2 i heading)`: its real part is the elongation along the motion, its imaginary part that at 45 degrees to it, which the mirror reverses.
+/// `z2 exp(2 i heading)`: its real part is the elongation along the motion, its imaginary part that at 45 degrees to it, which the
+/// mirror reverses.
 fn along_and_across(series: &Series) -> Vec<[f64; 2]> {
     let turned = |(frame, heading): (&Observation, &f64)| {
         let (sin, cos) = libm::sincos(2.0 * heading);

@@ -26,7 +26,8 @@ pub struct ObservedRests {
     pub duration: Option<f64>,
     /// Share of all samples in which the speed is below the threshold.
     pub share: f64,
-    /// Median of each duration over that of the rest before: above 1 where rests grow, as near a heteroclinic cycle without noise. `None` below four rests.
+    /// Median of each duration over that of the rest before: above 1 where rests grow, as near a heteroclinic cycle without noise. `None`
+    /// below four rests.
     pub growth: Option<f64>,
 }
 

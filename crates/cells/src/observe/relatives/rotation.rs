@@ -17,7 +17,8 @@ pub struct Rotation {
     pub heading: f64,
     /// Largest minus smallest value of the unwrapped heading (rad).
     pub swing: f64,
-    /// Full turns of the long axis, net: minus half the unwrapped argument of z2. `None` where z2 is not clear of its errors in 95 % of the frames.
+    /// Full turns of the long axis, net: minus half the unwrapped argument of z2. `None` where z2 is not clear of its errors in 95 % of the
+    /// frames.
     pub shape: Option<f64>,
 }
 

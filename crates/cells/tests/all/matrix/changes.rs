@@ -72,7 +72,7 @@ pub(super) const ALL: [Change; 20] = [
 ];
 
 impl Change {
-    /// Whether the record still follows the law, so that its coefficients are true.
+    /// `true` if the record still follows the law, so that its coefficients are true.
     pub(super) fn keeps_the_law(self) -> bool {
         !matches!(
             self,

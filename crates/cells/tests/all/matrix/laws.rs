@@ -1,9 +1,11 @@
-//! Cells that follow a law, with noise that need not be white, and coefficients that need not stay: a simulator of its own, by Heun's method.
+//! Cells that follow a law, with noise that need not be white, and coefficients that need not stay: a simulator of its own, by Heun's
+//! method.
 
 use motiform_dynamics::{Complex, Normal};
 use motiform_tracks::synthetic::Synthetic;
 
-/// A term: its name in a library, its equation from 1, its coefficient, and its factors: each an amplitude from 1, negative for its conjugate.
+/// A term: its name in a library, its equation from 1, its coefficient, and its factors: each an amplitude from 1, negative for its
+/// conjugate.
 #[derive(Clone)]
 pub(super) struct Term {
     pub(super) name: &'static str,

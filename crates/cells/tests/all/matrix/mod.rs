@@ -1,7 +1,8 @@
 //! Motions times misspecifications: what is said with confidence and is wrong, and whether intervals hold as printed.
 //!
-//! `MOTIFORM_RUNS=20 cargo test --release -p motiform-cells --test all matrix:: -- --ignored --nocapture` makes the tables of docs/inference.md; MOTIFORM_CASE picks rows whose words contain it,
-//! MOTIFORM_SEED is the first seed (0), MOTIFORM_KEEP a folder for the fits as JSON, MOTIFORM_THREADS their threads (2). MOTIFORM_QUICK leaves simulated cells and most draws out, in a tenth of the
+//! `MOTIFORM_RUNS=20 cargo test --release -p motiform-cells --test all matrix:: -- --ignored --nocapture` makes the tables of
+//! docs/inference.md; MOTIFORM_CASE picks rows whose words contain it, MOTIFORM_SEED is the first seed (0), MOTIFORM_KEEP a folder for
+//! the fits as JSON, MOTIFORM_THREADS their threads (2). MOTIFORM_QUICK leaves simulated cells and most draws out, in a tenth of the
 //! time: cells with a wrong statement are then among those found wrong.
 
 #![allow(clippy::panic, reason = "a test may fail")]
@@ -107,7 +108,8 @@ fn motion_of(law: &Law, other: &Law, change: Change) -> Option<&'static str> {
     law.motion.filter(|_| change != Change::Glued || law.motion == other.motion)
 }
 
-/// A sample of the table: nothing wrong is said of circling, zigzagging, handed and walking cells that are seen with a drift, gaps, pixels that are not square, or that change.
+/// A sample of the table: nothing wrong is said of circling, zigzagging, handed and walking cells that are seen with a drift, gaps,
+/// pixels that are not square, or that change.
 #[test]
 fn nothing_wrong_is_said_of_a_sample() {
     let options = FitOptions { drift: false, simulations: 0, draws: 10, ..FitOptions::default() };
@@ -140,8 +142,8 @@ fn nothing_wrong_is_said_of_a_sample() {
     }
 }
 
-/// A quasi-periodic cell of less than two periods, whose fitted equations end in a circle after the record: no circle. A cell that circles is named, and has no place, for
-/// the reason for which its coefficients have no intervals.
+/// A quasi-periodic cell of less than two periods, whose fitted equations end in a circle after the record: no circle. A cell that
+/// circles is named, and has no place, for the reason for which its coefficients have no intervals.
 #[test]
 fn steady_motions_are_those_that_the_record_shows_and_have_no_place() {
     let options = FitOptions { drift: false, simulations: 0, ..FitOptions::default() };

@@ -1,10 +1,10 @@
-//! The documents, carried out: every command of every page runs as it is printed, every picture is what the commands of its page write, every link leads
-//! somewhere.
+//! The documents, carried out: every command of every page runs as it is printed, every picture is what the commands of its page write,
+//! every link leads somewhere.
 //!
 //! A page is a session in a folder of its own, in which `examples/` is that of the repository. A block of TOML below a line that ends with
-//! `` `NAME.toml`: `` becomes that file. A command whose comment ends with a time (`# ..., 40 s`) is slow: `cargo xtask documents` runs it, each push
-//! does not. A picture with a title, `![what](images/zigzag.png "zigzag/path.png")`, is the file of that name which the commands of the page write;
-//! `cargo xtask pictures` renews it.
+//! `` `NAME.toml`: `` becomes that file. A command whose comment ends with a time (`# ..., 40 s`) is slow: `cargo xtask documents` runs
+//! it, each push does not. A picture with a title, `![what](images/zigzag.png "zigzag/path.png")`, is the file of that name which the
+//! commands of the page write; `cargo xtask pictures` renews it.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 #![cfg(unix)]
@@ -24,7 +24,7 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
-/// Whether slow commands run, too.
+/// `true` if slow commands run, too.
 fn all() -> bool {
     std::env::var_os("MOTIFORM_DOCUMENTS").is_some()
 }

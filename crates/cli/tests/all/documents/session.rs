@@ -11,7 +11,7 @@ use std::time::Instant;
 pub(super) struct Session {
     pub(super) folder: Folder,
     pub(super) faults: Vec<String>,
-    /// Whether nothing was left out.
+    /// `true` if nothing was left out.
     pub(super) complete: bool,
 }
 

@@ -18,8 +18,8 @@ fn atlas(arguments: &str) -> Vec<(String, f64)> {
     all
 }
 
-/// From the circle, from circular motion, and from a two-fold shape, in steps of different lengths, with other seeds, and over longer ranges. Every
-/// push follows the first and the last of the others.
+/// From the circle, from circular motion, and from a two-fold shape, in steps of different lengths, with other seeds, and over longer
+/// ranges. Every push follows the first and the last of the others.
 #[test]
 fn the_atlas_of_the_cell_is_the_same_from_everywhere() {
     let first = atlas("--set length=6 --along length=6:15");

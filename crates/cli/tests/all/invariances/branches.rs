@@ -1,7 +1,7 @@
 //! The list of special points of a branch depends neither on the range, nor on the steps, nor on the start.
 //!
-//! Each subject is followed as it is, and then over random ranges that contain its window, from random starts, with random steps and tolerances.
-//! Within the window the lists must be the same: the kinds, the criticality, and the places within their stated errors.
+//! Each subject is followed as it is, and then over random ranges that contain its window, from random starts, with random steps and
+//! tolerances. Within the window the lists must be the same: the kinds, the criticality, and the places within their stated errors.
 
 use super::all;
 use super::texts::Random;
@@ -191,8 +191,8 @@ fn lists_of_special_points_do_not_depend_on_ranges_steps_and_starts() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Along a canard the slope of the branch is smaller than its error: from this start its sign shows one of the two folds only, and a multiplier of 1 the
-/// other one.
+/// Along a canard the slope of the branch is smaller than its error: from this start its sign shows one of the two folds only, and a
+/// multiplier of 1 the other one.
 #[test]
 fn a_fold_of_a_canard_that_the_slope_does_not_show_is_a_fold() {
     let folder = Folder::new();

@@ -77,7 +77,8 @@ fn numbers(base: &Answer, other: &Answer, time: f64, length: f64) -> Option<Stri
     None
 }
 
-/// Compares exponents, as many as both answers have. A further silent mode adds its own: those of the shorter list must be in the longer one.
+/// Compares exponents, as many as both answers have. A further silent mode adds its own: those of the shorter list must be in the
+/// longer one.
 fn exponents(base: &Answer, other: &Answer, time: f64) -> Judged {
     let scaled: Vec<(f64, f64)> = base.exponents().iter().map(|(x, e)| (x / time, e / time)).collect();
     let (mut few, mut many) = (scaled, other.exponents());

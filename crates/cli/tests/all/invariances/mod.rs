@@ -1,8 +1,9 @@
 //! Answers do not depend on what cannot matter.
 //!
-//! A motion is asked for twice: as it is, and after a change that leaves the motion itself as it was (the seed, the tolerance, the number of
-//! modes, a rotation, a reflection, units, silent modes, equations as text, another command). The names must be the same, and the
-//! numbers within their stated errors. Every push runs a sample; `cargo xtask invariances` runs all and writes docs/records/invariances.md.
+//! A motion is asked for twice: as it is, and after a change that leaves the motion itself as it was (the seed, the tolerance, the
+//! number of modes, a rotation, a reflection, units, silent modes, equations as text, another command). The names must be the same, and
+//! the numbers within their stated errors. Every push runs a sample; `cargo xtask invariances` runs all and writes
+//! docs/records/invariances.md.
 
 mod atlas;
 mod branches;

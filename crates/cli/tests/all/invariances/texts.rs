@@ -17,7 +17,7 @@ struct Term {
 pub(crate) struct Text {
     /// Modes with the terms of their equations.
     equations: Vec<(u32, Vec<Term>)>,
-    /// Whether left and right differ: the coefficients are then complex.
+    /// `true` if left and right differ: the coefficients are then complex.
     pub(crate) handed: bool,
 }
 
@@ -137,7 +137,8 @@ impl Text {
         Self { equations, handed: self.handed }
     }
 
-    /// With a mode more that acts on nothing, of constant size `sqrt(.3)` and with a phase that nothing fixes: every motion is one of a family.
+    /// With a mode more that acts on nothing, of constant size `sqrt(.3)` and with a phase that nothing fixes: every motion is one of a
+    /// family.
     pub(crate) fn with_free_phase(&self) -> Self {
         let mut equations = self.equations.clone();
         let term = |factor: f64, order: i32, word: &str| {

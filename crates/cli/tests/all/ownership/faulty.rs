@@ -1,7 +1,8 @@
 //! Every call that changes the file system fails, or is one before which the process ends.
 //!
-//! One run of a command gives what a kill before any of its calls leaves: the shim copies the folder there. What the next run does depends on nothing
-//! but these files, so it is tried once for each state; states that differ in random numbers alone are one. The same holds for what failing calls leave.
+//! One run of a command gives what a kill before any of its calls leaves: the shim copies the folder there. What the next run does
+//! depends on nothing but these files, so it is tried once for each state; states that differ in random numbers alone are one. The same
+//! holds for what failing calls leave.
 
 use super::interrupted::{is_tidy, is_whole};
 use super::{BOTH, Tree, WRITERS, Writer, is_kept, litter, tree};

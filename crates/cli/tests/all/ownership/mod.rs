@@ -1,5 +1,5 @@
-//! What motiform did not write stays, under every option of every command that writes. The commands are those of the program's own list: a new one
-//! must be given its place here.
+//! What motiform did not write stays, under every option of every command that writes. The commands are those of the program's own
+//! list: a new one must be given its place here.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(target_os = "linux")]
