@@ -161,15 +161,26 @@ impl BranchDiagram {
     }
 }
 
+/// Dashes and gaps of unstable motions, and the sum of both.
+const DASHES: (&str, f64) = ("4 2.5", 6.5);
+
 fn paint(colour: Colour, stable: bool) -> Paint {
-    if stable { Paint::stroke(colour, 3.0) } else { Paint::stroke(colour, 1.3).dashed("4 2.5") }
+    if stable { Paint::stroke(colour, 3.0) } else { Paint::stroke(colour, 1.3).dashed(DASHES.0) }
 }
 
 impl BranchPart {
     fn draw(&self, svg: &mut Svg, plane: &Plane) {
         let places: Vec<Point> = self.points.iter().filter_map(|point| plane.at(*point)).collect();
-        for piece in clip(&places, plane.scale.frame) {
-            svg.polyline(&piece, false, &paint(regime_mark(&self.regime).colour, self.stable));
+        for mut piece in clip(&places, plane.scale.frame) {
+            let mut paint = paint(regime_mark(&self.regime).colour, self.stable);
+            // dashes of unstable motions that lie on each other coincide: those at rest would fill each other's gaps, and look stable
+            if !self.stable {
+                if piece.first().map(|from| from[0]) > piece.last().map(|to| to[0]) {
+                    piece.reverse();
+                }
+                paint = paint.dash_from(piece.first().map_or(0.0, |from| from[0].rem_euclid(DASHES.1)));
+            }
+            svg.polyline(&piece, false, &paint);
         }
     }
 }

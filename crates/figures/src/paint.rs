@@ -11,6 +11,8 @@ pub struct Paint {
     fill: Option<(Colour, f64)>,
     stroke: Option<(Colour, f64)>,
     dash: Option<&'static str>,
+    /// Length into the dashes at which the line begins.
+    dash_from: f64,
     opacity: f64,
 }
 
@@ -18,13 +20,13 @@ impl Paint {
     /// Filled, no edge.
     #[must_use]
     pub fn fill(colour: Colour) -> Self {
-        Self { fill: Some((colour, 1.0)), stroke: None, dash: None, opacity: 1.0 }
+        Self { fill: Some((colour, 1.0)), stroke: None, dash: None, dash_from: 0.0, opacity: 1.0 }
     }
 
     /// A line of a width in pixels, no filling.
     #[must_use]
     pub fn stroke(colour: Colour, width: f64) -> Self {
-        Self { fill: None, stroke: Some((colour, width)), dash: None, opacity: 1.0 }
+        Self { fill: None, stroke: Some((colour, width)), dash: None, dash_from: 0.0, opacity: 1.0 }
     }
 
     /// Adds an edge of a width in pixels.
@@ -43,6 +45,12 @@ impl Paint {
     #[must_use]
     pub fn dashed(self, dash: &'static str) -> Self {
         Self { dash: Some(dash), ..self }
+    }
+
+    /// Begins the line at this length into its dashes (pixels).
+    #[must_use]
+    pub fn dash_from(self, length: f64) -> Self {
+        Self { dash_from: length, ..self }
     }
 
     /// Colour and width of the line, if there is one.
@@ -76,6 +84,9 @@ impl Display for Paint {
         }
         if let Some(dash) = self.dash {
             write!(f, " stroke-dasharray=\"{dash}\"")?;
+            if self.dash_from > 0.0 {
+                write!(f, " stroke-dashoffset=\"{}\"", Num(self.dash_from))?;
+            }
         }
         if self.opacity < 1.0 {
             write!(f, " opacity=\"{}\"", Num(self.opacity))?;

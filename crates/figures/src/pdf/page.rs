@@ -103,7 +103,12 @@ impl Canvas for Page {
         self.painted(colour, "RG", |out| {
             let dash: Vec<String> = pen.dash.iter().map(|length| short(f64::from(*length))).collect();
             let (width, cap) = (short(f64::from(pen.width)), u8::from(pen.round));
-            let _ = writeln!(out, "{width} w {cap} J 1 j [{}] 0 d", dash.join(" "));
+            let _ = writeln!(
+                out,
+                "{width} w {cap} J 1 j [{}] {} d",
+                dash.join(" "),
+                short(f64::from(pen.dash_from))
+            );
             outline(out, path);
             out.push_str("S\n");
         });

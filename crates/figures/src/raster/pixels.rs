@@ -53,7 +53,7 @@ impl Canvas for Pixels {
             width: pen.width,
             line_cap: if pen.round { LineCap::Round } else { LineCap::Butt },
             line_join: LineJoin::Round,
-            dash: StrokeDash::new(pen.dash.clone(), 0.0),
+            dash: StrokeDash::new(pen.dash.clone(), pen.dash_from),
             ..Stroke::default()
         };
         self.pixmap.stroke_path(path, &solid(colour), &stroke, self.transform, self.masks.last());

@@ -62,6 +62,8 @@ pub(crate) struct Pen {
     pub(crate) round: bool,
     /// Lengths of dashes and gaps in turn; empty for an unbroken line.
     pub(crate) dash: Vec<f32>,
+    /// Length into them at which the line begins.
+    pub(crate) dash_from: f32,
 }
 
 /// The pen of the line of an element.
@@ -72,5 +74,6 @@ pub(super) fn pen(element: &Element) -> Result<Pen> {
         width: element.number("stroke-width")?.unwrap_or(1.0),
         round: element.get("stroke-linecap") == Some("round"),
         dash: dash.unwrap_or_default(),
+        dash_from: element.number("stroke-dashoffset")?.unwrap_or(0.0),
     })
 }

@@ -90,6 +90,16 @@ fn dashes_have_their_lengths() {
     assert!((0..SIDE).all(|x| along[x] == if on(x) { 255 } else { 0 }), "{along:?}");
 }
 
+/// Two lines on each other that begin at different places of one pattern.
+#[test]
+fn dashes_that_go_on_coincide() {
+    let pen = Paint::stroke(BLACK, 1.0).dashed("10 5");
+    let one = |from: f64| ink(|svg| svg.line([from, 50.5], [100.0, 50.5], &pen.dash_from(from % 15.0)));
+    let (all, part) = (one(0.0), one(32.0));
+    assert_eq!(all[50 * SIDE + 40..51 * SIDE], part[50 * SIDE + 40..51 * SIDE]);
+    assert_ne!(all[50 * SIDE..51 * SIDE], part[50 * SIDE..51 * SIDE]);
+}
+
 #[test]
 fn another_svg_is_refused_with_what_is_in_it() {
     let svg = |body: &str| format!("<svg width=\"9\" height=\"9\" viewBox=\"0 0 9 9\">{body}</svg>");

@@ -64,7 +64,9 @@ fn figure(number: &str, figure: &ReportFigure, captions: bool) -> String {
 /// The words below a figure, and those that the style of the picture leaves to the text around it.
 fn below(figure: &ReportFigure) -> String {
     let left = figure.left.as_deref().map(str::trim).filter(|left| !left.is_empty());
-    let left = left.map_or_else(String::new, |left| format!("<br>{}", escape(left).replace('\n', "<br>")));
+    let left = left.map_or_else(String::new, |left| {
+        format!("<br>{}", left.lines().map(inline).collect::<Vec<_>>().join("<br>"))
+    });
     format!(" {}{left}", inline(&figure.caption))
 }
 
