@@ -116,7 +116,10 @@ fn every_column_is_declared_once() {
 #[test]
 fn no_parameter_has_the_name_of_a_column() {
     for Quantity { name, .. } in [motion::ALL, special::ALL].concat() {
-        assert!(MODELS.iter().flat_map(motiform_models::ModelInfo::parameters).all(|spec| spec.name != *name), "{name}");
+        assert!(
+            MODELS.iter().flat_map(motiform_models::ModelInfo::parameters).all(|spec| spec.name != *name),
+            "{name}"
+        );
         assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
     }
 }
