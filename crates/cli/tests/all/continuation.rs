@@ -118,7 +118,7 @@ fn branches_that_gain_a_symmetry_end_at_a_pitchfork() {
 }
 
 /// At zero force the body can move in any direction. This point is neither a fold nor a pitchfork, and no branch starts there. The
-/// folds beside it are those of the motion against the force: for a body without an ellipse they lie at g = 2 (gamma/3)^(3/2).
+/// folds beside it belong to the motion against the force. For a body without an ellipse they are at g = 2 (gamma/3)^(3/2).
 #[test]
 fn a_force_that_vanishes_is_no_bifurcation() {
     let folder = Folder::new();

@@ -135,7 +135,7 @@ fn page() -> String {
         ("Frames of cells", "`modes` of tracked cells: a row is a frame.", frame::ALL),
         (
             "Cells",
-            "`numbers` of tracked cells; each number has the ends of its interval beside it, such as `speed_low`.",
+            "`numbers` of tracked cells; the columns NAME_low and NAME_high are the ends of its 95 % interval, such as `speed_low`.",
             cell::ALL,
         ),
         ("Coefficients", "`coefficients` of fits: a row is a coefficient of a cell.", coefficient::ALL),

@@ -1,4 +1,4 @@
-//! A tracked cell, in the units of the data; each number has the ends of its 95 % interval beside it: `speed_low`, `speed_high`.
+//! A tracked cell, in the units of the data; NAME_low and NAME_high are the ends of the 95 % interval of a number, such as `speed_low`.
 
 super::quantities! {
     CELL "cell" NUMBER "name of the cell";
