@@ -33,7 +33,8 @@ pub(super) struct Critical {
 pub(super) struct Reading {
     /// Vanishes where the condition holds, and is smooth there.
     pub(super) value: f64,
-    /// Distance of the critical multiplier from where it belongs (of a pair: its mean growth); of eigenvalues in units of the rate of the equations.
+    /// Distance of the critical multiplier from where it belongs (of a pair: its mean growth); of eigenvalues in units of the rate of the
+    /// equations.
     pub(super) off: f64,
     /// Of a pair: `omega^2`, or the cosine of the angle. They pass 0, or +-1, where the pair becomes real.
     pub(super) angle: f64,

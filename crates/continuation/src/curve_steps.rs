@@ -15,7 +15,8 @@ const CORRECTION: f64 = 1e-3;
 /// shrinking steps do not come back to the same place.
 const SHORTER: f64 = 0.35;
 
-/// A point is one of the curve only where its critical multiplier is as close to where it belongs: what the condition leaves at ordinary points is below 1e-6.
+/// A point is one of the curve only where its critical multiplier is as close to where it belongs: what the condition leaves at
+/// ordinary points is below 1e-6.
 const RESOLVED: f64 = 1e-4;
 
 /// Where that fails after a step as short as this, the condition is not resolved any more.

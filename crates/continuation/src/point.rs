@@ -101,10 +101,11 @@ pub enum End {
         /// Its kind.
         kind: super::Degenerate,
     },
-    /// A curve of special points comes to where its condition is not resolved any more: multipliers change so much with the parameters, close to a connection
-    /// of saddles, that round-off decides whether one is critical. The last point is one where it still is.
+    /// A curve of special points comes to where its condition is not resolved any more: multipliers change so much with the parameters,
+    /// close to a connection of saddles, that round-off decides whether one is critical. The last point is one where it still is.
     Lost {
-        /// How far the critical multiplier, or eigenvalue in units of the rate of the equations, was from where it belongs after the shortest step that was tried.
+        /// How far the critical multiplier, or eigenvalue in units of the rate of the equations, was from where it belongs after the
+        /// shortest step that was tried.
         off: f64,
     },
     /// As many points as were asked for.

@@ -99,8 +99,8 @@ impl Hopf {
         std::f64::consts::TAU / self.frequency * self.part
     }
 
-    /// Returns `Some(true)` if the orbits that begin are stable within the directions that are critical; `None` where the coefficient's error
-    /// does not say so.
+    /// Returns `Some(true)` if the orbits that begin are stable within the directions that are critical; `None` where the coefficient's
+    /// error does not say so.
     #[must_use]
     pub fn is_supercritical(&self) -> Option<bool> {
         self.first_lyapunov.coefficient()?.is_negative()

@@ -83,8 +83,8 @@ pub struct Handedness {
 ///
 /// Give the fit of selected terms ([`crate::select`]): with fewer imaginary parts the test sees smaller ones.
 /// A cell is called handed where the ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric
-/// cells, and so is the Wald statistic with robust errors; mirror symmetric where it is exceeded in [`DOUBTED_RATE`] of them and more, and the intervals of
-/// all imaginary parts exclude the size [`SEEN`]: a large p-value alone is no evidence of symmetry.
+/// cells, and so is the Wald statistic with robust errors; mirror symmetric where it is exceeded in [`DOUBTED_RATE`] of them and more,
+/// and the intervals of all imaginary parts exclude the size [`SEEN`]: a large p-value alone is no evidence of symmetry.
 ///
 /// # Errors    of the input; [`Error::Setting`] if `fit` is handed itself
 /// # Checked by  `tests/all/handed.rs`: rate of false alarms, a handed cell

@@ -119,7 +119,8 @@ pub fn with_stage(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<With
     Ok(WithStage { velocities, tracks, fit })
 }
 
-/// The parameters of highest likelihood of each track, together with the terms of a fit; the tracks without what they stand for; the fit to these.
+/// The parameters of highest likelihood of each track, together with the terms of a fit; the tracks without what they stand for; the
+/// fit to these.
 fn with(
     beside: Beside,
     tracks: &[Track],

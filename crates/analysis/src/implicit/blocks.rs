@@ -11,12 +11,14 @@ const REST: usize = STAGES - LEADING;
 /// What one of the solutions may leave of its equations, as part of their terms: digits that a small pivot would cost.
 const LEFT: f64 = 1e-10;
 
-/// The equations `sum_j a'_ij W_j - h J_i W_i = R_i`, with the inverse `a'` of the matrix of the weights. Outside the diagonal their blocks are multiples of the
-/// identity: the first stage is eliminated by one inverse, the second by another and three products, and what is left are three stages. That takes
-/// half as many products of blocks as the elimination of all entries, and they are products of small matrices that stay in the nearest cache.
+/// The equations `sum_j a'_ij W_j - h J_i W_i = R_i`, with the inverse `a'` of the matrix of the weights. Outside the diagonal their
+/// blocks are multiples of the identity: the first stage is eliminated by one inverse, the second by another and three products, and
+/// what is left are three stages. That takes half as many products of blocks as the elimination of all entries, and they are products
+/// of small matrices that stay in the nearest cache.
 ///
-/// The inverse of the matrix of a Radau method is positive definite in the weights of its quadrature, and so are the pivots as long as the Jacobians do
-/// not grow by more than that within a step: no exchange of stages is needed. [`Blocks::last_stage`] tests what it finds.
+/// The inverse of the matrix of a Radau method is positive definite in the weights of its quadrature, and so are the pivots as long as
+/// the Jacobians do not grow by more than that within a step: no exchange of stages is needed. [`Blocks::last_stage`] tests what it
+/// finds.
 pub(super) struct Blocks<'j> {
     h: f64,
     /// Column by column.

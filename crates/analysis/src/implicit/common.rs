@@ -4,8 +4,9 @@ use super::modes::Mode;
 use super::tableau::STAGES;
 use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
 
-/// `I - h A (x) J` in the basis of the eigenvectors of `A^-1`. There it is block diagonal, with a block `(lambda - h J) / lambda` for each eigenvalue `lambda`. One eigenvalue
-/// is real; the others are two complex conjugate pairs, and the block of a conjugate needs no factorisation of its own.
+/// `I - h A (x) J` in the basis of the eigenvectors of `A^-1`. There it is block diagonal, with a block `(lambda - h J) / lambda` for
+/// each eigenvalue `lambda`. One eigenvalue is real; the others are two complex conjugate pairs, and the block of a conjugate needs no
+/// factorisation of its own.
 ///
 /// Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8.
 pub(super) struct Common {

@@ -121,7 +121,8 @@ mod tests {
     use super::*;
     use motiform_dynamics::{Scalar, System};
 
-    /// `x' = (w - v) x`, `y' = -x^2 (y - x / 2)`, `v' = b`: `y` is a slave of `x = x(0) exp(w t - b t^2 / 2)`, the stiffer the larger `x` is.
+    /// `x' = (w - v) x`, `y' = -x^2 (y - x / 2)`, `v' = b`: `y` is a slave of `x = x(0) exp(w t - b t^2 / 2)`, the stiffer the larger `x`
+    /// is.
     struct Slaved {
         w: f64,
         b: f64,

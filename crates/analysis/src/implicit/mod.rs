@@ -1,12 +1,13 @@
 //! The flow of a stiff field with its exact derivatives, by an implicit method of order 9.
 //!
-//! Newton's method for orbits needs the flow over parts of an orbit, in ten digits, with the images of all unit vectors. Exponential methods
-//! are of order 4, 3 in their error estimate, and need tens of thousands of steps for them. Radau IIA of order 9 takes about a hundred: each
-//! solves for five stages at once, and the vectors are carried by the derivative of the same equations, so that they are the derivatives of
-//! the computed flow to round-off. Stiff parts of the vectors, which only decay, do not shorten the steps: the method is L-stable.
+//! Newton's method for orbits needs the flow over parts of an orbit, in ten digits, with the images of all unit vectors. Exponential
+//! methods are of order 4, 3 in their error estimate, and need tens of thousands of steps for them. Radau IIA of order 9 takes about a
+//! hundred: each solves for five stages at once, and the vectors are carried by the derivative of the same equations, so that they are
+//! the derivatives of the computed flow to round-off. Stiff parts of the vectors, which only decay, do not shorten the steps: the
+//! method is L-stable.
 //!
-//! The stages are found by Newton's method with one Jacobian for all of them ([`common`]), which gains two digits or more in each iteration; the vectors need that
-//! of every stage ([`blocks`]). Where either fails, all equations are solved at once.
+//! The stages are found by Newton's method with one Jacobian for all of them ([`common`]), which gains two digits or more in each
+//! iteration; the vectors need that of every stage ([`blocks`]). Where either fails, all equations are solved at once.
 //!
 //! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, sections IV.5 and IV.8.
 
@@ -29,7 +30,8 @@ use nalgebra::DMatrix;
 use step::Step;
 use tableau::{STAGES, Tableau};
 
-/// The size of the fifth power over a step, as part of the size of the state. The error of a step is smaller by many orders: tests state it.
+/// The size of the fifth power over a step, as part of the size of the state. The error of a step is smaller by many orders: tests
+/// state it.
 const ROUGHNESS: f64 = 1e-6;
 
 /// Up to so many unknowns one matrix for all stages is as quick as several smaller ones.
@@ -51,9 +53,9 @@ pub struct Flowed {
     pub step: f64,
 }
 
-/// The flow of `field` from `start` over `span`, and of the tangent vectors `vectors`, one after the other. `forced` returns a vector `g` at a state for each
-/// of the last of them: these follow `w' = Df w + g`, the others `w' = Df w`.
-/// `first` is the first step to try, of a flow that goes on ([`Flowed::step`]); without it, one over which the state changes little.
+/// The flow of `field` from `start` over `span`, and of the tangent vectors `vectors`, one after the other. `forced` returns a vector
+/// `g` at a state for each of the last of them: these follow `w' = Df w + g`, the others `w' = Df w`. `first` is the first step to try,
+/// of a flow that goes on ([`Flowed::step`]); without it, one over which the state changes little.
 ///
 /// # Errors
 /// The outcome, where it is not the end of the span: the solution leaves, steps become too short, or `watch` stops it.

@@ -81,8 +81,8 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
         self.stages.column_iter().map(|u| jacobian(self.field, u.as_slice())).collect()
     }
 
-    /// Moves vectors along, with `forced(U_j)` on the last ones. These are the derivatives of the step itself, exactly. `false` where they do not
-    /// exist; the vectors then stay as they are.
+    /// Moves vectors along, with `forced(U_j)` on the last ones. These are the derivatives of the step itself, exactly. `false` where they
+    /// do not exist; the vectors then stay as they are.
     pub(super) fn carry(&self, vectors: &mut DMatrix<f64>, forced: &dyn Fn(&[f64]) -> Vec<Vec<f64>>) -> bool {
         let forces: Vec<_> = self.stages.column_iter().map(|u| forced(u.as_slice())).collect();
         let step = Vectors { h: self.h, jacobians: &self.jacobians(), forces: &forces };

@@ -5,8 +5,8 @@ use super::tableau::{STAGES, Tableau};
 use super::{FEW, whole};
 use nalgebra::DMatrix;
 
-/// Vectors that a step of `h` carries along: `W_i = w + h sum_j a_ij (J_j W_j + g_j)`, with the Jacobians of the stages, column by column, and the forces of
-/// each stage on the last vectors.
+/// Vectors that a step of `h` carries along: `W_i = w + h sum_j a_ij (J_j W_j + g_j)`, with the Jacobians of the stages, column by
+/// column, and the forces of each stage on the last vectors.
 pub(super) struct Vectors<'v> {
     pub(super) h: f64,
     pub(super) jacobians: &'v [Vec<f64>],

@@ -40,8 +40,9 @@ fn off(point: &CurvePoint) -> f64 {
     multipliers.iter().map(|value| libm::hypot(value.0 + 1.0, value.1)).fold(f64::INFINITY, f64::min)
 }
 
-/// Towards a connection of saddles the period of the critical zigzag grows, and its multipliers change by `exp(lambda T)` with the parameters: round-off of the parameters moves them by
-/// more than 1 in the end. The curve ends before, with this reason; it used to wander on with a multiplier far from -1.
+/// Towards a connection of saddles the period of the critical zigzag grows, and its multipliers change by `exp(lambda T)` with the
+/// parameters: round-off of the parameters moves them by more than 1 in the end. The curve ends before, with this reason; it used to
+/// wander on with a multiplier far from -1.
 #[test]
 fn a_curve_ends_where_its_critical_multiplier_is_not_resolved() {
     let settings = Settings::over(0.1, 0.3);

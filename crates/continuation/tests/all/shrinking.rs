@@ -8,8 +8,8 @@ use motiform_analysis::{PeriodicOrbit, Result};
 use motiform_continuation::{Branch, End, Settings};
 use motiform_dynamics::{Equivariant, Scalar, Semilinear, Shape, Symmetry, System, VectorField};
 
-/// `z' = (p (1 - p) + i) z - |z|^2 z` and `w' = 1 - w`, with `z -> -z` as the mirror: the shape (0, 1) is its own image, and swings about it for p between 0 and 1; half a period later
-/// the shape is its image.
+/// `z' = (p (1 - p) + i) z - |z|^2 z` and `w' = 1 - w`, with `z -> -z` as the mirror: the shape (0, 1) is its own image, and swings
+/// about it for p between 0 and 1; half a period later the shape is its image.
 struct Swings(f64);
 impl System for Swings {
     fn dim(&self) -> usize {
@@ -49,7 +49,8 @@ impl Equivariant for Swings {
     }
 }
 
-/// The axis belongs to the shape that is left, not to the orbit: it used to be taken for a symmetry that the orbit gains, and orbits of no size were followed from there.
+/// The axis belongs to the shape that is left, not to the orbit: it used to be taken for a symmetry that the orbit gains, and orbits of
+/// no size were followed from there.
 #[test]
 fn an_orbit_that_shrinks_to_a_shape_with_an_axis_gains_none() {
     let family = |p: f64| -> Result<Box<dyn Equivariant>> { Ok(Box::new(Swings(p))) };

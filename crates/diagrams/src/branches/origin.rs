@@ -123,7 +123,8 @@ impl Origin {
         }
     }
 
-    /// Whether a motion that is stable on one side of it loses its stability here; `true` at the ends of branches, which lead to steady motions.
+    /// `true` if a motion that is stable on one side of it loses its stability here, and at the ends of branches, which lead to steady
+    /// motions.
     pub(super) fn is_on_stable(self, branches: &[Followed]) -> bool {
         let stable = |sample: Option<&Sample>| sample.is_some_and(|sample| sample.point.unstable == 0);
         let ordinary = |sample: &&Sample| sample.point.special.is_none();

@@ -63,8 +63,8 @@ impl Scatter {
         Self(whole.covariance().try_inverse().map(|inverse| &inverse * robust * &inverse))
     }
 
-    /// The robust standard error of a number of a set, from `D g`: the expected covariance D of the set, and the gradient g. The estimates of the set are `D C^-1` times those of
-    /// all terms, so their robust covariance is `D C^-1 R C^-1 D`. 0 where it is not known.
+    /// The robust standard error of a number of a set, from `D g`: the expected covariance D of the set, and the gradient g. The estimates
+    /// of the set are `D C^-1` times those of all terms, so their robust covariance is `D C^-1 R C^-1 D`. 0 where it is not known.
     pub(crate) fn error(&self, carried: &DVector<f64>) -> f64 {
         self.0.as_ref().map_or(0.0, |scatter| carried.dot(&(scatter * carried)).max(0.0).sqrt())
     }
@@ -72,9 +72,9 @@ impl Scatter {
 
 /// A value of every tied set, with the weight `exp(-excess/2)`: the best set has 1.
 ///
-/// The value of a set follows from the estimates and errors that it has from the fit with all terms, the others set to 0 (no set is fitted again). One that
-/// needs coefficients which a set does not have is taken of the set with these added. The outer list is that of `needed`: one value for each list of
-/// coefficients that a value needs.
+/// The value of a set follows from the estimates and errors that it has from the fit with all terms, the others set to 0 (no set is
+/// fitted again). One that needs coefficients which a set does not have is taken of the set with these added. The outer list is that of
+/// `needed`: one value for each list of coefficients that a value needs.
 pub(crate) fn over_sets<T>(
     whole: &Fit,
     subsets: &Subsets,

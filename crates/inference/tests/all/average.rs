@@ -31,8 +31,8 @@ fn intervals_over_tied_sets_hold_the_truth() {
     assert!(over >= alone && over >= 8, "{alone} {over}");
 }
 
-/// Of one set the interval is 1.96 of its errors, the larger of the expected and the robust one; of two that differ by a term the weight of the term is that
-/// of its set, and its interval is the same.
+/// Of one set the interval is 1.96 of its errors, the larger of the expected and the robust one; of two that differ by a term the
+/// weight of the term is that of its set, and its interval is the same.
 #[test]
 fn mixtures_are_those_of_their_sets() {
     let experiment = Experiment { frames: 150, ..Experiment::new(full(0.5, 0.1), 0.02, 4) };
