@@ -145,6 +145,7 @@ def test_simulated_written_read_fitted_and_named_again(name: str, regime: str, t
     assert fit.regime == regime and fit.share >= 0.9 and sum(fit.draws.values()) >= 20 and fit.frames == 801
     kappa2 = motiform.preset(name).kappa2
     assert fit.place.known and abs(float(fit.place.coordinates["kappa2"]) - kappa2) < 4.0 * fit.place.coordinates["kappa2"].error
+    assert fit.place.coordinates["kappa2"].lower < kappa2 < fit.place.coordinates["kappa2"].upper
     terms = fit.coefficients.set_index("term")
     assert abs(terms.loc["z2: z2", "value"] + kappa2) < 4.0 * terms.loc["z2: z2", "error"]
     assert not fit.place_reduced.known and "z3" in str(fit.place_reduced)

@@ -29,6 +29,10 @@ class Value:
     """Standard error from the scatter of the scores."""
     slice: float = math.nan
     """The value on the slice of the diagram, for parameters that the diagram fixes."""
+    lower: float = math.nan
+    """Lower end of the 95 % interval over all sets of terms that the data do not tell apart, for coordinates of a place."""
+    upper: float = math.nan
+    """Its upper end."""
 
     def __float__(self) -> float:
         return self.value
