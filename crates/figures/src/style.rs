@@ -100,12 +100,13 @@ impl Style {
         Ok(Drawn { svg, data, caption: left })
     }
 
-    /// Title and caption as they are drawn; the text of both, if a medium leaves them out.
+    /// Title and caption as they are drawn; the text of both, if a medium leaves them out and there is any.
     fn words(&self, figure: &mut dyn Figure) -> Option<String> {
         let (title, caption) = figure.words();
         let plain = |markup: &String| Label::parse(markup).terminal();
         let left = [&*title].into_iter().chain(&*caption).filter(|words| !words.is_empty()).map(plain);
-        let left = self.medium.map(|_| left.collect::<Vec<_>>().join("\n") + "\n");
+        let left: Vec<String> = left.collect();
+        let left = self.medium.filter(|_| !left.is_empty()).map(|_| left.join("\n") + "\n");
         match (&self.title, self.medium) {
             (Some(given), _) => title.clone_from(given),
             (None, Some(Medium::Journal)) => title.clear(),
@@ -197,6 +198,15 @@ mod tests {
         assert_eq!(reader.info().width, 1016); // 86 mm at 300 dots per inch, rounded up
         let plain = Style::default().draw(&mut figure()).expect("a figure");
         assert_eq!(plain.svg, figure().svg().expect("a figure"));
+    }
+
+    #[test]
+    fn a_figure_without_words_leaves_none_to_the_text() {
+        let style = Style { medium: Some(Medium::Journal), ..Style::default() };
+        let left = |figure: &mut Chart| style.draw(figure).expect("a figure").caption;
+        assert_eq!(left(&mut figure()).as_deref(), Some("Own title\nOwn caption.\n"));
+        let mut bare = Chart { title: String::new(), caption: Vec::new(), ..figure() };
+        assert_eq!(left(&mut bare), None);
     }
 
     #[test]

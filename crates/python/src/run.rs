@@ -112,12 +112,12 @@ impl Run {
         self.table.parts(py)
     }
 
-    /// The powers of length and time of each column.
-    fn dimensions(&self) -> PyResult<Vec<(i8, i8)>> {
+    /// The powers of length and time of each column, and whether it is an angle.
+    fn dimensions(&self) -> PyResult<Vec<(i8, i8, bool)>> {
         let model = self.model()?;
         let powers = |name: &String| match dimension(model, name) {
-            Dimension::Powers { length, time, .. } => (length, time),
-            Dimension::Mixed => (0, 0),
+            Dimension::Powers { length, time, angle } => (length, time, angle),
+            Dimension::Mixed => (0, 0, false),
         };
         Ok(self.table.names.iter().map(powers).collect())
     }

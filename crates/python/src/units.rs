@@ -17,13 +17,22 @@ impl Units {
         Ok(shown.is_physical().then_some(Self(shown)))
     }
 
-    /// The factor from model units to these, of a quantity with such powers of length and time.
-    fn factor(&self, length: i8, time: i8) -> f64 {
-        self.0.factor(Dimension::of(length, time))
+    /// The factor from model units to these, of a quantity with such powers of length and time, and an angle or none.
+    #[pyo3(signature = (length, time, angle=false))]
+    fn factor(&self, length: i8, time: i8, angle: bool) -> f64 {
+        self.0.factor(Dimension::Powers { length, time, angle })
     }
 
     /// The name of the unit of such a quantity.
-    fn name(&self, length: i8, time: i8) -> String {
-        self.0.name(Dimension::of(length, time), "")
+    #[pyo3(signature = (length, time, angle=false))]
+    fn name(&self, length: i8, time: i8, angle: bool) -> String {
+        self.0.name(Dimension::Powers { length, time, angle }, "")
+    }
+
+    /// The unit of a model for such a quantity, in words.
+    #[staticmethod]
+    #[pyo3(signature = (length, time, angle=false))]
+    fn of_model(length: i8, time: i8, angle: bool) -> String {
+        Dimension::Powers { length, time, angle }.words()
     }
 }

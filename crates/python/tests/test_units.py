@@ -36,8 +36,8 @@ def run(body: motiform.Model) -> motiform.Trajectory:
 def test_units_have_factors_and_names() -> None:
     units = motiform.Units(UNITS)
     assert units.factor((1, 0)) == 20.0 and units.factor((1, -1)) == pytest.approx(20.0 / 3.0)
-    names = [units.name(dimension) for dimension in ((1, 0), (0, 1), (1, -1), (0, -1), (2, -1), (0, 0))]
-    assert names == ["µm", "min", "µm/min", "1/min", "µm^2/min", ""]
+    names = [units.name(dimension) for dimension in ((1, 0), (0, 1), (1, -1), (0, -1), (2, -1), (0, 0), (0, -1, True))]
+    assert names == ["µm", "min", "µm/min", "1/min", "µm^2/min", "", "rad/min"]
     assert pickle.loads(pickle.dumps(units)) == units != motiform.Units("20um,1min")
     for bad in ("", "20um", "20,3", "-1um,1min"):
         with pytest.raises(ValueError, match="20um,1min"):
@@ -63,6 +63,7 @@ def test_columns_are_in_model_units_unless_others_are_asked_for(run: motiform.Tr
     for name, by in expected.items():
         np.testing.assert_allclose(frame[name], by * run[name], rtol=1e-14)
         np.testing.assert_array_equal(frame[name], run.values(name))
+    assert frame.attrs["units"]["turning_rate"] == "rad/min"
     assert frame.attrs["units"]["speed"] == "µm/min" and "(µm/min)" in frame.attrs["meanings"]["speed"]
     assert not any("model" in meaning for meaning in frame.attrs["meanings"].values())
     # the speed of the table is that of its places, in any units
@@ -79,8 +80,10 @@ def test_columns_are_in_model_units_unless_others_are_asked_for(run: motiform.Tr
 
 def test_the_cell_has_dimensions_too() -> None:
     run = motiform.preset("fig6a").simulate(2.0, transient=0.0, dt_out=1.0)
-    named = {name: run.dimension(name) for name in ("c2", "mode2", "length", "area", "closure_residual")}
-    assert named == {"c2": (1, 0), "mode2": (1, 0), "length": (1, 0), "area": (2, 0), "closure_residual": (0, 0)}
+    named = {name: run.dimension(name) for name in ("c2", "mode2", "length", "area", "closure_residual", "turning_rate")}
+    assert named == {
+        "c2": (1, 0), "mode2": (1, 0), "length": (1, 0), "area": (2, 0), "closure_residual": (0, 0), "turning_rate": (0, -1, True)
+    }  # fmt: skip
 
 
 def test_axes_are_those_of_the_study(run: motiform.Trajectory) -> None:

@@ -10,14 +10,14 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from .units import LENGTH, RATE, SPEED, TIME, Asked, Dimension, Units, chosen, converted
+from .units import LENGTH, RATE, SPEED, TIME, TURNING, Asked, Dimension, Units, chosen, converted
 
 _VERDICT: dict[str, Dimension] = {
-    "time": TIME, "speed": SPEED, "turning_rate": RATE, "turning_error": RATE, "period": TIME, "drift": LENGTH, "lasted": TIME,
+    "time": TIME, "speed": SPEED, "turning_rate": TURNING, "turning_error": TURNING, "period": TIME, "drift": LENGTH, "lasted": TIME,
     "escape_time": TIME, "saddle": RATE, "exponents": RATE, "rests": TIME,
 }  # fmt: skip
 _EXPONENTS: dict[str, Dimension] = {"values": RATE, "errors": RATE, "time": TIME, "transient": TIME}
-_EQUILIBRIUM: dict[str, Dimension] = {"speed": SPEED, "turning_rate": RATE, "eigenvalues": RATE}
+_EQUILIBRIUM: dict[str, Dimension] = {"speed": SPEED, "turning_rate": TURNING, "eigenvalues": RATE}
 
 R = TypeVar("R")
 

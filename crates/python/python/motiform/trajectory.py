@@ -72,12 +72,16 @@ class Trajectory:
         return units_of(self.manifest["plan"].get("figure", {}).get("units", ""))
 
     def dimension(self, name: str) -> Dimension:
-        """The powers of length and time in the unit of a column: (1, -1) for a speed."""
+        """The powers of length and time in the unit of a column, and ``True`` for an angle.
+
+        (1, -1) for a speed, (0, -1, True) for a turning rate.
+        """
         return self._dimensions[name]
 
     @cached_property
     def _dimensions(self) -> dict[str, Dimension]:
-        return dict(zip(self._place, self._run.dimensions(), strict=True))
+        all_ = ((length, time, True) if angle else (length, time) for length, time, angle in self._run.dimensions())
+        return dict(zip(self._place, all_, strict=True))
 
     def values(self, name: str, units: Asked = True) -> Floats:
         """A column in the units of the study, or in others (``"20um,1min"``); ``False``: those of the model."""

@@ -10,16 +10,15 @@ import numpy as np
 
 from . import _motiform
 
-Dimension = tuple[int, int]
-"""Powers of length and time: a speed has (1, -1)."""
+Dimension = tuple[int, int] | tuple[int, int, bool]
+"""Powers of length and time, and ``True`` for angles: a speed has (1, -1), a turning rate (0, -1, True)."""
 
 LENGTH: Dimension = (1, 0)
 TIME: Dimension = (0, 1)
 SPEED: Dimension = (1, -1)
 RATE: Dimension = (0, -1)
+TURNING: Dimension = (0, -1, True)
 DIFFUSION: Dimension = (2, -1)
-
-_MODEL = {"length": "model length", "time": "model time"}
 
 
 @dataclass(frozen=True)
@@ -51,7 +50,7 @@ class Units:
 
     def name(self, dimension: Dimension) -> str:
         """The name of its unit; empty for a number."""
-        return "" if dimension == (0, 0) else re.sub(r"\^\{(-?\d+)\}", r"^\1", self._native.name(*dimension))
+        return self._native.name(*dimension)
 
     def __str__(self) -> str:
         return self.text
@@ -82,16 +81,7 @@ def factor(units: Units | None, dimension: Dimension) -> float:
 
 def name(units: Units | None, dimension: Dimension) -> str:
     """The name of a unit, in model units too: ``model length per model time``."""
-    if units is not None:
-        return units.name(dimension)
-    parts = [
-        [_MODEL[of] + ("" if abs(power) == 1 else f"^{abs(power)}") for of, power in zip(_MODEL, dimension, strict=True) if sign * power > 0]
-        for sign in (1, -1)
-    ]
-    above, below = (" ".join(part) for part in parts)
-    if above and below:
-        return f"{above} per {below}"
-    return above or (f"inverse {below}" if below else "")
+    return _motiform.Units.of_model(*dimension) if units is None else units.name(dimension)
 
 
 def label(quantity: str, units: Units | None, dimension: Dimension) -> str:
