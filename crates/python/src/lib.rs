@@ -52,7 +52,7 @@ mod _motiform {
     #[pymodule_export]
     use super::read::{read_fields, read_run, read_scan, read_table};
     #[pymodule_export]
-    use super::registry::registry;
+    use super::registry::{quantities, registry};
     #[pymodule_export]
     use super::run::{Run, seconds_of_run, simulate};
     #[pymodule_export]

@@ -5,7 +5,7 @@
 use crate::common::Folder;
 use crate::ownership::tree;
 use motiform_models::{MODELS, amplitudes};
-use motiform_store::quantity::{cell, coefficient, frame, motion, special, state, statistic, subjects};
+use motiform_store::quantity::{answer, cell, coefficient, frame, motion, special, state, statistic, subjects};
 use motiform_store::{Quantity, columns};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
@@ -104,7 +104,8 @@ fn every_column_is_declared_once() {
             seen.push(one);
         }
     }
-    let unused = subjects().into_iter().flat_map(|(_, all)| all);
+    let of_tables = subjects().into_iter().filter(|entry| entry.0 != "answer");
+    let unused = of_tables.flat_map(|(_, all)| all);
     let unused: Vec<&str> = unused
         .filter(|one| !seen.iter().any(|other| std::ptr::eq(*other, **one)))
         .map(|one| one.name)
@@ -139,6 +140,7 @@ fn page() -> String {
             cell::ALL,
         ),
         ("Coefficients", "`coefficients` of fits: a row is a coefficient of a cell.", coefficient::ALL),
+        ("Answers", "Numbers of analyses that are in no table; JSON and Python have them.", answer::ALL),
     ] {
         text += &format!("\n## {title}\n\n{about}\n\n| name | dimension | meaning |\n| --- | --- | --- |\n");
         for one in all.iter().filter(|one| !OF_FIGURES.contains(one)) {

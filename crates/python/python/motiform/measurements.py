@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from . import _motiform, plotting
-from .units import DIFFUSION, LENGTH, RATE, SPEED, TIME, Asked, Dimension, Units, chosen, converted, factor
+from .units import Asked, Units, chosen, converted, dimensions, factor
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -102,11 +102,12 @@ class Statistics:
         if not self.in_model_units:
             raise ValueError(f"the statistics are in {self.units} already")
         shown = chosen(units, self.units)
-        made = converted(self, shown, _DIMENSIONS)
-        tables: dict[str, Any] = {name: _table_in(getattr(self, name), shown, columns) for name, columns in _COLUMNS.items()}
+        made = converted(self, shown, dimensions("answer"))
+        tables: dict[str, Any] = {name: _table_in(getattr(self, name), shown) for name in _TABLES}
         rows = self.distributions["quantity"] == "speed"
-        tables["distributions"].loc[rows, ["from", "to"]] *= factor(shown, SPEED)
-        tables["distributions"].loc[rows, ["density", "lower", "upper"]] /= factor(shown, SPEED)
+        by_speed = factor(shown, dimensions("state")["speed"])
+        tables["distributions"].loc[rows, ["from", "to"]] *= by_speed
+        tables["distributions"].loc[rows, ["density", "lower", "upper"]] /= by_speed
         return replace(made, **tables, units=shown, in_model_units=shown is None)
 
     def plot(self, what: str = "msd", ax: Axes | None = None, *, units: Asked = None) -> Axes:
@@ -121,23 +122,17 @@ class Statistics:
         return f"<statistics of {self.bodies} bodies: persistence time {self.persistence}, diffusion {self.diffusion}>"
 
 
-_DIMENSIONS: dict[str, Dimension] = {
-    "mean_speed": SPEED, "persistence": TIME, "walk_speed": SPEED, "diffusion": DIFFUSION, "late_diffusion": DIFFUSION,
-    "green_kubo": DIFFUSION, "correlation_times": TIME,
-}  # fmt: skip
-_SQUARE: Dimension = (2, 0)
-_COLUMNS: dict[str, dict[str, Dimension]] = {
-    "msd": {"lag": TIME, "msd": _SQUARE, "lower": _SQUARE, "upper": _SQUARE, "fit": _SQUARE},
-    "autocorrelations": {"lag": TIME},
-    "distributions": {"lag": TIME},
-    "spectra": {"frequency": RATE},
-    "first_passage": {"radius": LENGTH, **dict.fromkeys(("mean", "lower", "upper", "restricted", "limit"), TIME)},
-}
+_TABLES = ("msd", "autocorrelations", "distributions", "spectra", "first_passage")
 
 
-def _table_in(table: pd.DataFrame, units: Units | None, columns: Mapping[str, Dimension]) -> pd.DataFrame:
-    """A copy with these columns in other units."""
-    return table.assign(**{name: table[name] * factor(units, dimension) for name, dimension in columns.items()})
+def _table_in(table: pd.DataFrame, units: Units | None) -> pd.DataFrame:
+    """A copy in other units; the ends of an interval have the dimension of the number to their left."""
+    known, number, made = dimensions("statistic"), "", {}
+    for name in table:
+        number = number if name in ("lower", "upper") else str(name)
+        if number in known:
+            made[str(name)] = table[name] * factor(units, known[number])
+    return table.assign(**made)
 
 
 def statistics(

@@ -15,7 +15,7 @@ from matplotlib.patches import Patch, Polygon
 from matplotlib.path import Path
 
 from ._registry import REGIMES, Regime
-from .units import LENGTH, RATE, SPEED, TIME, Dimension, Units, factor, label
+from .units import LENGTH, TIME, Units, dimensions, factor, label
 from .units import name as unit_name
 
 if TYPE_CHECKING:
@@ -225,10 +225,9 @@ _STATISTICS: dict[str, tuple[str, str, str]] = {
 }  # fmt: skip
 
 
-_AXES: dict[str, tuple[str, Dimension]] = {
-    "lag": ("lag", TIME), "msd": ("mean-square displacement", (2, 0)), "exponent": ("d ln MSD / d ln lag", (0, 0)),
-    "correlation": ("$C$(lag)/$C$(0)", (0, 0)), "radius": ("radius", LENGTH),
-    "mean": ("mean first-passage time", TIME), "speed": ("speed", SPEED),
+_WORDS = {
+    "msd": "mean-square displacement", "exponent": "d ln MSD / d ln lag", "correlation": "$C$(lag)/$C$(0)",
+    "mean": "mean first-passage time",
 }  # fmt: skip
 
 
@@ -237,11 +236,11 @@ def _axis(name: str, units: Units | None) -> tuple[str, float]:
     if name == "power":
         return "power spectral density (unit$^2$ × time)", 1.0
     if name == "frequency":
-        return f"frequency (cycles per {unit_name(units, TIME)})", factor(units, RATE)
+        return f"frequency (cycles per {unit_name(units, TIME)})", factor(units, dimensions("statistic")[name])
     if name == "turning_angle":
         return "turning angle (rad)", 1.0
-    words, dimension = _AXES[name]
-    return label(words, units, dimension), factor(units, dimension)
+    dimension = dimensions("state", "statistic").get(name, (0, 0))
+    return label(_WORDS.get(name, name), units, dimension), factor(units, dimension)
 
 
 def plot_statistics(found: Statistics, what: str, ax: Axes | None, units: Units | None) -> Axes:

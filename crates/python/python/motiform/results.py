@@ -10,14 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from .units import LENGTH, RATE, SPEED, TIME, TURNING, Asked, Dimension, Units, chosen, converted
-
-_VERDICT: dict[str, Dimension] = {
-    "time": TIME, "speed": SPEED, "turning_rate": TURNING, "turning_error": TURNING, "period": TIME, "drift": LENGTH, "lasted": TIME,
-    "escape_time": TIME, "saddle": RATE, "exponents": RATE, "rests": TIME,
-}  # fmt: skip
-_EXPONENTS: dict[str, Dimension] = {"values": RATE, "errors": RATE, "time": TIME, "transient": TIME}
-_EQUILIBRIUM: dict[str, Dimension] = {"speed": SPEED, "turning_rate": TURNING, "eigenvalues": RATE}
+from .units import Asked, Units, chosen, converted, dimensions
 
 R = TypeVar("R")
 
@@ -27,13 +20,13 @@ def with_units(result: R, units: Units | None) -> R:
     return replace(result, units=units)  # type: ignore[type-var]
 
 
-def in_units(result: R, units: Asked, dimensions: dict[str, Dimension]) -> R:
+def in_units(result: R, units: Asked) -> R:
     """A copy of a result with its numbers in other units."""
     known: Any = result
     if not known.in_model_units:
         raise ValueError(f"the numbers are in {known.units} already")
     shown = chosen(units, known.units)
-    made = converted(result, shown, dimensions)
+    made = converted(result, shown, dimensions("motion", "answer"))
     return replace(made, units=shown, in_model_units=shown is None)  # type: ignore[type-var]
 
 
@@ -160,7 +153,7 @@ class Verdict:
 
     def in_units(self, units: Asked = True) -> Verdict:
         """A copy with speeds, rates, times and lengths in the units of the study, or in others (``"20um,1min"``); all else stays as it is."""
-        return in_units(self, units, _VERDICT)
+        return in_units(self, units)
 
     def __str__(self) -> str:
         course = f", {self.course.replace('-', ' ')}" if self.course else ""
@@ -247,7 +240,7 @@ class Exponents:
 
     def in_units(self, units: Asked = True) -> Exponents:
         """A copy with rates and times in the units of the study, or in others (``"20um,1min"``); all else stays as it is."""
-        return in_units(self, units, _EXPONENTS)
+        return in_units(self, units)
 
     @property
     def sum(self) -> float:
@@ -306,7 +299,7 @@ class Equilibrium:
 
     def in_units(self, units: Asked = True) -> Equilibrium:
         """A copy with speed and rates in the units of the study, or in others (``"20um,1min"``); all else stays as it is."""
-        return in_units(self, units, _EQUILIBRIUM)
+        return in_units(self, units)
 
     @property
     def stable(self) -> bool:

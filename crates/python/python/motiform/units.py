@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any, TypeVar
 
@@ -15,10 +16,12 @@ Dimension = tuple[int, int] | tuple[int, int, bool]
 
 LENGTH: Dimension = (1, 0)
 TIME: Dimension = (0, 1)
-SPEED: Dimension = (1, -1)
-RATE: Dimension = (0, -1)
-TURNING: Dimension = (0, -1, True)
-DIFFUSION: Dimension = (2, -1)
+
+
+def dimensions(*subjects: str) -> dict[str, Dimension]:
+    """The dimensions of the quantities of these subjects (``motion``, ``statistic``, ...; docs/quantities.md) that change with the units."""
+    declared = {name: powers for subject in subjects for name, (_, powers) in _motiform.quantities(subject).items()}
+    return {name: powers for name, powers in declared.items() if powers is not None and any(powers[:2])}
 
 
 @dataclass(frozen=True)
@@ -93,9 +96,10 @@ def label(quantity: str, units: Units | None, dimension: Dimension) -> str:
 D = TypeVar("D")
 
 
-def converted(result: D, units: Units | None, dimensions: dict[str, Dimension]) -> D:
+def converted(result: D, units: Units | None, dimensions: Mapping[str, Dimension]) -> D:
     """A copy of a result with the named fields in other units than those of the model. Nothing else is changed."""
-    made = {key: _scaled(getattr(result, key), factor(units, dimension)) for key, dimension in dimensions.items()}
+    named = {part.name: dimensions[part.name] for part in fields(result) if part.name in dimensions}  # type: ignore[arg-type]
+    made = {key: _scaled(getattr(result, key), factor(units, dimension)) for key, dimension in named.items()}
     return replace(result, **made)  # type: ignore[type-var]
 
 

@@ -2,6 +2,7 @@
 //!
 //! A subject is what a row of a table is about. In one subject a name has one meaning; a name that several subjects have has one dimension.
 
+pub mod answer;
 pub mod cell;
 pub mod coefficient;
 mod dimension;
@@ -65,7 +66,7 @@ use quantities;
 
 /// All subjects by name.
 #[must_use]
-pub fn subjects() -> [(&'static str, &'static [&'static Quantity]); 7] {
+pub fn subjects() -> [(&'static str, &'static [&'static Quantity]); 8] {
     [
         ("state", state::ALL),
         ("motion", motion::ALL),
@@ -74,6 +75,7 @@ pub fn subjects() -> [(&'static str, &'static [&'static Quantity]); 7] {
         ("frame", frame::ALL),
         ("cell", cell::ALL),
         ("coefficient", coefficient::ALL),
+        ("answer", answer::ALL),
     ]
 }
 
