@@ -15,6 +15,7 @@ mod scan;
 mod settings;
 mod statistics;
 mod subject;
+mod threads;
 mod tools;
 #[cfg(test)]
 mod vocabulary;
@@ -35,10 +36,11 @@ use motiform_study::Random;
 pub(crate) use motions::{ContinueOptions, Crossing, EquilibriaOptions, Observable, SectionOptions};
 pub(crate) use renamed::old_names;
 pub(crate) use scan::{MergeOptions, ScanOptions};
-pub(crate) use settings::{Method, Recording, RunOptions, Span};
+pub(crate) use settings::{Bodies, Cells, Following, Method, Recording, SettingOptions, Span};
 pub(crate) use statistics::StatisticsOptions;
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, ParameterOptions, SamplesOptions, SubjectOptions};
+pub(crate) use threads::{ThreadOptions, all_cores};
 pub(crate) use tools::{
     CheckOptions, CompletionsOptions, DoctorOptions, FigureOptions, NewOptions, VerifyOptions,
 };
@@ -143,7 +145,7 @@ pub(crate) struct SimulateOptions {
     #[command(flatten)]
     pub(crate) method: MethodOptions,
     #[command(flatten)]
-    pub(crate) run: RunOptions<Recording>,
+    pub(crate) run: SettingOptions<Recording>,
     /// Output folder (default: MODEL-PRESET in the current folder), or a single table if it ends in .parquet or .csv
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
@@ -223,9 +225,8 @@ pub(crate) struct ReproduceOptions {
     /// Output folder; an interrupted run continues there
     #[arg(long, value_name = "DIR", default_value = "reproduction")]
     pub(crate) out: PathBuf,
-    /// Number of threads (default: all cores); does not affect the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadOptions,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
     /// Print the claims as one JSON object

@@ -7,7 +7,7 @@ use motiform_figures::regime_mark;
 use motiform_models::{MODELS, ModelInfo};
 use motiform_study::presets::{PRESETS, find};
 use motiform_study::study::RunSettings;
-use motiform_study::{Error, Key, Study, dataset};
+use motiform_study::{Error, Key, Settings, Study, dataset};
 use serde_json::{Value, json};
 
 /// The registry.

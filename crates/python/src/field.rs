@@ -5,7 +5,7 @@ use crate::ensemble::{ended, states};
 use crate::errors::{of_json, python};
 use crate::foreign::Foreign;
 use crate::run::{Columns, TableArrays};
-use crate::study::set_run;
+use crate::study::table;
 use crate::watch::Caller;
 use motiform_dynamics::{Section, StepControl};
 use motiform_lab::given::{Flow, Recording, Settings, Span, exponents, record, tracks};
@@ -16,7 +16,7 @@ use motiform_study::study::RunSettings;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyDict;
 use serde_json::{Value, json};
 
 /// Outcome as JSON, whether it is complete, and the same as text.
@@ -37,13 +37,7 @@ pub(crate) struct Field {
 
 /// The settings of `run`, and its times.
 fn settings(run: &Bound<'_, PyDict>) -> PyResult<(RunSettings, Settings)> {
-    let mut typed = RunSettings::default();
-    for (name, value) in run {
-        let name = name.cast::<PyString>()?;
-        if !set_run(&mut typed, name.to_str()?, &value)? {
-            return Err(PyTypeError::new_err(format!("unknown setting {name:?}")));
-        }
-    }
+    let typed: RunSettings = table(run)?;
     let settings = Settings::new(&typed).map_err(python)?;
     Ok((typed, settings))
 }

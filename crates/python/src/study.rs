@@ -3,12 +3,11 @@
 use crate::errors::{of_keywords, python};
 use motiform_dynamics::model::Coordinate;
 use motiform_models::ModelInfo;
-use motiform_study::Shown;
-use motiform_study::study::RunSettings;
-use motiform_study::{Error, Random, presets, remarks};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use motiform_study::{Error, Random, Settings, Shown, presets, remarks};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyType};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -212,21 +211,36 @@ fn set(study: &mut motiform_study::Study, name: &str, value: &Bound<'_, PyAny>) 
             study.figure.units = text;
         }
         "perturb" => study.perturb = number(name, value)?,
-        _ if set_run(&mut study.run, name, value)? => {}
+        _ if set_one(&mut study.run, name, value)? => {}
         _ => return Err(PyTypeError::new_err(format!("unknown setting {name:?}"))),
     }
     Ok(())
 }
 
-/// Sets one run setting; `false` if this is none of them.
-pub(crate) fn set_run(run: &mut RunSettings, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
-    let Some(key) = RunSettings::keys().iter().find(|key| key.name() == name) else { return Ok(false) };
-    let value = match key.kind().as_str() {
+/// Sets one setting of a table; `false` if this is none of them. `None` leaves it as it is.
+pub(crate) fn set_one<S: Settings>(table: &mut S, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let Some(key) = S::keys().iter().find(|key| key.name() == name) else { return Ok(false) };
+    let value: Value = match key.kind().as_str() {
+        _ if value.is_none() => return Ok(true),
         "number" => number(name, value)?.into(),
         "integer" => whole(name, value)?.into(),
+        "boolean" => value.extract::<bool>()?.into(),
+        "array" => value.extract::<Vec<String>>()?.into(),
         _ => value.extract::<String>()?.into(),
     };
-    run.set(name, &value).map_err(|expected| PyValueError::new_err(format!("{name}: give {expected}")))
+    table.set(name, &value).map_err(of_keywords)
+}
+
+/// A table with these settings, the others with their defaults.
+pub(crate) fn table<S: Settings + Default>(given: &Bound<'_, PyDict>) -> PyResult<S> {
+    let mut table = S::default();
+    for (name, value) in given {
+        let name = name.cast::<PyString>()?;
+        if !set_one(&mut table, name.to_str()?, &value)? {
+            return Err(PyTypeError::new_err(format!("unknown setting {name:?}")));
+        }
+    }
+    Ok(table)
 }
 
 /// The plan of a study.

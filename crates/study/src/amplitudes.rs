@@ -1,5 +1,6 @@
 //! `[model.amplitudes]`: equations of a study file, read and written.
 
+use crate::plain::Plain;
 use crate::toml_reader::{Table, Value};
 use crate::{Error, Study};
 use motiform_models::amplitudes::{

@@ -1,9 +1,9 @@
-//! Settings declared once: from the struct and its doc comments follow the JSON schema of a table, its reader, and the options of the
-//! command line and of
-//! Python.
+//! Settings declared once: from the struct and its doc comments follow the JSON schema of a table, its reader and writer, and the options
+//! of the command line and of Python.
 
 use crate::Error;
-use crate::toml_reader::{self, Table};
+use crate::plain::{Json, Plain};
+use crate::toml_reader::Table;
 use serde_json::{Map, Value, json};
 
 /// Settings whose keys are the fields of a struct.
@@ -13,11 +13,11 @@ pub(crate) trait Described: Sized {
     /// Its keys, in order.
     const KEYS: &'static [Key];
 
-    /// Takes the value of a key from a study file.
-    fn take(&mut self, key: &str, value: &toml_reader::Value<'_>) -> Result<(), Error>;
+    /// Takes the value of a key.
+    fn take(&mut self, key: &str, value: &dyn Plain) -> Result<(), Error>;
 
-    /// Takes the value of a key as JSON: `None` for a name that is no key, otherwise the type that was expected.
-    fn give(&mut self, key: &str, value: &Value) -> Option<Result<(), &'static str>>;
+    /// The values in a study file by key, in order, if they have one; the number that TOML does not have.
+    fn values(&self) -> Vec<(&'static str, Result<Option<toml::Value>, String>)>;
 
     /// Reads the keys that are given, each followed by `check`; refuses others.
     fn read(
@@ -28,10 +28,23 @@ pub(crate) trait Described: Sized {
         for key in Self::KEYS {
             if let Some(value) = table.take(key.name) {
                 self.take(key.name, &value)?;
-                check(self, key.name).map_err(|error| value.error(error))?;
+                check(self, key.name).map_err(|error| value.refused(error))?;
             }
         }
         table.finish()
+    }
+
+    /// The table of a study file: what differs from `default`.
+    fn table(&self, default: Option<&Self>) -> Result<toml::Table, Error> {
+        let plain = default.map(Self::values).unwrap_or_default();
+        let mut table = toml::Table::new();
+        for entry in self.values().into_iter().filter(|entry| !plain.contains(entry)) {
+            let (key, value) = entry;
+            let remedy = "a study file holds whole numbers below 2^63 only: give a smaller one";
+            let large = |value| Error::Setting { key, value, remedy };
+            table.extend(value.map_err(large)?.map(|value| (key.to_owned(), value)));
+        }
+        Ok(table)
     }
 
     /// The schema of the table; every key is optional.
@@ -48,6 +61,31 @@ pub(crate) trait Described: Sized {
             "additionalProperties": false,
             "properties": properties,
         })
+    }
+}
+
+/// Settings that front ends set by name.
+pub trait Settings {
+    /// Their keys, in order.
+    fn keys() -> &'static [Key];
+
+    /// Sets the value of a key: a number, a text, `true` or `false`, or a list of texts. False for a name that is no key.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a value of another type, and the errors of texts.
+    fn set(&mut self, key: &str, value: &Value) -> Result<bool, Error>;
+}
+
+impl<T: Described> Settings for T {
+    fn keys() -> &'static [Key] {
+        T::KEYS
+    }
+
+    fn set(&mut self, key: &str, value: &Value) -> Result<bool, Error> {
+        let Some(Key { name: key, .. }) = T::KEYS.iter().find(|known| known.name == key) else {
+            return Ok(false);
+        };
+        self.take(key, &Json { key, value }).map(|()| true)
     }
 }
 
@@ -108,18 +146,18 @@ macro_rules! settings {
                 }),*
             ];
 
-            fn take(&mut self, key: &str, value: &$crate::toml_reader::Value<'_>) -> Result<(), $crate::Error> {
+            fn take(&mut self, key: &str, value: &dyn $crate::plain::Plain) -> Result<(), $crate::Error> {
                 $(if key == $crate::described::key!($field $($key)?) {
                     self.$field = $crate::written::Written::read(value)?;
                 })*
                 Ok(())
             }
 
-            fn give(&mut self, key: &str, value: &serde_json::Value) -> Option<Result<(), &'static str>> {
-                $(if key == $crate::described::key!($field $($key)?) {
-                    return Some($crate::written::Written::given(value).map(|value| self.$field = value));
-                })*
-                None
+            fn values(&self) -> Vec<(&'static str, Result<Option<toml::Value>, String>)> {
+                vec![$((
+                    $crate::described::key!($field $($key)?),
+                    $crate::written::Written::written(&self.$field),
+                )),*]
             }
         }
     };

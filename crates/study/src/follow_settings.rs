@@ -15,23 +15,27 @@ settings! {
     pub struct FollowSettings {
         /// The parameter to vary, with its range: "kappa2=0.3:1.6"; the start lies inside.
         pub along: Option<Along>,
-        /// The motion that the start must settle on, such as "zigzag"; any, if not given.
+        /// The motion that the start must settle on: motionless, straight, circular, spinning, zigzag, quasi-periodic or
+        /// pulsating-straight; any, if not given.
         pub from: Option<Regime>,
-        /// Kinds of special points that are followed over two parameters, such as ["hopf", "fold"].
+        /// Kinds of special points that are followed over two parameters: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus.
         pub curve: Vec<CurveKind>,
-        /// The plane of these curves: "kappa2,kappa3=0.02:1"; one of the parameters is that of `along`.
+        /// The plane of these curves, across and upwards: "kappa2,kappa3=0.02:1"; one of the parameters is that of `along`. Default
+        /// ranges: that of `along`, and the plane of the preset.
         pub plane as "in": Option<Plane>,
-        /// Most points of a branch or curve to each side.
+        /// Most points of a branch or curve to each side, by default 2000.
         pub points: u64,
-        /// Most branches.
+        /// Most branches, by default 8; 1 follows the motion alone, and nothing that begins on its branch.
         pub branches: u64,
-        /// Values of the parameter at which motions are sampled, swept upwards and downwards.
+        /// Values of the parameter at which motions are simulated, too, swept upwards and downwards, each run from the end of the one
+        /// before: grey beneath the branches.
         pub samples: u64,
         /// First step along a branch, as a part of the range (and of the size of the shape, and of the period): 0.005, if not given.
         pub first_step: Option<f64>,
         /// Longest step along a branch, in the same units: 0.02, if not given.
         pub branch_step: Option<f64>,
-        /// Newton's method has converged on a branch with a step shorter than this: 1e-9, if not given.
+        /// Newton's method has converged on a branch with a step shorter than this: 1e-9, if not given (rtol is the tolerance of the
+        /// simulation).
         pub tolerance: Option<f64>,
         /// The sides to which the start is followed: "up" (larger values of the parameter), "down" or "both", if not given.
         pub direction: Option<Towards>,
@@ -117,46 +121,5 @@ impl FollowSettings {
             _ => {}
         }
         Ok(())
-    }
-
-    /// The table that reads back as these settings: what differs from the default.
-    pub(crate) fn to_table(&self) -> Result<toml::Table, Error> {
-        let default = Self::default();
-        let mut table = toml::Table::new();
-        let texts = [
-            ("along", self.along.as_ref().map(|Along { name, from, to }| format!("{name}={from:?}:{to:?}"))),
-            ("from", self.from.map(|regime| regime.name().to_owned())),
-            ("in", self.plane.as_ref().map(Plane::to_string)),
-            ("direction", self.direction.map(|direction| direction.name().to_owned())),
-        ];
-        table.extend(texts.into_iter().filter_map(|(key, text)| Some((key.to_owned(), text?.into()))));
-        let numbers = [
-            ("first_step", self.first_step),
-            ("branch_step", self.branch_step),
-            ("tolerance", self.tolerance),
-        ];
-        table.extend(numbers.into_iter().filter_map(|(key, number)| Some((key.to_owned(), number?.into()))));
-        if self.steady {
-            table.insert("steady".to_owned(), true.into());
-        }
-        if self.from_stable {
-            table.insert("from_stable".to_owned(), true.into());
-        }
-        if !self.curve.is_empty() {
-            let names: Vec<&str> = self.curve.iter().map(|kind| kind.name()).collect();
-            table.insert("curve".to_owned(), names.into());
-        }
-        let counts = [
-            ("points", self.points, default.points),
-            ("branches", self.branches, default.branches),
-            ("samples", self.samples, default.samples),
-        ];
-        for (key, count, _) in counts.into_iter().filter(|entry| entry.1 != entry.2) {
-            let remedy = "a study file holds whole numbers below 2^63 only: give a smaller one";
-            let whole =
-                i64::try_from(count).map_err(|_| Error::Setting { key, value: count.to_string(), remedy })?;
-            table.insert(key.to_owned(), whole.into());
-        }
-        Ok(table)
     }
 }

@@ -1,8 +1,7 @@
 //! Settings of a run, as typed.
 
-use crate::described::{Described, Key, settings};
+use crate::described::settings;
 use serde::Serialize;
-use serde_json::Value;
 
 settings! {
     /// Settings of a run.
@@ -44,20 +43,6 @@ impl RunSettings {
     #[must_use]
     pub fn largest_noise(&self) -> f64 {
         self.noise.max(self.noise_velocity.unwrap_or(0.0))
-    }
-
-    /// Its keys, in order.
-    #[must_use]
-    pub const fn keys() -> &'static [Key] {
-        <Self as Described>::KEYS
-    }
-
-    /// Sets the value of a key, which is a number, a whole number or a text. False for a name that is no key.
-    ///
-    /// # Errors
-    /// A value of another type: what was expected.
-    pub fn set(&mut self, key: &str, value: &Value) -> Result<bool, &'static str> {
-        self.give(key, value).map_or(Ok(false), |set| set.map(|()| true))
     }
 
     /// Removes the noise.

@@ -57,10 +57,10 @@ settings! {
     /// The settings of a scan.
     #[derive(Clone, Debug, PartialEq, Serialize)]
     pub struct ScanSettings {
-        /// One or two axes: "kappa2=0.1:1.6:64" is 64 values from 0.1 to 1.6, both ends included; "kappa2=0.1,0.2" lists
-        /// them.
+        /// One or two axes, each a parameter, or a coordinate of the initial shape for a map of basins: "kappa2=0.1:1.6:64" is 64 values
+        /// from 0.1 to 1.6, both ends included; "kappa2=0.1,0.2" lists them.
         pub axes: Vec<Axis>,
-        /// Initial states per cell: all random, except that the first one is that of `initial` if values are given.
+        /// Initial states per cell, by default 1: all random, except that the first one has the initial values that are given.
         pub samples: u64,
         /// Maximum model time for classifying one motion; 0 chooses the model's default.
         pub budget: f64,
@@ -99,9 +99,9 @@ settings! {
         pub scale: f64,
         /// Number of outlines along the path; 0 chooses.
         pub outlines: u64,
-        /// Path, series and animation show the recording from this time ...
+        /// Path, series and animation show the recording from this time.
         pub from: f64,
-        /// ... to this time; 0 is the end.
+        /// They show it to this time; 0 is the end.
         pub to: f64,
         /// Draw the animation.
         pub animation: bool,

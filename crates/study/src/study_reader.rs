@@ -2,6 +2,7 @@
 
 use crate::checks::{check_display, check_plane};
 use crate::described::Described;
+use crate::plain::Plain;
 use crate::random::Random;
 use crate::run_settings::RunSettings;
 use crate::study::{DisplaySettings, FigureSettings, FollowSettings, ReturnMapSettings, ScanSettings, Study};

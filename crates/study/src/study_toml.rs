@@ -1,10 +1,9 @@
 //! A study as the text of a study file.
 
+use crate::described::Described;
 use crate::random::Random;
-use crate::scan::Axis;
 use crate::{Error, Study, amplitudes};
 use motiform_models::amplitudes::Definition;
-use serde::Serialize;
 use toml::{Table, Value};
 
 impl Study {
@@ -61,14 +60,11 @@ impl Study {
         let tables = [
             ("ties", ties),
             ("initial", initial),
-            ("run", changed("run", &self.run, &bare.run)?),
-            ("scan", with_texts(changed("scan", &self.scan, &bare.scan)?, "axes", &self.scan.axes)),
-            ("continue", self.follow.to_table()?),
-            ("figure", changed("figure", &self.figure, &bare.figure)?),
-            (
-                "display",
-                with_texts(changed("display", &self.display, &bare.display)?, "plane", &self.display.plane),
-            ),
+            ("run", self.run.table(Some(&bare.run))?),
+            ("scan", self.scan.table(Some(&bare.scan))?),
+            ("continue", self.follow.table(Some(&bare.follow))?),
+            ("figure", self.figure.table(Some(&bare.figure))?),
+            ("display", self.display.table(Some(&bare.display))?),
         ];
         top.extend(
             tables
@@ -77,37 +73,14 @@ impl Study {
                 .map(|(key, table)| (key.to_owned(), table.into())),
         );
         if let Some(map) = &self.return_map {
-            top.insert("return_map".to_owned(), table("return_map", map)?.into());
+            top.insert("return_map".to_owned(), map.table(None)?.into());
         }
         Ok(equations.unwrap_or_default() + &top.to_string())
     }
 }
 
-/// The table with the axes under `key`, if it exists, as strings.
-fn with_texts(mut table: Table, key: &str, axes: &[Axis]) -> Table {
-    if let Some(value) = table.get_mut(key) {
-        *value = axes.iter().map(Axis::to_text).collect::<Vec<_>>().into();
-    }
-    table
-}
-
 fn numbers(entries: &[(String, f64)]) -> Table {
     entries.iter().map(|(name, value)| (name.clone(), Value::Float(*value))).collect()
-}
-
-fn table<T: Serialize>(key: &'static str, settings: &T) -> Result<Table, Error> {
-    Table::try_from(settings).map_err(|error| Error::Setting {
-        key,
-        value: error.to_string(),
-        remedy: "a study file holds whole numbers below 2^63 only: give a smaller one",
-    })
-}
-
-/// The entries of `settings` that are not those of `default`.
-fn changed<T: Serialize>(key: &'static str, settings: &T, default: &T) -> Result<Table, Error> {
-    let (mut entries, default) = (table(key, settings)?, table(key, default)?);
-    entries.retain(|name, value| default.get(name) != Some(value));
-    Ok(entries)
 }
 
 #[cfg(test)]
@@ -117,6 +90,7 @@ mod tests {
     use crate::branches::Along;
     use crate::curves::{CurveKind, Plane};
     use crate::presets::PRESETS;
+    use crate::scan::Axis;
     use crate::study::{
         DisplaySettings, FigureSettings, FollowSettings, ReturnMapSettings, RunSettings, ScanSettings,
     };

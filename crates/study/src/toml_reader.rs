@@ -1,6 +1,7 @@
 //! Reading of TOML tables key by key, so that every error message has a line, a column and a remedy.
 
 use crate::Error;
+use crate::plain::Plain;
 use motiform_models::nearest;
 use std::ops::Range;
 use toml::Spanned;
@@ -183,31 +184,6 @@ impl<'i> Value<'i> {
         self.error(format!("{} must be {expected}, not this {found}", self.key))
     }
 
-    /// A finite number.
-    pub(crate) fn number(&self) -> Result<f64, Error> {
-        let number = match self.value.get_ref() {
-            DeValue::Float(float) => float.as_str().replace('_', "").parse::<f64>().ok(),
-            DeValue::Integer(integer) => {
-                i64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix())
-                    .ok()
-                    .map(|n| n as f64)
-            }
-            _ => return Err(self.wrong("a number")),
-        };
-        number
-            .filter(|x| x.is_finite())
-            .ok_or_else(|| self.error(format!("{} must be a finite number", self.key)))
-    }
-
-    /// A whole number of at least 0.
-    pub(crate) fn whole(&self) -> Result<u64, Error> {
-        let DeValue::Integer(integer) = self.value.get_ref() else {
-            return Err(self.wrong("a whole number"));
-        };
-        u64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix())
-            .map_err(|_| self.error(format!("{} must be a whole number from 0 to {}", self.key, u64::MAX)))
-    }
-
     /// The entries of a list.
     fn list(&self, expected: &str) -> Result<Vec<Value<'i>>, Error> {
         let array = self.value.get_ref().as_array().ok_or_else(|| self.wrong(expected))?;
@@ -229,23 +205,6 @@ impl<'i> Value<'i> {
         self.value.get_ref().is_table()
     }
 
-    /// `true` or `false`.
-    pub(crate) fn switch(&self) -> Result<bool, Error> {
-        self.value.get_ref().as_bool().ok_or_else(|| self.wrong("true or false"))
-    }
-
-    /// A text.
-    pub(crate) fn text(&self) -> Result<String, Error> {
-        self.value.get_ref().as_str().map(str::to_owned).ok_or_else(|| self.wrong("a string in quotes"))
-    }
-
-    /// A list of texts.
-    pub(crate) fn texts(&self) -> Result<Vec<String>, Error> {
-        let array = self.value.get_ref().as_array().ok_or_else(|| self.wrong("a list of strings"))?;
-        let text = |item: &Spanned<DeValue<'_>>| item.get_ref().as_str().map(str::to_owned);
-        array.iter().map(text).collect::<Option<_>>().ok_or_else(|| self.wrong("a list of strings"))
-    }
-
     /// A table.
     pub(crate) fn table(self) -> Result<Table<'i>, Error> {
         if !self.value.get_ref().is_table() {
@@ -253,5 +212,48 @@ impl<'i> Value<'i> {
         }
         let DeValue::Table(entries) = self.value.into_inner() else { unreachable!("just checked") };
         Ok(Table { source: self.source, path: format!("{}.", self.key), entries, known: Vec::new() })
+    }
+}
+
+impl Plain for Value<'_> {
+    fn number(&self) -> Result<f64, Error> {
+        let number = match self.value.get_ref() {
+            DeValue::Float(float) => float.as_str().replace('_', "").parse::<f64>().ok(),
+            DeValue::Integer(integer) => {
+                i64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix())
+                    .ok()
+                    .map(|n| n as f64)
+            }
+            _ => return Err(self.wrong("a number")),
+        };
+        number
+            .filter(|x| x.is_finite())
+            .ok_or_else(|| self.error(format!("{} must be a finite number", self.key)))
+    }
+
+    fn whole(&self) -> Result<u64, Error> {
+        let DeValue::Integer(integer) = self.value.get_ref() else {
+            return Err(self.wrong("a whole number"));
+        };
+        u64::from_str_radix(&integer.as_str().replace('_', ""), integer.radix())
+            .map_err(|_| self.error(format!("{} must be a whole number from 0 to {}", self.key, u64::MAX)))
+    }
+
+    fn switch(&self) -> Result<bool, Error> {
+        self.value.get_ref().as_bool().ok_or_else(|| self.wrong("true or false"))
+    }
+
+    fn text(&self) -> Result<String, Error> {
+        self.value.get_ref().as_str().map(str::to_owned).ok_or_else(|| self.wrong("a string in quotes"))
+    }
+
+    fn texts(&self) -> Result<Vec<String>, Error> {
+        let array = self.value.get_ref().as_array().ok_or_else(|| self.wrong("a list of strings"))?;
+        let text = |item: &Spanned<DeValue<'_>>| item.get_ref().as_str().map(str::to_owned);
+        array.iter().map(text).collect::<Option<_>>().ok_or_else(|| self.wrong("a list of strings"))
+    }
+
+    fn refused(&self, error: Error) -> Error {
+        self.error(error)
     }
 }

@@ -1,9 +1,9 @@
-//! Values of settings: how each type is written in a study file, and given as JSON.
+//! Values of settings: how each type is read, from whatever gives it, and written in a study file.
 
 use crate::branches::{Along, origin};
 use crate::curves::{CurveKind, Plane};
+use crate::plain::Plain;
 use crate::scan::Axis;
-use crate::toml_reader;
 use crate::{Error, Towards};
 use motiform_analysis::Regime;
 use serde_json::{Value, json};
@@ -13,115 +13,83 @@ pub(crate) trait Written: Sized {
     /// The schema of the value.
     fn kind() -> Value;
 
-    /// A value of a study file.
-    fn read(value: &toml_reader::Value<'_>) -> Result<Self, Error>;
+    /// Reads a value.
+    fn read(value: &dyn Plain) -> Result<Self, Error>;
 
-    /// A value as JSON; otherwise what was expected.
-    fn given(value: &Value) -> Result<Self, &'static str>;
+    /// The value in a study file, if there is one; the number that TOML does not have.
+    fn written(&self) -> Result<Option<toml::Value>, String>;
 }
 
-impl Written for f64 {
-    fn kind() -> Value {
-        json!({ "type": "number", "format": "double" })
-    }
+/// Types that are plain values.
+macro_rules! plain {
+    ($($type:ty: $kind:tt, $read:path, $write:expr;)*) => {$(
+        impl Written for $type {
+            fn kind() -> Value {
+                json!($kind)
+            }
 
-    fn read(value: &toml_reader::Value<'_>) -> Result<Self, Error> {
-        value.number()
-    }
+            fn read(value: &dyn Plain) -> Result<Self, Error> {
+                $read(value)
+            }
 
-    fn given(value: &Value) -> Result<Self, &'static str> {
-        value.as_f64().filter(|number| number.is_finite()).ok_or("a finite number")
-    }
+            fn written(&self) -> Result<Option<toml::Value>, String> {
+                $write(self).map(Some)
+            }
+        }
+    )*};
 }
 
-impl Written for u64 {
-    fn kind() -> Value {
-        json!({ "type": "integer", "format": "uint64", "minimum": 0 })
-    }
-
-    fn read(value: &toml_reader::Value<'_>) -> Result<Self, Error> {
-        value.whole()
-    }
-
-    fn given(value: &Value) -> Result<Self, &'static str> {
-        value.as_u64().ok_or("a whole number of at least 0")
-    }
+plain! {
+    f64: { "type": "number", "format": "double" }, Plain::number, |value: &f64| Ok((*value).into());
+    u64: { "type": "integer", "format": "uint64", "minimum": 0 }, Plain::whole, whole;
+    bool: { "type": "boolean" }, Plain::switch, |value: &bool| Ok((*value).into());
+    Vec<Axis>: { "type": "array", "items": { "type": "string" } }, axes, |all: &Self| list(all.iter().map(Axis::to_text));
+    Vec<CurveKind>: { "type": "array", "items": { "type": "string" } }, kinds, |all: &Self| list(all.iter().map(|kind| kind.name()));
 }
 
-impl Written for bool {
-    fn kind() -> Value {
-        json!({ "type": "boolean" })
-    }
-
-    fn read(value: &toml_reader::Value<'_>) -> Result<Self, Error> {
-        value.switch()
-    }
-
-    fn given(value: &Value) -> Result<Self, &'static str> {
-        value.as_bool().ok_or("true or false")
-    }
+fn whole(value: &u64) -> Result<toml::Value, String> {
+    i64::try_from(*value).map(Into::into).map_err(|_| value.to_string())
 }
 
-/// Types that are written as a text, with their readers.
+fn list(texts: impl Iterator<Item = impl Into<toml::Value>>) -> Result<toml::Value, String> {
+    Ok(texts.map(Into::into).collect::<Vec<toml::Value>>().into())
+}
+
+fn axes(value: &dyn Plain) -> Result<Vec<Axis>, Error> {
+    let axes = value.texts()?.iter().map(|text| Axis::parse(text)).collect::<Result<_, Error>>();
+    axes.map_err(|error| value.refused(error))
+}
+
+fn kinds(value: &dyn Plain) -> Result<Vec<CurveKind>, Error> {
+    let names = value.text().map(|one| vec![one]).or_else(|_| value.texts())?;
+    CurveKind::list(&names.join(",")).map_err(|error| value.refused(error))
+}
+
+/// Types that are written as a text: their readers and writers.
 macro_rules! texts {
-    ($($type:ty: $parse:expr),* $(,)?) => {$(
+    ($($type:ty: $parse:expr, $write:expr;)*) => {$(
         impl Written for $type {
             fn kind() -> Value {
                 json!({ "type": "string" })
             }
 
-            fn read(value: &toml_reader::Value<'_>) -> Result<Self, Error> {
-                $parse(&value.text()?).map_err(|error: Error| value.error(error))
+            fn read(value: &dyn Plain) -> Result<Self, Error> {
+                $parse(&value.text()?).map_err(|error: Error| value.refused(error))
             }
 
-            fn given(value: &Value) -> Result<Self, &'static str> {
-                value.as_str().and_then(|text| $parse(text).ok()).ok_or("a text")
+            fn written(&self) -> Result<Option<toml::Value>, String> {
+                Ok(Some($write(self).into()))
             }
         }
     )*};
 }
 
 texts! {
-    String: |text: &str| Ok::<_, Error>(text.to_owned()),
-    Along: Along::parse,
-    Plane: Plane::parse,
-    Regime: origin,
-    Towards: Towards::find,
-}
-
-impl Written for Vec<Axis> {
-    fn kind() -> Value {
-        json!({ "type": "array", "items": { "type": "string" } })
-    }
-
-    fn read(value: &toml_reader::Value<'_>) -> Result<Self, Error> {
-        let axes = value.texts()?.iter().map(|text| Axis::parse(text)).collect::<Result<_, Error>>();
-        axes.map_err(|error| value.error(error))
-    }
-
-    fn given(value: &Value) -> Result<Self, &'static str> {
-        let texts = value.as_array().map(Vec::as_slice).unwrap_or_default();
-        let axis = |text: &Value| Axis::parse(text.as_str()?).ok();
-        texts.iter().map(axis).collect::<Option<_>>().ok_or("a list of axes")
-    }
-}
-
-impl Written for Vec<CurveKind> {
-    fn kind() -> Value {
-        json!({ "type": "array", "items": { "type": "string" } })
-    }
-
-    fn read(value: &toml_reader::Value<'_>) -> Result<Self, Error> {
-        let names = value.text().map(|one| vec![one]).or_else(|_| value.texts())?;
-        CurveKind::list(&names.join(",")).map_err(|error| value.error(error))
-    }
-
-    fn given(value: &Value) -> Result<Self, &'static str> {
-        value
-            .as_str()
-            .and_then(|text| CurveKind::list(text).ok())
-            .ok_or("kinds of curves, separated by commas")
-    }
+    String: |text: &str| Ok::<_, Error>(text.to_owned()), Self::clone;
+    Along: Along::parse, |along: &Self| format!("{}={:?}:{:?}", along.name, along.from, along.to);
+    Plane: Plane::parse, Self::to_string;
+    Regime: origin, |regime: &Self| regime.name();
+    Towards: Towards::find, |sides: &Self| sides.name();
 }
 
 impl<T: Written> Written for Option<T> {
@@ -129,11 +97,11 @@ impl<T: Written> Written for Option<T> {
         T::kind()
     }
 
-    fn read(value: &toml_reader::Value<'_>) -> Result<Self, Error> {
+    fn read(value: &dyn Plain) -> Result<Self, Error> {
         T::read(value).map(Some)
     }
 
-    fn given(value: &Value) -> Result<Self, &'static str> {
-        T::given(value).map(Some)
+    fn written(&self) -> Result<Option<toml::Value>, String> {
+        self.as_ref().map_or(Ok(None), T::written)
     }
 }

@@ -1,6 +1,6 @@
 //! Options of `atlas`.
 
-use super::{StyleOptions, SubjectOptions, number, random, whole};
+use super::{StyleOptions, SubjectOptions, ThreadOptions, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -41,9 +41,8 @@ pub(crate) struct AtlasOptions {
     /// Go on with what is in the output folder (begin, if there is none)
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Number of threads (default: all cores); does not affect the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadOptions,
     /// Replace an earlier atlas; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,

@@ -1,6 +1,6 @@
 //! Options of `observe` and `fit`.
 
-use super::{StyleOptions, number};
+use super::{StyleOptions, ThreadOptions, number};
 use clap::Args;
 use motiform_cells::Correction;
 use motiform_tracks::Format;
@@ -103,9 +103,8 @@ pub(crate) struct FitCellsOptions {
     /// with the same result
     #[arg(long, requires = "out", conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Number of threads (default: all cores); does not affect the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadOptions,
 }
 
 pub(super) const OBSERVE_HELP: &str = "\

@@ -1,6 +1,6 @@
 //! Options of figures, shared by the commands that draw.
 
-use super::{number, whole};
+use super::{Bodies, SettingOptions};
 use clap::{Args, ValueEnum};
 use motiform_figures::{Medium, Style, Width};
 use motiform_lab::draw::FigureFormat;
@@ -11,21 +11,8 @@ pub(crate) struct DrawingOptions {
     /// Do not draw the animation
     #[arg(long)]
     pub(crate) no_animation: bool,
-    /// Radius R0 of the undeformed body (default: chosen so that the deformation is visible)
-    #[arg(long, value_name = "R0", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) radius: Option<f64>,
-    /// Scale of the outlines relative to the path (default: chosen for readability)
-    #[arg(long, value_name = "F", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) scale: Option<f64>,
-    /// Number of outlines along the path
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) outlines: Option<u64>,
-    /// Draw from this time
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) from: Option<f64>,
-    /// Draw to this time
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) to: Option<f64>,
+    #[command(flatten)]
+    pub(crate) figure: SettingOptions<Bodies>,
     #[command(flatten)]
     pub(crate) units: UnitsOptions,
     /// Also write the animation in this format (needs ffmpeg); give it twice for both
@@ -80,16 +67,9 @@ pub(crate) struct StyleOptions {
 impl DrawingOptions {
     /// The first given option that is about the body of a dataset, which no other figure has.
     pub(crate) fn of_bodies(&self) -> Option<&'static str> {
-        let given = [
-            ("--no-animation", self.no_animation),
-            ("--radius", self.radius.is_some()),
-            ("--scale", self.scale.is_some()),
-            ("--outlines", self.outlines.is_some()),
-            ("--from", self.from.is_some()),
-            ("--to", self.to.is_some()),
-            ("--film", !self.film.is_empty()),
-        ];
-        given.into_iter().find(|(_, given)| *given).map(|(name, _)| name)
+        let switches = [("--no-animation", self.no_animation), ("--film", !self.film.is_empty())];
+        let given = switches.into_iter().find(|(_, given)| *given).map(|(name, _)| name);
+        given.or_else(|| self.figure.options().next())
     }
 }
 

@@ -1,6 +1,8 @@
 //! Options of `lifetimes`.
 
-use super::{Method, RunOptions, StyleOptions, SubjectOptions, UnitsOptions, number, random, whole};
+use super::{
+    Method, SettingOptions, StyleOptions, SubjectOptions, ThreadOptions, UnitsOptions, number, random, whole,
+};
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
@@ -26,10 +28,9 @@ pub(crate) struct LifetimesOptions {
     #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
     pub(crate) random: Option<Random>,
     #[command(flatten)]
-    pub(crate) run: RunOptions<Method>,
-    /// Number of threads (default: all cores); does not affect the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
-    pub(crate) threads: Option<u16>,
+    pub(crate) run: SettingOptions<Method>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadOptions,
     /// Write lifetimes.json and the figure mean-life into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -1,7 +1,8 @@
 //! The words of `continue`, `equilibria` and `section`: commands about motions that may be unstable.
 
 use super::{
-    MethodOptions, MotionOptions, RunOptions, Span, StyleOptions, SubjectOptions, UnitsOptions, number, whole,
+    Following, MethodOptions, MotionOptions, SettingOptions, Span, StyleOptions, SubjectOptions,
+    UnitsOptions, number,
 };
 use clap::{Args, ValueEnum};
 use motiform_diagrams::draw::Ordinate;
@@ -9,63 +10,22 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 #[command(mut_arg("subject", |subject| subject.required_unless_present("start")))]
+#[command(mut_arg("from_stable", |from_stable| from_stable.conflicts_with("steady")))]
 pub(crate) struct ContinueOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
     #[command(flatten)]
     pub(crate) method: MethodOptions,
-    /// The parameter to vary, with its range; the start lies inside
-    #[arg(long, value_name = "NAME=LOW:HIGH")]
-    pub(crate) along: Option<String>,
-    /// The motion that the start must settle on: motionless, straight, circular, spinning, zigzag, quasi-periodic or
-    /// pulsating-straight
-    /// (default: the motion that the simulation settles on)
-    #[arg(long = "motion", alias = "from", value_name = "MOTION")]
-    pub(crate) from: Option<String>,
+    #[command(flatten)]
+    pub(crate) follow: SettingOptions<Following>,
     /// Start from a point of an earlier result, stable or not, with its parameters; --set changes them. FOLDER:BRANCH:POINT of
     /// `continue`, FILE.json:NUMBER of `equilibria --json`, DATASET[:t=TIME|:ROW] of `simulate`. Without POINT, a dataset
     /// starts from its last state, and the others list their points
     #[arg(long, value_name = "FILE[:POINT]", conflicts_with_all = ["initial", "random"])]
     pub(crate) start: Option<String>,
-    /// The sides to which the start is followed: up (larger values of the parameter), down or both (default: both)
-    #[arg(long, value_name = "SIDE")]
-    pub(crate) direction: Option<String>,
-    /// Longest step along a branch or curve, as a part of the range of the parameter, and of the size of the shape (default: 0.02)
-    #[arg(long, value_name = "PART", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) branch_step: Option<f64>,
-    /// First step along a branch or curve, in the same units (default: 0.005)
-    #[arg(long, value_name = "PART", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) first_step: Option<f64>,
-    /// Newton's method has converged on a branch with a step shorter than this, in the same units (default: 1e-9); --rtol is
-    /// the tolerance of the simulation
-    #[arg(long, value_name = "PART", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) tolerance: Option<f64>,
-    /// Follow the special points of these kinds over two parameters: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus
-    #[arg(long, value_name = "KIND,...")]
-    pub(crate) curve: Option<String>,
-    /// The plane of these curves: across, upwards; one of the two is that of --along. Default ranges: that of --along, and
-    /// the plane of the preset
-    #[arg(long = "in", value_name = "NAME,NAME=LOW:HIGH")]
-    pub(crate) plane: Option<String>,
     /// Draw the curves over this scan of the same plane
     #[arg(long, value_name = "SCAN", requires = "curve")]
     pub(crate) over: Option<PathBuf>,
-    /// Maximum number of branches; 1 follows the motion alone, and nothing that begins on its branch (default: 8)
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) branches: Option<u64>,
-    /// Follow steady motions alone (motionless, straight, circular), not the orbits that begin at Hopf points
-    #[arg(long)]
-    pub(crate) steady: bool,
-    /// Of the orbits follow those alone that begin where a stable motion loses its stability
-    #[arg(long, conflicts_with = "steady")]
-    pub(crate) from_stable: bool,
-    /// Maximum number of points of a branch or curve to each side (default: 2000)
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) points: Option<u64>,
-    /// Also simulate at N values of the parameter, swept upwards and downwards, each run from the end of the one before:
-    /// grey beneath the branches
-    #[arg(long = "sweep", alias = "samples", value_name = "N", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) samples: Option<u64>,
     /// What the diagram shows against the parameter
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Observable::Speed)]
     pub(crate) observable: Observable,
@@ -139,7 +99,7 @@ pub(crate) struct SectionOptions {
     #[arg(long = "crossings", alias = "direction", value_enum, default_value_t = Crossing::Rising)]
     pub(crate) direction: Crossing,
     #[command(flatten)]
-    pub(crate) run: RunOptions<Span>,
+    pub(crate) run: SettingOptions<Span>,
 }
 
 /// Which crossings count.

@@ -1,7 +1,8 @@
 //! Options of `scan` and `merge`.
 
 use super::{
-    Method, RunOptions, StyleOptions, SubjectOptions, UnitsOptions, assignment, number, random, whole,
+    Cells, Method, SettingOptions, StyleOptions, SubjectOptions, ThreadOptions, UnitsOptions, assignment,
+    number, random,
 };
 use clap::Args;
 use motiform_study::Random;
@@ -11,30 +12,22 @@ use std::path::PathBuf;
 pub(crate) struct ScanOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
-    /// Vary a parameter, or a coordinate of the initial shape for a map of basins (once or twice): NAME=LOW:HIGH:COUNT, both ends included,
-    /// or NAME=v1,v2,v3
-    #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT")]
-    pub(crate) axes: Vec<String>,
+    #[command(flatten)]
+    pub(crate) scan: SettingOptions<Cells>,
     /// Set an initial value (repeatable) of the first initial state of every cell; values not given are those of the preset's
     /// start, or 0. Without any, without a preset's start and without a coordinate on an axis, that one is small and random
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub(crate) initial: Vec<(String, f64)>,
-    /// Initial states per cell (default: 1); if more than one, they have all sizes of --random
-    #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true)]
-    pub(crate) samples: Option<u64>,
     /// Random initial states: SIZE is each coordinate within +-SIZE (mode n of the cell: SIZE/n^2; default for one state: 0.01),
     /// MIN:MAX is all directions and log-uniform sizes (default for several: 0.01 to 1 times the model's typical size)
     #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
     pub(crate) random: Option<Random>,
     #[command(flatten)]
-    pub(crate) run: RunOptions<Method>,
+    pub(crate) run: SettingOptions<Method>,
     /// Replace zeros of a given start by random values within SIZE times its largest value (default: 1e-6), because an
     /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
-    /// Maximum model time for classifying one motion; 0 is the model's default
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) budget: Option<f64>,
     /// Output folder (default: MODEL-PRESET-scan in the current folder)
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
@@ -44,9 +37,8 @@ pub(crate) struct ScanOptions {
     /// Compute share I of N; `motiform merge` combines the folders
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<String>,
-    /// Number of threads (default: all cores); does not affect the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadOptions,
     /// Replace an existing scan; what motiform did not write stays
     #[arg(long)]
     pub(crate) force: bool,

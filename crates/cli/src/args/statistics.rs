@@ -1,7 +1,8 @@
 //! Options of `statistics`.
 
 use super::{
-    MethodOptions, ParameterOptions, Recording, RunOptions, StyleOptions, UnitsOptions, number, whole,
+    MethodOptions, ParameterOptions, Recording, SettingOptions, StyleOptions, ThreadOptions, UnitsOptions,
+    number, whole,
 };
 use clap::Args;
 use std::path::PathBuf;
@@ -24,7 +25,7 @@ pub(crate) struct StatisticsOptions {
     #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true)]
     pub(crate) bodies: Option<u64>,
     #[command(flatten)]
-    pub(crate) run: RunOptions<Recording>,
+    pub(crate) run: SettingOptions<Recording>,
     /// Radius of a disc for first-passage times (repeatable; default: six, from the displacements)
     #[arg(long = "disc", alias = "radius", value_name = "R", value_parser = number, allow_hyphen_values = true)]
     pub(crate) radius: Vec<f64>,
@@ -32,9 +33,8 @@ pub(crate) struct StatisticsOptions {
     /// median (default: speed)
     #[arg(long, value_name = "QUANTITY[=VALUE]", value_parser = threshold)]
     pub(crate) threshold: Option<(String, Option<f64>)>,
-    /// Number of threads (default: all cores); does not affect the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadOptions,
     /// Write tables, statistics.json and figures into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -1,6 +1,6 @@
 //! Options that several commands share: the subject of the computation, and the method.
 
-use super::{Method, RunOptions, assignment, random, tie};
+use super::{Method, SettingOptions, ThreadOptions, assignment, random, tie};
 use clap::Args;
 use motiform_study::Random;
 
@@ -34,9 +34,8 @@ pub(crate) struct SamplesOptions {
     /// Use this many initial states: the given one, if any, and random ones of all sizes (see --random); on all cores
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_hyphen_values = true)]
     pub(crate) samples: Option<u32>,
-    /// Number of threads for --samples (default: all cores); does not affect the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_hyphen_values = true)]
-    pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: ThreadOptions,
 }
 
 /// The initial state of an orbit, and the numerical method.
@@ -51,5 +50,5 @@ pub(crate) struct MethodOptions {
     #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
     pub(crate) random: Option<Random>,
     #[command(flatten)]
-    pub(crate) run: RunOptions<Method>,
+    pub(crate) run: SettingOptions<Method>,
 }

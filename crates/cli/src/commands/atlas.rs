@@ -50,8 +50,7 @@ fn compute(
     plan: &AtlasPlan,
     files: &Folder,
 ) -> Result<Option<(Grid, Vec<Line>)>, Error> {
-    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = options.threads.map_or_else(all, usize::from);
+    let threads = options.threads.count();
     let watch = Progress::new(100.0, "% of the cells");
     let grid = survey(plan, threads, files, &watch);
     watch.finish();

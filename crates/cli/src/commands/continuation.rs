@@ -13,11 +13,9 @@ use motiform_diagrams::{
 };
 use motiform_lab::draw::{self, Figures, Picture};
 use motiform_store::{Folder, Journal, Opening};
-use motiform_study::branches::{Along, BranchSettings, origin};
-use motiform_study::curves::{CurveKind, Plane};
+use motiform_study::branches::BranchSettings;
 use motiform_study::quantity::motion::PERIOD;
-use motiform_study::study::FollowSettings;
-use motiform_study::{BranchPlan, CurvePlan, Error, Given, Shown, Study, Towards};
+use motiform_study::{BranchPlan, CurvePlan, Error, Given, Shown, Study};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -71,7 +69,7 @@ fn study(options: &ContinueOptions) -> Result<(Study, Option<Given>), Error> {
     if let Some(perturbation) = perturbation {
         warn(&format!("{perturbation}; --perturb 0 keeps the exact start"));
     }
-    follow_settings(options, &mut study.follow)?;
+    options.follow.apply(&mut study.follow)?;
     ties(&study, &of_branches(&study))?;
     Ok((study, given))
 }
@@ -86,34 +84,6 @@ fn subject(options: &ContinueOptions) -> Result<(Study, Option<Given>), Error> {
     subject::put(&options.subject.parameters, &mut study)?;
     study.follow.from = None; // the motion of another start
     Ok((study, Some(start.given)))
-}
-
-/// The settings of branches and curves that are given.
-fn follow_settings(options: &ContinueOptions, settings: &mut FollowSettings) -> Result<(), Error> {
-    if let Some(along) = &options.along {
-        settings.along = Some(Along::parse(along)?);
-    }
-    if let Some(from) = &options.from {
-        settings.from = Some(origin(from)?);
-    }
-    if let Some(kinds) = &options.curve {
-        settings.curve = CurveKind::list(kinds)?;
-    }
-    if let Some(plane) = &options.plane {
-        settings.plane = Some(Plane::parse(plane)?);
-    }
-    if let Some(direction) = &options.direction {
-        settings.direction = Some(Towards::find(direction)?);
-    }
-    settings.first_step = options.first_step.or(settings.first_step);
-    settings.branch_step = options.branch_step.or(settings.branch_step);
-    settings.tolerance = options.tolerance.or(settings.tolerance);
-    settings.steady |= options.steady;
-    settings.from_stable |= options.from_stable;
-    settings.points = options.points.unwrap_or(settings.points);
-    settings.samples = options.samples.unwrap_or(settings.samples);
-    settings.branches = options.branches.unwrap_or(settings.branches);
-    Ok(())
 }
 
 /// Where the result goes; nowhere, if it is only printed.

@@ -1,6 +1,6 @@
 //! `motiform doctor`.
 
-use crate::args::DoctorOptions;
+use crate::args::{DoctorOptions, all_cores};
 use crate::output::{End, print};
 use crate::progress::Progress;
 use motiform_dynamics::simd::InstructionSet;
@@ -46,7 +46,7 @@ const HELPERS: [Helper; 3] = [
 
 /// Says what this machine has, and times it.
 pub(crate) fn run(options: &DoctorOptions) -> anyhow::Result<End> {
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = all_cores();
     let Some(rates) = rates(threads)? else { return Ok(End::Interrupted) };
     let found = HELPERS.map(|helper| (helper.start(), helper));
     let (lanes, cores) = (lanes(), std::env::consts::ARCH);

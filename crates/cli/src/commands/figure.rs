@@ -189,7 +189,7 @@ impl Content {
                 return Err(Error::Setting { key: "DIR", value, remedy }.into());
             }
             _ => Self::Body(Box::new(read_dataset_by(path, &|manifest, path| {
-                apply(&options.drawing, &mut manifest.plan.figure);
+                apply(&options.drawing, &mut manifest.plan.figure)?;
                 plan::check_figure(&manifest.plan.figure)?;
                 let (trajectory, stride) = read_shown(manifest, path)?;
                 note_stride(stride);
@@ -218,16 +218,13 @@ impl Content {
 }
 
 /// Overrides the study's settings with those given on the command line.
-pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) {
-    settings.radius = options.radius.unwrap_or(settings.radius);
-    settings.scale = options.scale.unwrap_or(settings.scale);
-    settings.outlines = options.outlines.unwrap_or(settings.outlines);
-    settings.from = options.from.unwrap_or(settings.from);
-    settings.to = options.to.unwrap_or(settings.to);
+pub(crate) fn apply(options: &DrawingOptions, settings: &mut FigureSettings) -> Result<(), Error> {
+    options.figure.apply(settings)?;
     settings.animation &= !options.no_animation;
     if let Some(units) = &options.units.given {
         settings.units.clone_from(units);
     }
+    Ok(())
 }
 
 /// Says that a long run is not drawn from all of its rows.

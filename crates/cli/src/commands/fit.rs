@@ -1,7 +1,7 @@
 //! `motiform fit`.
 
 use crate::args::FitCellsOptions;
-use crate::commands::observe::{all_cores, head, plain_error, quality, read, style};
+use crate::commands::observe::{head, plain_error, quality, read, style};
 use crate::commands::pages::draw;
 use crate::commands::population::fitted;
 use crate::output::{End, print, warn};
@@ -42,7 +42,7 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     if let (Some(work), false) = (&work, options.cells.no_report) {
         let observations: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
         let write = |name: &str, bytes: &[u8]| work.write_file(name, bytes);
-        let how = (threads(options), &options.cells.style.format());
+        let how = (options.threads.count(), &options.cells.style.format());
         drawn = draw(&sample, (&cells, &observations), (&fits, options.together), how, &write)?;
     }
     if let Some(work) = &work {
@@ -83,10 +83,6 @@ fn settings(options: &FitCellsOptions) -> FitOptions {
     }
 }
 
-fn threads(options: &FitCellsOptions) -> usize {
-    options.threads.map_or_else(all_cores, usize::from)
-}
-
 /// The fits, in a folder if there is one: then each is written as soon as it is done.
 fn compute(
     options: &FitCellsOptions,
@@ -94,7 +90,7 @@ fn compute(
     settings: &FitOptions,
     work: Option<&mut FitWork>,
 ) -> motiform_cells::Result<Vec<Option<CellFit>>> {
-    let threads = threads(options);
+    let threads = options.threads.count();
     let left = work.as_ref().map_or(cells.len(), |work| work.left());
     let (total, unit) = if options.together { (100.0, "%") } else { (left as f64, "cells") };
     let watch = Progress::new(total, unit);

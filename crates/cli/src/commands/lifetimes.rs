@@ -26,8 +26,7 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
     options.style.refuse_unless(options.out.is_some(), remedy)?;
     let (plan, units) = plan(options)?;
     let (files, before) = open(options, &plan)?;
-    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = options.threads.map_or_else(all, usize::from);
+    let threads = options.threads.count();
     let watch = Progress::new(plan.rows() as f64, "orbits");
     let kept = |lives: &Lives| files.as_ref().map_or(Ok(()), |files| keep(files, lives));
     let lives = follow_lives_kept(&plan, before, threads, &kept, &watch);

@@ -1,6 +1,6 @@
 //! `motiform lyapunov`.
 
-use crate::args::LyapunovOptions;
+use crate::args::{LyapunovOptions, all_cores};
 use crate::commands::subject;
 use crate::output::{End, estimate, print};
 use crate::progress::Progress;
@@ -198,7 +198,7 @@ fn many_summary(
 /// `--saddle`: the exponent of transient chaos.
 fn saddle(options: &LyapunovOptions, plan: &Plan, samples: usize) -> anyhow::Result<End> {
     let watch = Progress::new(samples as f64, "runs");
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = all_cores();
     let found = find_saddle(plan, samples, (options.transient, options.t_end), threads, &watch);
     watch.finish();
     let Some(found) = found? else { return Ok(End::Interrupted) };

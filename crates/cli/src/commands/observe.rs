@@ -1,6 +1,6 @@
 //! `motiform observe`.
 
-use crate::args::{CellsOptions, ObserveOptions};
+use crate::args::{CellsOptions, ObserveOptions, all_cores};
 use crate::commands::pages::draw;
 use crate::commands::population::observed;
 use crate::output::{End, print, warn};
@@ -141,11 +141,6 @@ fn answer(found: &Answer, unit: &str) -> String {
             None => format!("{} {unit}", four_digits(found.value)),
         },
     }
-}
-
-/// Threads of the machine.
-pub(crate) fn all_cores() -> usize {
-    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
 /// Frames that count, and what is wrong with the others.

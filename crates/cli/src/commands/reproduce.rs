@@ -18,13 +18,12 @@ const PAGE: &str = "report.html";
 
 pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     let out = &options.out;
-    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let format = options.style.format();
     let wanted = Options {
         style: format.style.clone(),
         figures: options.figures.clone(),
         quick: options.quick,
-        threads: options.threads.map_or_else(all, usize::from),
+        threads: options.threads.count(),
     };
     wanted.check()?;
     let files = Folder::open(out, Kind::Report, Opening::Resume, &[])?;

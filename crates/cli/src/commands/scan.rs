@@ -6,7 +6,7 @@ use crate::commands::subject;
 use crate::output::{End, print, warn};
 use crate::progress::Progress;
 use motiform_lab::draw::{files, scan_figures};
-use motiform_lab::scan::{Axis, Classify, Opening, Scan, ScanFolder, Shard, Totals};
+use motiform_lab::scan::{Classify, Opening, Scan, ScanFolder, Shard, Totals};
 use motiform_study::{Error, ScanPlan, Study};
 use serde_json::json;
 use std::fmt::Write;
@@ -26,7 +26,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     }
     let left = scan.cells_left();
     let watch = Progress::new(left as f64, "cells");
-    let ended = scan.run(&Classify, threads(options), &watch);
+    let ended = scan.run(&Classify, options.threads.count(), &watch);
     watch.finish();
     let ended = ended?;
     if !options.no_figures {
@@ -63,12 +63,7 @@ fn study(options: &ScanOptions) -> Result<Study, Error> {
     for (name, value) in &options.initial {
         study.set_initial(name, *value)?;
     }
-    let scan = &mut study.scan;
-    if !options.axes.is_empty() {
-        scan.axes = options.axes.iter().map(|text| Axis::parse(text)).collect::<Result<_, _>>()?;
-    }
-    scan.samples = options.samples.unwrap_or(scan.samples);
-    scan.budget = options.budget.unwrap_or(scan.budget);
+    options.scan.apply(&mut study.scan)?;
     study.random = options.random.or(study.random);
     options.run.apply(&mut study.run)?;
     study.perturb = options.perturb.unwrap_or(study.perturb);
@@ -77,11 +72,6 @@ fn study(options: &ScanOptions) -> Result<Study, Error> {
         warn(&format!("{perturbation}; --perturb 0 keeps the exact start"));
     }
     Ok(study)
-}
-
-fn threads(options: &ScanOptions) -> usize {
-    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    options.threads.map_or_else(all, usize::from)
 }
 
 /// Prints the contents of a folder.

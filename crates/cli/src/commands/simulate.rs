@@ -70,7 +70,7 @@ fn study(options: &SimulateOptions) -> Result<Study, Error> {
     if options.run.get("dt_out").is_some_and(|value| value.as_f64() == Some(0.0)) {
         return Err(Error::Setting { key: "dt_out", value: "0".into(), remedy: "give a time above 0" });
     }
-    figure::apply(&options.drawing, &mut study.figure);
+    figure::apply(&options.drawing, &mut study.figure)?;
     remark(&study, &[])?;
     Ok(study)
 }

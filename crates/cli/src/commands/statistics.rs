@@ -100,8 +100,7 @@ fn bodies(
     count: u64,
     folder: Option<&Folder>,
 ) -> anyhow::Result<Option<Measurement>> {
-    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = options.threads.map_or_else(all, usize::from);
+    let threads = options.threads.count();
     let journal: &dyn Journal = folder.map_or(&(), |folder| folder);
     let watch = Progress::new(count as f64, "bodies");
     let found =

@@ -31,9 +31,8 @@ pub(crate) fn plan(mut study: Study, many: &SamplesOptions) -> Result<(RunPlan, 
 /// Several initial states of a study's model, if requested.
 fn samples(options: &SamplesOptions, study: &Study, random: Random) -> Option<Samples> {
     let count = options.samples? as usize;
-    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let given = study.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
-    Some(Samples { count, random, given, threads: options.threads.map_or_else(all, usize::from) })
+    Some(Samples { count, random, given, threads: options.threads.count() })
 }
 
 /// Leaves out the noise of a study, and says so: the answer of an analysis is that of the equations alone.

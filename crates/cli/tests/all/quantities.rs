@@ -5,7 +5,9 @@
 use crate::common::Folder;
 use crate::ownership::tree;
 use motiform_models::{MODELS, amplitudes};
-use motiform_store::quantity::{answer, cell, coefficient, frame, motion, special, state, statistic, subjects};
+use motiform_store::quantity::{
+    answer, cell, coefficient, frame, motion, special, state, statistic, subjects,
+};
 use motiform_store::{Quantity, columns};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;

@@ -1,25 +1,25 @@
 //! The moving body, as shown on the page.
 
+mod change;
+
 use super::Services;
 use super::looks::{self, Look};
 use super::returns;
 use super::setting::{Seen, Setting, decode};
 use super::swarm::Swimmers;
 use crate::answers::Gone;
-use crate::branches::{OrbitJob, Spot};
 use crate::export::Order;
 use crate::frames::Frame;
 use crate::map::{Job, MapFile};
 use crate::protocol::{
-    Advance, Ask, Begin, BranchPoint, Cell, Define, Ended, Export, Follow, Kick, MapWindow, Noise, Pull, Put,
-    ReturnsAhead, Said, Section, Set, Share, Source, Start, Swarm,
+    Advance, Ask, Cell, Define, Ended, Export, Follow, MapWindow, Noise, ReturnsAhead, Said, Section, Set,
+    Share, Source, Swarm,
 };
 use crate::share;
 use motiform_dynamics::{InPlane, Model, Outcome, Outline};
 use motiform_lab::draw::radius_for;
 use motiform_lab::live::{Record, Stretch};
 use motiform_study::Error;
-use std::collections::BTreeMap;
 use std::time::Duration;
 
 /// Number of samples that are kept for spectra and return maps.
@@ -264,25 +264,6 @@ impl<'s> Stage<'s> {
         self.services.branches.follow(follow, &self.setting.study_at(self.stretch.state()))
     }
 
-    /// The body on a point of a branch; its orbit follows.
-    fn place(&self, point: BranchPoint) -> Result<Option<Change>, Gone> {
-        let BranchPoint { epoch, branch, point } = point;
-        let Some(spot) = self.services.branches.spot(epoch, branch, point) else {
-            let why = "there is no such point of a branch any more: follow the branches again";
-            return self.services.answers.refused(None, why).map(|()| None);
-        };
-        Ok(Some(self.placed(spot).map(told)))
-    }
-
-    fn placed(&self, spot: Spot) -> Result<Setting, Error> {
-        let seen = self.seen();
-        let setting = self.setting.placed(&spot, &seen)?;
-        let position = seen.state.last_chunk().copied().unwrap_or_default();
-        let (revision, parameters) = (setting.revision(), setting.told().parameters);
-        self.services.branches.orbit(OrbitJob { revision, spot, parameters, t: seen.t, position });
-        Ok(setting)
-    }
-
     fn evidence(&self, epoch: u32, cell: [u16; 2]) -> Result<(), Gone> {
         match self.services.map.evidence(epoch, cell) {
             Some(evidence) => self.services.answers.say(evidence),
@@ -313,69 +294,6 @@ impl<'s> Stage<'s> {
         let subject = self.setting.name().to_owned();
         self.services.exports.put(Order { id: export.id, subject, what: export.what.clone(), make })
     }
-
-    fn begin(&self, begin: &Begin) -> Change {
-        let setting = Setting::begin(
-            begin,
-            self.setting.revision().wrapping_add(1),
-            &self.services.catalogue.borrow(),
-        )?;
-        self.services.map.stop();
-        self.services.branches.forget();
-        self.services.swarms.end();
-        let answer = setting.begun().into();
-        Ok((setting, answer))
-    }
-
-    fn set(&self, parameters: &BTreeMap<String, f64>) -> Change {
-        let setting = self.setting.with(parameters, &self.seen())?;
-        self.forget(parameters);
-        Ok(told(setting))
-    }
-
-    /// Stops what is computed for other values of these parameters.
-    fn forget(&self, parameters: &BTreeMap<String, f64>) {
-        let Services { map, branches, .. } = self.services;
-        if parameters.keys().any(|name| !map.has_axis(name)) {
-            map.stop();
-        }
-        if parameters.keys().any(|name| !map.has_axis(name) && !branches.along(name)) {
-            branches.forget();
-        }
-    }
-
-    fn put(&self, put: &Put) -> Change {
-        let setting = self.setting.put(put, &self.seen())?;
-        let now = &self.setting.plan().computation.parameters;
-        let moved = put.parameters.iter().filter(|(name, value)| now.get(name) != Some(**value));
-        self.forget(&moved.map(|(name, value)| (name.clone(), *value)).collect());
-        Ok(told(setting))
-    }
-
-    fn pull(&self, pull: &Pull) -> Change {
-        Ok(told(self.setting.pulled(pull, &self.seen())?))
-    }
-
-    fn noise(&self, amplitude: f64) -> Change {
-        Ok(told(self.setting.with_noise(amplitude, &self.seen())?))
-    }
-
-    fn kick(&self, Kick { strength }: Kick) -> Change {
-        Ok(told(self.setting.kicked(strength, &self.seen())?))
-    }
-
-    fn restart(&self) -> Change {
-        Ok(told(self.setting.started(&BTreeMap::new(), self.radius)?))
-    }
-
-    fn start(&self, start: &Start) -> Change {
-        Ok(told(self.setting.started(&start.coordinates, self.radius)?))
-    }
-}
-
-fn told(setting: Setting) -> (Setting, Said) {
-    let answer = setting.told().into();
-    (setting, answer)
 }
 
 fn ended(revision: u32, outcome: &Outcome) -> Ended {

@@ -4,6 +4,7 @@ mod branches;
 mod common;
 mod fuzz;
 mod hand;
+mod maps;
 mod protocol;
 mod server;
 mod session;

@@ -146,10 +146,8 @@ def lyapunov(
 ) -> str: ...
 def follow_branches(
     study: Study,
-    along: tuple[str, float, float],
-    starts: tuple[str | None, str | None],
-    counts: tuple[int, int],
-    steps: tuple[str, float | None, float | None, float | None, tuple[bool, bool]],
+    settings: dict[str, str | float | bool | None],
+    start: str | None = None,
     progress: _Progress = None,
 ) -> tuple[str, bytes, BaseException | None]: ...
 def make_atlas(
@@ -174,10 +172,7 @@ def statistics_of(
 ) -> tuple[str, list[tuple[str, bytes]], BaseException | None]: ...
 def follow_curves(
     study: Study,
-    kinds: list[str],
-    plane: tuple[tuple[str, float, float], tuple[str, float, float]],
-    from_: str | None,
-    counts: tuple[int, int],
+    settings: dict[str, str | float | list[str] | None],
     progress: _Progress = None,
 ) -> tuple[str, bytes, BaseException | None]: ...
 def read_curves(path: str) -> tuple[str, bytes, BaseException | None]: ...

@@ -20,13 +20,13 @@ Random = float | str | tuple[float, float]
 """Random initial states: a size (each coordinate within +-size), or the smallest and the largest norm (log-uniform, all directions)."""
 
 
-def range_of(key: str, value: Any) -> tuple[str, float, float]:
-    """A parameter with its range."""
+def range_of(key: str, value: Any) -> tuple[str, str]:
+    """A parameter, and its range as study files have it: ``kappa2=0.3:1.6``."""
     try:
         name, low, high = value
         if not isinstance(name, str) or isinstance(value, str):
             raise TypeError
-        return name, float(low), float(high)
+        return name, f"{name}={float(low)!r}:{float(high)!r}"
     except (TypeError, ValueError):
         raise TypeError(f"{key} = {value!r}: give a parameter with its range, ('kappa2', 0.3, 1.6)") from None
 

@@ -15,7 +15,7 @@ from . import _motiform
 from .addresses import address_of
 from .calls import OnEnd, ended_early, raised_with, real
 from .progress import Bar, Progress
-from .results import Accuracy, Crossings, Exponents, Outcome, exponents_of, outcome_of
+from .results import Crossings, Exponents, Outcome, exponents_of, outcome_of
 from .trajectory import Floats, crossing_frame
 
 if TYPE_CHECKING:

@@ -2,40 +2,25 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
+from .analysed import Analysed
 from .atlases import Atlas, atlas_of, axis_text
 from .branches import Branches, branches_of
 from .calls import OnEnd, Random, ended_early, raised_with, range_of, real, remark, span, with_given
 from .curves import Curves, curves_of
-from .described import Described
 from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
-from .results import (
-    Crossings,
-    Equilibrium,
-    Exponents,
-    Motions,
-    Verdict,
-    equilibrium_of,
-    exponents_of,
-    motions_of,
-    outcome_of,
-    verdict_of,
-    with_units,
-)
-from .trajectory import Floats, Trajectory, crossing_frame
+from .trajectory import Floats, Trajectory
 
 
-class Model(Described):
+class Model(Analysed):
     """A model with its parameters. Immutable: :meth:`replace` returns a modified copy.
 
     Use :class:`Tensor`, :class:`Cell`, :class:`Amplitudes` (equations as text), :func:`preset` or :func:`study`.
@@ -110,90 +95,6 @@ class Model(Described):
             ended_early(run.ended, on_end or ("ignore" if asked else "warn"))
         return trajectory
 
-    def classify(
-        self,
-        *,
-        budget: float = 0.0,
-        initial: Mapping[str, float] | None = None,
-        random: Random | None = None,
-        perturb: float | None = None,
-        seed: int | None = None,
-        progress: Progress = None,
-    ) -> Verdict:
-        """Classifies the motion within at most `budget` model time (0: the model's default), with the evidence.
-
-        The flow preserves exact symmetries, so coordinates that `initial` leaves at zero get random values within `perturb` times its
-        largest value (1e-6 if not given; 0 keeps the exact start).
-
-        More: docs/regimes.md.
-        """
-        study = with_given(self._study, initial, {"random": random, "perturb": perturb, "seed": seed})
-        remark(study)
-        with Bar(progress, budget or self.info.budget, "model time") as bar:
-            verdict = verdict_of(json.loads(_motiform.classify(study, budget, bar.callable())))
-        return with_units(verdict, self.units)
-
-    def motions(
-        self,
-        samples: int = 100,
-        *,
-        random: Random | None = None,
-        budget: float = 0.0,
-        initial: Mapping[str, float] | None = None,
-        seed: int | None = None,
-        threads: int | None = None,
-        progress: Progress = None,
-    ) -> Motions:
-        """The motions of `samples` initial states: shares with 95 % intervals, what was sampled, and how many escape.
-
-        The initial states are random (after the one in `initial`, if given): without `random` they have all directions and
-        log-uniform sizes from a hundredth of the model's typical size to the full size.
-
-        More: docs/regimes.md.
-        """
-        study = with_given(self._study, initial, {"random": random, "seed": seed})
-        remark(study)
-        with Bar(progress, 100.0, "%") as bar:
-            count = threads or os.cpu_count() or 1
-            found = motions_of(json.loads(_motiform.motions(study, samples, budget, count, bar.callable())))
-        return replace(found, verdicts=tuple(with_units(verdict, self.units) for verdict in found.verdicts))
-
-    def lyapunov(
-        self,
-        count: int | None = None,
-        *,
-        transient: float | None = None,
-        t_end: float | None = None,
-        initial: Mapping[str, float] | None = None,
-        random: Random | None = None,
-        seed: int | None = None,
-        on_end: OnEnd = "warn",
-        progress: Progress = None,
-    ) -> Exponents:
-        """The `count` largest Lyapunov exponents (by default at most 6), with errors, averaged over `t_end`.
-
-        More: docs/regimes.md.
-        """
-        study = with_given(self._study, initial, {"random": random, "seed": seed})
-        remark(study)
-        count = min(6, len(study.coordinates())) if count is None else count
-        with Bar(progress, 100.0, "%") as bar:
-            raw = json.loads(_motiform.lyapunov(study, count, transient, t_end, bar.callable()))
-        if not raw["complete"]:
-            ended_early(raw["ended"], on_end)
-        return with_units(exponents_of(raw), self.units)
-
-    def equilibria(self, *, starts: int = 200, seed: int | None = None, progress: Progress = None) -> list[Equilibrium]:
-        """The steady motions (at rest, straight, circular) that Newton's method finds from the circle and from random
-        shapes, and deflation beside them, the most stable first. The list may be incomplete; more `starts` may find more.
-
-        More: docs/continuation.md.
-        """
-        study = with_given(self._study, None, {"seed": seed})
-        with Bar(progress, starts, "starts") as bar:
-            raw = json.loads(_motiform.equilibria(study, starts, bar.callable()))
-        return [with_units(equilibrium_of(entry), self.units) for entry in raw]
-
     def branches(
         self,
         along: tuple[str, float, float],
@@ -232,18 +133,15 @@ class Model(Described):
         More: docs/continuation.md.
         """
         study = with_given(self._study, initial, {"seed": seed})
-        name, low, high = range_of("along", along)
+        name, range_ = range_of("along", along)
         remark(study, (name,))
+        settings: dict[str, Any] = {
+            "along": range_, "from": from_, "direction": direction, "branch_step": branch_step, "first_step": first_step,
+            "tolerance": tolerance, "steady": steady, "from_stable": from_stable, "branches": branches, "points": points,
+        }  # fmt: skip
         with Bar(progress, branches, "branches") as bar:
-            found = _motiform.follow_branches(
-                study,
-                (name, low, high),
-                (from_, None if start is None else os.fspath(start)),
-                (branches, points),
-                (direction, branch_step, first_step, tolerance, (steady, from_stable)),
-                bar.callable(),
-            )
-        text, table, raised = found
+            point = None if start is None else os.fspath(start)
+            text, table, raised = _motiform.follow_branches(study, settings, point, bar.callable())
         result = branches_of(text, table)
         if raised is not None:
             raise raised_with(raised, result)
@@ -323,13 +221,13 @@ class Model(Described):
         """
         study = with_given(self._study, initial, {"seed": seed})
         names = [kinds] if isinstance(kinds, str) else list(kinds)
-        sides = (range_of("along", along), range_of("across", across))
-        remark(study, (side[0] for side in sides))
+        (first, side), (second, other) = range_of("along", along), range_of("across", across)
+        remark(study, (first, second))
+        settings: dict[str, Any] = {
+            "along": side, "curve": names, "in": f"{first},{other}", "from": from_, "branches": branches, "points": points,
+        }  # fmt: skip
         with Bar(progress, 1, "of branches and curves") as bar:
-            found = _motiform.follow_curves(
-                study, names, (sides[0], sides[1]), from_, (branches, points), bar.callable()
-            )
-        text, table, raised = found
+            text, table, raised = _motiform.follow_curves(study, settings, bar.callable())
         result = curves_of(text, table)
         if raised is not None:
             raise raised_with(raised, result)
@@ -379,32 +277,6 @@ class Model(Described):
         if native is None:
             raise KeyboardInterrupt
         return atlas_of(native)
-
-    def section(
-        self,
-        coordinate: str = "y",
-        value: float = 0.0,
-        direction: Literal["rising", "falling", "either"] = "either",
-        *,
-        t_end: float | None = None,
-        transient: float | None = None,
-        initial: Mapping[str, float] | None = None,
-        seed: int | None = None,
-        on_end: OnEnd = "warn",
-        progress: Progress = None,
-    ) -> Crossings:
-        """The crossings of the orbit with ``coordinate = value``, located to round-off.
-
-        More: docs/python.md.
-        """
-        study = with_given(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
-        remark(study)
-        with Bar(progress, lambda: span(study), "model time") as bar:
-            found = _motiform.section(study, coordinate, value, direction, bar.callable())
-        table, (raw, complete, ended) = found
-        if not complete:
-            ended_early(ended, on_end)
-        return Crossings(crossing_frame(*table), outcome_of(json.loads(raw), complete, ended))
 
     def __call__(self, t: float, u: npt.ArrayLike) -> Floats:
         """The vector field: d/dt of the coordinates at `u`, for integrators such as ``scipy.integrate.solve_ivp``.
