@@ -23,6 +23,7 @@ mod questions;
 mod random;
 mod scan;
 mod scan_lanes;
+mod settings;
 mod starts;
 mod statistics;
 mod study_toml;
