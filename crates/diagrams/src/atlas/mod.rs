@@ -15,6 +15,7 @@ mod grid;
 mod inset;
 mod line;
 mod page;
+mod points;
 mod region;
 mod summary;
 mod survey;
