@@ -244,7 +244,7 @@ class Model(Described):
                 bar.callable(),
             )
         text, table, raised = found
-        result = branches_of(text, table)
+        result = branches_of(text, table, self.units)
         if raised is not None:
             raise raised_with(raised, result)
         return result
@@ -330,7 +330,7 @@ class Model(Described):
                 study, names, (sides[0], sides[1]), from_, (branches, points), bar.callable()
             )
         text, table, raised = found
-        result = curves_of(text, table)
+        result = curves_of(text, table, self.units)
         if raised is not None:
             raise raised_with(raised, result)
         return result
@@ -378,7 +378,7 @@ class Model(Described):
             native = _motiform.make_atlas(study, names, counts, steady, place, bar.callable())
         if native is None:
             raise KeyboardInterrupt
-        return atlas_of(native)
+        return atlas_of(native, self.units)
 
     def section(
         self,

@@ -15,7 +15,7 @@ from matplotlib.patches import Patch, Polygon
 from matplotlib.path import Path
 
 from ._registry import REGIMES, Regime
-from .units import LENGTH, RATE, SPEED, TIME, Dimension, Units, factor, label
+from .units import COLUMNS, LENGTH, RATE, SPEED, TIME, Dimension, Units, factor, label
 from .units import name as unit_name
 
 if TYPE_CHECKING:
@@ -213,7 +213,8 @@ def plot_branches(found: Branches, y: str, ax: Axes | None) -> Axes:
             ax.plot(here[found.along], here[y].abs(), zorder=3, **style)
             keys.append(Line2D([], [], label=kind, **style))
     ax.legend(handles=keys, fontsize="small")
-    ax.set(xlabel=found.along, ylabel=y)
+    ylabel = label(y.replace("_", " "), found.units, COLUMNS[y]) if y in COLUMNS else y
+    ax.set(xlabel=found.along, ylabel=ylabel)
     return ax
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any, TypeVar
 
 import numpy as np
+import pandas as pd
 
 from . import _motiform
 
@@ -88,6 +89,20 @@ def label(quantity: str, units: Units | None, dimension: Dimension) -> str:
     """The label of an axis with its unit, exponents as Matplotlib sets them."""
     unit = re.sub(r"\^(-?\d+)", r"$^{\1}$", name(units, dimension))
     return f"{quantity} ({unit})" if unit else quantity
+
+
+COLUMNS: dict[str, Dimension] = {
+    "speed": SPEED, "speed_mean": SPEED, "speed_min": SPEED, "speed_max": SPEED, "turning_rate": TURNING, "period": TIME, "drift": LENGTH,
+    "lambda_1": RATE, "lambda_1_error": RATE, "escape_time": TIME, "time": TIME,
+}  # fmt: skip
+"""The columns of motions (rows of scans, cells of atlases, points of branches and curves) that have a unit."""
+
+
+def table_in(table: pd.DataFrame, units: Units | None) -> pd.DataFrame:
+    """A copy of a table of motions with its columns in other units; states, eigenvalues and parameters stay in model units."""
+    named = [column for column in table.columns if column in COLUMNS]
+    # an object column of numbers and None is one of numbers
+    return table.assign(**{column: pd.to_numeric(table[column]) * factor(units, COLUMNS[column]) for column in named})
 
 
 D = TypeVar("D")
