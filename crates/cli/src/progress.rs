@@ -1,5 +1,5 @@
 //! Progress of work that takes longer than some seconds, and Ctrl-C: a bar with rate and remaining time on a terminal, else a line
-//! every ten seconds.
+//! every ten seconds. Work in stages tells the name of the present one, and a remaining time only where it follows from what is done.
 
 use crate::interrupt::interrupted;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -15,12 +15,28 @@ const QUIET: Duration = Duration::from_secs(2);
 /// Time between two lines, where standard error is no terminal.
 const BETWEEN: Duration = Duration::from_secs(10);
 
+/// A named stage of the work.
+struct Stage {
+    /// Its number and its name.
+    name: String,
+    started: Instant,
+    /// Its part of the progress that is told.
+    share: [f64; 2],
+    /// What its share is of.
+    done: &'static str,
+    /// `true` if the remaining time follows from the share.
+    even: bool,
+}
+
 /// Shows progress and handles Ctrl-C.
 pub(crate) struct Progress {
     bar: ProgressBar,
     started: Instant,
     /// The total work.
     total: f64,
+    /// The present stage, and how many began; of so many.
+    stage: Mutex<(Option<Stage>, usize)>,
+    stages: usize,
     /// When the next line is due, where standard error is no terminal.
     next: Option<Mutex<Instant>>,
     /// `true` if Ctrl-C was pressed.
@@ -45,7 +61,26 @@ impl Progress {
         bar.set_style(style.with_key("rate", rate));
         let started = Instant::now();
         let next = (!std::io::stderr().is_terminal()).then(|| Mutex::new(started + BETWEEN));
-        Self { bar, started, total, next, stopped: interrupted() }
+        Self { bar, started, total, stage: Mutex::default(), stages: 0, next, stopped: interrupted() }
+    }
+
+    /// A watch over work in so many stages, each of which is announced ([`Progress::stage`]).
+    pub(crate) fn staged(stages: usize) -> Self {
+        Self { stages, ..Self::new(1000.0, "permille") }
+    }
+
+    /// A stage begins: a part of the progress that is told, what its share is of, and whether the remaining time follows from that.
+    pub(crate) fn stage(&self, name: &str, share: [f64; 2], (done, even): (&'static str, bool)) {
+        let Ok(mut stage) = self.stage.lock() else { return };
+        stage.1 += 1;
+        let name = format!("{} of {}, {name}", stage.1, self.stages);
+        let template = if even { "{msg}: {percent}%, {eta} left" } else { "{msg}: {percent}% {prefix}, {elapsed}" };
+        let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+        self.bar.set_style(style);
+        self.bar.set_message(name.clone());
+        self.bar.set_prefix(done);
+        self.bar.reset();
+        stage.0 = Some(Stage { name, started: Instant::now(), share, done, even });
     }
 
     /// Writes how far the work is, if a line is due.
@@ -56,12 +91,44 @@ impl Progress {
         }
         *next = Instant::now() + BETWEEN;
         // Nothing is lost if nobody listens.
-        let _ = writeln!(std::io::stderr(), "{}", sentence(done, self.started.elapsed().as_secs_f64()));
+        let _ = writeln!(std::io::stderr(), "{}", self.sentence(done));
+    }
+
+    /// The progress in words, of the present stage if the work has stages.
+    fn sentence(&self, done: f64) -> String {
+        let stage = self.stage.lock().ok();
+        match stage.as_ref().and_then(|stage| stage.0.as_ref()) {
+            Some(stage) => stage.sentence(done, stage.started.elapsed().as_secs_f64()),
+            None => sentence(done, self.started.elapsed().as_secs_f64()),
+        }
+    }
+
+    /// The share of the present stage that is done, or of the whole.
+    fn share(&self, done: f64) -> f64 {
+        let stage = self.stage.lock().ok();
+        stage.as_ref().and_then(|stage| stage.0.as_ref()).map_or(done, |stage| stage.part(done))
     }
 
     /// Removes the bar.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+impl Stage {
+    /// The share of it that is done, from that of the progress that is told.
+    fn part(&self, done: f64) -> f64 {
+        let [from, to] = self.share;
+        ((done - from) / (to - from)).clamp(0.0, 1.0)
+    }
+
+    /// Its progress after some seconds.
+    fn sentence(&self, done: f64, spent: f64) -> String {
+        let (name, part) = (&self.name, self.part(done));
+        if self.even {
+            return format!("{name}: {}", sentence(part, spent));
+        }
+        format!("{name}: {:.1} % {} after {spent:.0} s", 100.0 * part, self.done)
     }
 }
 
@@ -80,7 +147,7 @@ impl Watch for Progress {
             self.line(next, done);
         }
         // Never back: threads may report out of order.
-        let done = (done * self.total) as u64;
+        let done = (self.share(done) * self.total) as u64;
         if done <= self.bar.position() {
             return;
         }
@@ -101,12 +168,28 @@ impl Watch for Progress {
 
 #[cfg(test)]
 mod tests {
-    use super::sentence;
+    use super::{Stage, sentence};
+    use std::time::Instant;
 
     #[test]
     fn a_line_says_what_is_done_and_what_is_left() {
         assert_eq!(sentence(0.25, 12.0), "25.0 % done after 12 s, about 36 s left");
         assert_eq!(sentence(0.0, 12.0), "0.0 % done after 12 s");
         assert_eq!(sentence(1.0, 12.0), "100.0 % done after 12 s, about 0 s left");
+    }
+
+    #[test]
+    fn a_stage_has_its_name_and_a_remaining_time_only_where_that_is_known() {
+        let stage = |even, done| Stage {
+            name: "2 of 3, finer grid".to_owned(),
+            started: Instant::now(),
+            share: [0.5, 1.0],
+            done,
+            even,
+        };
+        let even = stage(true, "done").sentence(0.625, 12.0);
+        assert_eq!(even, "2 of 3, finer grid: 25.0 % done after 12 s, about 36 s left");
+        let open = stage(false, "of the boundaries named").sentence(0.75, 9.0);
+        assert_eq!(open, "2 of 3, finer grid: 50.0 % of the boundaries named after 9 s");
     }
 }

@@ -35,6 +35,10 @@ fn of_tracks(error: &TrackError) -> Option<String> {
 /// The options that mend an error of a study or a plan.
 fn remedy(error: &Error) -> Option<&'static str> {
     Some(match error {
+        Error::Start { .. } => {
+            "; steady motions, also those that are not stable there, are listed by `motiform equilibria ... --json > FILE.json`, \
+             and --start FILE.json:NUMBER begins with one of them"
+        }
         Error::NoAxis { .. } => "; give --axis NAME=LOW:HIGH:COUNT, or axes in [scan]",
         Error::NoAlong => ": --along NAME=LOW:HIGH, or along in [continue]",
         Error::Setting { key: "curve", .. } => ": --in NAME,NAME=LOW:HIGH",

@@ -133,6 +133,11 @@ pub enum End {
         /// The time reached.
         time: f64,
     },
+    /// The period grows while the place stays: beside a connection of a saddle-focus a branch or a curve winds without an end.
+    Settles {
+        /// The period reached.
+        period: f64,
+    },
     /// The motion gains a symmetry: the branch meets its own images at a motion of more symmetry. The last point, a pitchfork of that
     /// motion, lies there.
     Meets {
@@ -209,6 +214,9 @@ impl std::fmt::Display for End {
             Self::StepUnderflow { step, why } => write!(f, "no point after a step of {step:.1e}: {why}"),
             Self::Homoclinic(connection) => write!(f, "{connection}"),
             Self::PeriodLimit { time } => write!(f, "the time of the orbit grew to {time}"),
+            Self::Settles { period } => {
+                write!(f, "the period grew to {period:.1} and the place did not change any more, as beside a connection")
+            }
             Self::Meets { parameter, gains } => {
                 let (meets, beyond) = match gains {
                     Broken::Mirror => ("the motion becomes its own mirror image", "its mirror image"),

@@ -4,6 +4,7 @@
 pub mod atlas;
 pub mod branches;
 pub mod curves;
+mod settles;
 mod verify;
 
 pub use branches::{

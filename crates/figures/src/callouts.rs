@@ -15,8 +15,10 @@ pub(crate) const POINT: f64 = 6.0;
 const GAPS: [f64; 5] = [2.0, 5.0, 10.0, 16.0, 24.0];
 /// The number of the distances that are near enough for words.
 const NEAR: usize = 2;
-/// From this distance on a line leads from the point to its number, in pixels.
+/// From this distance between ring and label on a line leads from the point to the label, in pixels.
 const LED: f64 = 4.0;
+/// Radius of the ring at a point, in pixels.
+const RING: f64 = 4.2;
 
 /// The surroundings of labels, which they must not hide.
 #[derive(Debug, Clone)]
@@ -47,10 +49,10 @@ impl Around<'_> {
     }
 
     /// The first place of a size beside a point that is clear; with `anyhow`, one on lines or, in the end, the first of all.
-    fn place(&self, at: Point, size: [f64; 2], gaps: &[f64], anyhow: bool) -> Option<(Rect, f64)> {
-        let all = || gaps.iter().flat_map(|gap| beside(at, size, *gap).map(|place| (place, *gap)));
-        let clear = all().find(|(place, _)| self.is_clear(place));
-        let free = || all().find(|(place, _)| self.is_free(place)).or_else(|| all().next());
+    fn place(&self, at: Point, size: [f64; 2], gaps: &[f64], anyhow: bool) -> Option<Rect> {
+        let all = || gaps.iter().flat_map(|gap| beside(at, size, *gap));
+        let clear = all().find(|place| self.is_clear(place));
+        let free = || all().find(|place| self.is_free(place)).or_else(|| all().next());
         clear.or_else(|| if anyhow { free() } else { None })
     }
 }
@@ -61,7 +63,16 @@ struct Placed {
     point: Point,
     words: Label,
     place: Rect,
-    gap: f64,
+}
+
+impl Placed {
+    /// The line from the point to the nearest place of its label, where that is not beside the ring.
+    fn leader(&self) -> Option<[Point; 2]> {
+        let Rect { x, y, .. } = self.place;
+        let [a, b] = self.point;
+        let near = [a.clamp(x, self.place.right()), b.clamp(y, self.place.bottom())];
+        ((near[0] - a).hypot(near[1] - b) - RING > LED).then_some([self.point, near])
+    }
 }
 
 /// The labels of points, and which of them are numbers.
@@ -98,17 +109,16 @@ impl Callouts {
         all
     }
 
-    fn put(&mut self, point: Point, words: Label, (place, gap): (Rect, f64), around: &mut Around<'_>) {
+    fn put(&mut self, point: Point, words: Label, place: Rect, around: &mut Around<'_>) {
         around.taken.push(place);
-        self.labels.push(Placed { point, words, place, gap });
+        self.labels.push(Placed { point, words, place });
     }
 
     /// Draws the labels, then the points, so that no label hides one. `corner` is where the frame lies on the sheet.
     pub(crate) fn draw(&self, svg: &mut Svg, [dx, dy]: Point) {
         let moved = |place: &Rect| Rect { x: place.x + dx, y: place.y + dy, ..*place };
-        for Placed { point: [x, y], place, .. } in self.labels.iter().filter(|label| label.gap > LED) {
-            let place = moved(place);
-            let line = [[x + dx, y + dy], [place.x + 0.5 * place.w, place.y + 0.5 * place.h]];
+        for [from, to] in self.labels.iter().filter_map(Placed::leader) {
+            let line = [from, to].map(|[x, y]| [x + dx, y + dy]);
             svg.line(line[0], line[1], &Paint::stroke(WHITE, 3.0).opacity(0.85));
             svg.line(line[0], line[1], &Paint::stroke(INK, 1.0));
         }
@@ -119,7 +129,7 @@ impl Callouts {
             svg.text(at, SIZE, Anchor::Start, words);
         }
         for Placed { point: [x, y], .. } in &self.labels {
-            Glyph::Ring.draw(svg, [x + dx, y + dy], 4.2, INK);
+            Glyph::Ring.draw(svg, [x + dx, y + dy], RING, INK);
         }
     }
 }
@@ -198,5 +208,16 @@ mod tests {
             let hit = |line: &Vec<Point>| crosses(&Rect { x, y, w, h }, line[0], line[1]);
             assert!(!line.iter().any(hit), "{label:?}");
         }
+    }
+
+    #[test]
+    fn a_label_that_is_not_beside_its_ring_is_led_to() {
+        let words = Label::parse("Bautin");
+        let [w, h] = size(&words);
+        let at = |x: f64, y: f64| Placed { point: [0.0, 0.0], words: words.clone(), place: Rect { x, y, w, h } };
+        assert_eq!(at(POINT + GAPS[0], -0.5 * h).leader(), None);
+        // above and to the right: farther from the ring than from the square around it
+        let corner = at(POINT + GAPS[0], -h - POINT - GAPS[0]).leader().expect("a line");
+        assert_eq!(corner, [[0.0, 0.0], [POINT + GAPS[0], -POINT - GAPS[0]]]);
     }
 }

@@ -62,11 +62,16 @@ pub(crate) struct Run {
     pub(crate) script: Script,
 }
 
-/// One line of rich text: `*x*` italic, `_2` or `_{max}` subscript, `^2` or `^{-1}` superscript, backslash literal.
+/// One line of rich text: `*x*` italic (digits of an index upright), `_2` or `_{max}` subscript, `^2` or `^{-1}` superscript, backslash literal.
 ///
 /// A hyphen before a digit becomes a true minus, unless it follows a letter or digit on the line.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Label(Vec<Set>);
+
+/// Returns `true` for the digits of an index or a power: they are upright, also of an italic symbol.
+fn is_number(c: char, script: Script) -> bool {
+    script != Script::Base && c.is_ascii_digit()
+}
 
 /// `text` with its markup characters taken literally: for file names and identifiers.
 #[must_use]
@@ -107,6 +112,7 @@ impl Label {
                 '-' if is_minus(&out, script, characters.peek()) => c = '\u{2212}',
                 _ => {}
             }
+            let face = if is_number(c, script) { Face::Regular } else { face };
             out.push(Set { character: if c.is_control() { ' ' } else { c }, face, script });
             if !braced {
                 script = Script::Base;

@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 
 import motiform
+from motiform._registry import NUMBERS
+from motiform.units import COLUMNS
 
 UNITS = "20um,3min"
 
@@ -140,3 +142,45 @@ def test_statistics_are_those_that_the_program_prints(binary: Path) -> None:
     assert found.plot("spectra").get_xlabel() == "frequency (cycles per min)"
     assert found.plot("speed", units=False).get_xlabel() == "speed (model length per model time)"
     assert found.plot("first_passage").get_ylabel() == "mean first-passage time (min)"
+
+
+def test_columns_of_motions_have_the_units_that_scans_state() -> None:
+    for name, _, unit in NUMBERS:
+        dimension = COLUMNS.get(name)
+        assert unit in ("", "1", "rad") if dimension is None else unit == motiform.units.name(None, dimension), name
+
+
+def test_branches_and_curves_are_converted_on_request(body: motiform.Model) -> None:
+    found = body.branches(("kappa2", 0.6, 0.9), branches=1, points=12)
+    other = found.in_units()
+    assert found.units == other.units == body.units and found.in_model_units and not other.in_model_units
+    for name, by in {"speed": 20.0 / 3.0, "turning_rate": 1.0 / 3.0, "period": 3.0, "kappa2": 1.0, "v1": 1.0}.items():
+        np.testing.assert_allclose(other.points[name], by * found.points[name], rtol=1e-14)
+    np.testing.assert_array_equal(other[0].points["period"], other.points["period"])
+    assert found.plot().get_ylabel() == "speed (µm/min)"
+    assert found.plot("period", units=False).get_ylabel() == "period (model time)"
+    with pytest.raises(ValueError, match="already"):
+        other.in_units()
+    with pytest.raises(ValueError, match="with units"):
+        other.plot()
+    curves = body.curves("symmetry-breaking", ("kappa2", 0.7, 0.85), ("kappa3", 0.48, 0.52), from_="zigzag", branches=1, points=8)
+    assert len(curves) >= 1 and curves.units == body.units
+    np.testing.assert_allclose(curves.in_units("1um,2s").points["period"], 2.0 * curves.points["period"], rtol=1e-14)
+    np.testing.assert_array_equal(curves.in_units().points["kappa2"], curves.points["kappa2"])
+
+
+def test_scans_and_atlases_are_converted_on_request(body: motiform.Model) -> None:
+    data = body.scan({"kappa2": [0.5, 0.8]})
+    other = data.motiform.in_units()
+    np.testing.assert_allclose(other["period"], 3.0 * data["period"], rtol=1e-14)
+    np.testing.assert_allclose(other["speed_mean"], 20.0 / 3.0 * data["speed_mean"], rtol=1e-14)
+    assert other["speed_mean"].attrs["units"] == "µm/min" and other["margin"].identical(data["margin"])
+    np.testing.assert_array_equal(other["kappa2"], data["kappa2"])
+    with pytest.raises(ValueError, match="already"):
+        other.motiform.in_units()
+    with pytest.raises(ValueError, match="the study has no units"):
+        motiform.preset("fig5a").scan({"kappa2": [0.5]}).motiform.in_units()
+    atlas = body.atlas({"kappa2": (1.2, 1.6, 3), "kappa3": (0.6, 1.0, 3)}, samples=1, lines=0)
+    assert atlas.units == body.units
+    np.testing.assert_allclose(atlas.in_units().cells["speed_mean"], 20.0 / 3.0 * atlas.cells["speed_mean"], rtol=1e-14)
+    assert atlas.in_units().summary == atlas.summary

@@ -3,7 +3,7 @@
 use crate::{Answer, Measured, Walk, four_digits};
 
 /// Difference of two values, in their half widths together, from which on they are not one number.
-const APART: f64 = 1.25;
+pub(crate) const APART: f64 = 1.25;
 
 /// A relative difference that is none: what the fit's own accuracy is.
 const ROUND: f64 = 0.003;

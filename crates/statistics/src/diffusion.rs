@@ -5,7 +5,8 @@ use crate::displacement::square_sums;
 use crate::jackknife::Sums;
 use crate::lag_window::Integral;
 use crate::plateau::{Estimate, difference, too_coarse};
-use crate::{Answer, Measured, Quantity, Result, Tracks};
+use crate::consistency::APART;
+use crate::{Answer, Measured, Quantity, Result, Tracks, with_error};
 use serde::Serialize;
 
 /// Most lags of the line.
@@ -24,6 +25,8 @@ pub struct Diffusion {
     pub lags: Option<[f64; 2]>,
     /// Intercept and slope of the line, for drawing.
     pub line: Option<[f64; 2]>,
+    /// Why the coefficient may not be that of long times ([`Diffusion::held_against`]); `None` where nothing says so.
+    pub doubt: Option<String>,
 }
 
 /// The diffusion coefficient by two ways over one window of lags, of any motion that diffuses in the end
@@ -78,13 +81,41 @@ pub(crate) fn remembering(tracks: &Tracks, memory: usize) -> Result<Diffusion> {
         displacements: displacements.answer(),
         lags: Some([line.lag(0), line.lag(line.lags.len() - 1)]),
         line: Some(line.fit(None)),
+        doubt: None,
     })
 }
 
 impl Diffusion {
     fn unknown(reason: impl Into<String>) -> Self {
         let unknown = Answer::unknown(reason);
-        Self { green_kubo: unknown.clone(), displacements: unknown, difference: None, lags: None, line: None }
+        Self {
+            green_kubo: unknown.clone(),
+            displacements: unknown,
+            difference: None,
+            lags: None,
+            line: None,
+            doubt: None,
+        }
+    }
+
+    /// The coefficient with a doubt, where the mean-square displacement does not grow in proportion to the lag over the longest lags: its
+    /// exponent there is not 1 within its error.
+    ///
+    /// # Checked by  tests/all/diffusion.rs: an Ornstein-Uhlenbeck process longer and shorter than its memory
+    #[must_use]
+    pub fn held_against(self, exponent: &Answer) -> Self {
+        let known = self.green_kubo.known().or(self.displacements.known());
+        let doubt = known.and(exponent.known()).and_then(|found| {
+            let apart = (found.value - 1.0).abs() > APART * found.half_width() && found.interval.is_some();
+            apart.then(|| {
+                format!(
+                    "the mean-square displacement grows as lag^{} over the last octave of lags, not as lag^1: \
+                     the motion may not diffuse yet, and the coefficient depends on the length of the record",
+                    with_error(found.value, found.half_width())
+                )
+            })
+        });
+        Self { doubt, ..self }
     }
 }
 

@@ -82,7 +82,8 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let lengths = || tracks.bodies().iter().map(|track| track.position.len());
     let [mean_speed, square] = [1, 2].map(|power| moment(tracks, power));
     let rms_speed = square.map(|x| x.max(0.0).sqrt());
-    let diffusion = diffusion::remembering(tracks, memory)?;
+    let exponents = [true, false].map(|first| local_exponent(&displacement, first));
+    let diffusion = diffusion::remembering(tracks, memory)?.held_against(&exponents[1]);
     let seen =
         Seen { speed: &rms_speed, diffusion: &diffusion.displacements, time: &autocorrelations[0].time };
     Ok(Statistics {
@@ -94,7 +95,7 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
         rms_speed,
         walk: persistent_walk(&displacement).held_against(&seen),
         diffusion,
-        exponents: [true, false].map(|first| local_exponent(&displacement, first)),
+        exponents,
         speeds: speeds(tracks),
         turning: turning_angles(tracks),
         passages: first_passages(tracks, &radii),

@@ -7,7 +7,7 @@ use crate::output::{End, plain, print, warn};
 use crate::progress::Progress;
 use motiform_analysis::Regime;
 use motiform_diagrams::atlas::{
-    AtlasFolder, Boundary, Grid, Line, atlas_summary, boundaries, regions, survey, trace,
+    AtlasFolder, Boundary, Grid, Line, Stage, atlas_summary, boundaries, regions, survey, trace,
 };
 use motiform_store::{Folder, Opening};
 use motiform_study::atlas::{AtlasPlan, AtlasSettings, axis, samples};
@@ -44,6 +44,9 @@ pub(crate) fn run(options: &AtlasOptions) -> anyhow::Result<End> {
     Ok(if atlas.grid.places.iter().any(undetermined) { End::NotAsAsked } else { End::Done })
 }
 
+/// Stages of [`survey`] and [`trace`].
+const STAGES: usize = 4;
+
 /// Cells, then lines, each with its progress; `None` if Ctrl-C was pressed.
 fn compute(
     options: &AtlasOptions,
@@ -51,14 +54,21 @@ fn compute(
     files: &Folder,
 ) -> Result<Option<(Grid, Vec<Line>)>, Error> {
     let threads = options.threads.count();
-    let watch = Progress::new(100.0, "% of the cells");
-    let grid = survey(plan, threads, files, &watch);
+    let watch = Progress::staged(STAGES);
+    let named = |stage: &Stage| {
+        let done = if stage.even { "done" } else { "of the boundaries named" };
+        watch.stage(&stage.name, stage.share, (done, stage.even));
+    };
+    let grid = survey(plan, threads, files, (&watch, &named));
+    let lines = match grid {
+        Ok(Some(grid)) => {
+            let lines = trace(plan, &grid, threads, files, (&watch, &named));
+            lines.map(|lines| lines.map(|lines| (grid, lines)))
+        }
+        other => other.map(|_| None),
+    };
     watch.finish();
-    let Some(grid) = grid? else { return Ok(None) };
-    let watch = Progress::new(100.0, "% of the boundaries");
-    let lines = trace(plan, &grid, threads, files, &watch);
-    watch.finish();
-    Ok(lines?.map(|lines| (grid, lines)))
+    Ok(lines?)
 }
 
 fn settings(options: &AtlasOptions) -> AtlasSettings {

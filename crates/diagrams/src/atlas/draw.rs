@@ -3,8 +3,9 @@
 use crate::atlas::boundary::connection_words;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::inset::insets;
+use crate::atlas::points::special_points;
 use crate::branches::draw::{curve_mark, curve_stretches, marks_together, unlocated};
-use crate::curves::{CurveSample, codimension_2};
+use crate::curves::CurveSample;
 use motiform_continuation::Degenerate;
 use motiform_figures::{Cell, CurveMap, MapEnd, PhaseDiagram};
 use motiform_lab::draw::{FigureFormat, Picture, files, symbol, words};
@@ -41,14 +42,14 @@ pub fn atlas_map(folder: &AtlasFolder) -> Result<CurveMap, Error> {
         insets: insets(folder)?,
         curves: stretches.collect(),
         ends: ends.map(|end| MapEnd { label: connection_words(end.kind).to_owned(), at: end.at }).collect(),
-        marks: marks_together(points(folder).filter_map(curve_mark), [x, y]),
+        marks: marks_together(points(folder).into_iter().filter_map(curve_mark), [x, y]),
     })
 }
 
 /// The points of codimension two on curves that bound regions.
-fn points(folder: &AtlasFolder) -> impl Iterator<Item = (Degenerate, &CurveSample)> {
-    let curves = folder.lines.iter().flat_map(|line| &line.curves);
-    curves.flat_map(|one| codimension_2(&one.curve)).filter(|(_, sample)| sample.unstable == 0)
+fn points(folder: &AtlasFolder) -> Vec<(Degenerate, &CurveSample)> {
+    let all = special_points(folder).into_iter();
+    all.filter(|point| point.sample.unstable == 0).map(|point| (point.kind, point.sample)).collect()
 }
 
 /// The motions of the cells.
@@ -88,6 +89,6 @@ fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
             grid.places.len(),
         ),
     ];
-    all.extend(unlocated(points(folder)));
+    all.extend(unlocated(points(folder).into_iter()));
     Ok(all)
 }

@@ -4,9 +4,11 @@ use crate::atlas::boundary::{Boundary, boundaries, connection_words};
 use crate::atlas::draw::atlas_map;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::grid::Found;
+use crate::atlas::points::special_points;
 use crate::atlas::region::{Region, regions};
 use crate::atlas::summary::words;
-use crate::curves::{codimension_2, curve_ends};
+use crate::branches::draw::curve_words;
+use crate::curves::curve_ends;
 use motiform_figures::Style;
 use motiform_figures::report::{Cell, Report, ReportFigure, Section, Table};
 use motiform_lab::draw::{sheet_in, symbol};
@@ -125,24 +127,23 @@ fn boundary_table(folder: &AtlasFolder) -> Table {
 
 fn point_table(folder: &AtlasFolder) -> Result<Table, Error> {
     let [x, y] = places(folder)?;
-    let row = |kind: String, motion: &str, at: [f64; 2]| {
+    let row = |kind: String, motion: &str, at: [f64; 2], period: Option<f64>| {
         vec![
             Cell::text(kind),
             Cell::text(motion),
             Cell::number(format!("{:.6}", at[0])),
             Cell::number(format!("{:.6}", at[1])),
+            Cell::number(period.map_or_else(|| "-".to_owned(), |period| format!("{period:.4}"))),
         ]
     };
-    let curves = folder.lines.iter().flat_map(|line| &line.curves);
-    let marks = curves.flat_map(|one| codimension_2(&one.curve).into_iter().map(move |found| (one, found)));
-    let marks = marks.map(|(one, (kind, sample))| {
-        row(format!("{} on {}", kind.name(), one.curve.kind.name()), one.motion.name(), sample.parameters)
+    let marks = special_points(folder).into_iter().map(|point| {
+        row(point.words(), point.on.motion.name(), point.sample.parameters, point.sample.period)
     });
     let ends = folder.lines.iter().flat_map(|line| &line.ends);
-    let ends = ends.map(|end| row(connection_words(end.kind).to_owned(), end.motion.name(), end.at));
+    let ends = ends.map(|end| row(connection_words(end.kind).to_owned(), end.motion.name(), end.at, None));
     Ok(Table {
         caption: String::new(),
-        head: vec!["What".into(), "Motion".into(), x, y],
+        head: vec!["What".into(), "Motion".into(), x, y, "Period".into()],
         rows: marks.chain(ends).collect(),
     })
 }
@@ -156,7 +157,7 @@ fn line_table(folder: &AtlasFolder) -> Result<Table, Error> {
             let ends = curve_ends(&plan, &one.curve).join("; ");
             let refused =
                 one.curve.refused.as_ref().map_or(String::new(), |why| format!(", not followed: {why}"));
-            format!("{} of {} motion (ends: {ends}{refused})", one.curve.kind.name(), one.motion)
+            format!("{} of {} motion (ends: {ends}{refused})", curve_words(one.curve.kind), one.motion)
         });
         rows.push(vec![
             Cell::number(format!("{}, {}", number(line.at[0]), number(line.at[1]))),

@@ -2,8 +2,8 @@
 
 use crate::atlas::boundary::{Boundary, boundaries, connection_words};
 use crate::atlas::folder::AtlasFolder;
+use crate::atlas::points::special_points;
 use crate::atlas::region::{Region, regions};
-use crate::curves::codimension_2;
 use motiform_analysis::Regime;
 use serde_json::{Map, Value, json};
 
@@ -19,10 +19,14 @@ pub fn atlas_summary(folder: &AtlasFolder) -> Value {
     let boundaries = boundaries(plan, grid, lines);
     let all: usize = boundaries.iter().map(|boundary| boundary.edges).sum();
     let unnamed: usize = boundaries.iter().map(|boundary| boundary.unnamed).sum();
+    let special = special_points(folder);
     let curves = lines.iter().flat_map(|line| &line.curves).map(|one| {
-        let points = codimension_2(&one.curve).into_iter();
-        let marks: Vec<Value> = points
-            .map(|(kind, sample)| json!({ "kind": kind.name(), "at": place(sample.parameters) }))
+        let own = special.iter().filter(|point| std::ptr::eq(point.on, one));
+        let marks: Vec<Value> = own
+            .map(|point| {
+                let sample = point.sample;
+                json!({ "kind": point.kind.name(), "at": place(sample.parameters), "period": sample.period })
+            })
             .collect();
         json!({
             "kind": one.curve.kind,

@@ -15,7 +15,21 @@ const STRIDES: [usize; 3] = [4, 2, 1];
 /// Cells that are computed and kept together: a kill costs these at most.
 const TOGETHER: usize = 192;
 
-/// Classifies the cells of a plan; `None` if the watch stopped it: what is finished is in the journal.
+/// A stage of the work on an atlas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// Its name.
+    pub name: String,
+    /// Its part of the progress of the call that it belongs to.
+    pub share: [f64; 2],
+    /// `true` if equal parts of its progress take about equal times.
+    pub even: bool,
+}
+
+/// Names of the stages of [`survey()`], one for each of [`STRIDES`].
+const NAMES: [&str; 3] = ["coarse grid", "finer grid where motions differ", "finest grid where motions differ"];
+
+/// Classifies the cells of a plan; `None` if the watch stopped it: what is finished is in the journal. `begins` is told each stage.
 ///
 /// # Errors
 /// Those of the journal, and of the models.
@@ -23,7 +37,7 @@ pub fn survey(
     plan: &AtlasPlan,
     threads: usize,
     journal: &dyn Journal,
-    watch: &dyn Watch,
+    (watch, begins): (&dyn Watch, &dyn Fn(&Stage)),
 ) -> Result<Option<Grid>, Error> {
     let scan = plan.scan();
     let size = [0, 1].map(|side| scan.computation.axes[side].values.len());
@@ -32,6 +46,8 @@ pub fn survey(
         let share = |level: usize| level as f64 / STRIDES.len() as f64;
         let part = Part { watch, from: share(level), to: share(level + 1) };
         let wanted = work.wanted(level, stride);
+        let name = format!("{} cells of the {}", wanted.len(), NAMES[level]);
+        begins(&Stage { name, share: [share(level), share(level + 1)], even: true });
         if !work.compute((level, &wanted), &part)? {
             return Ok(None);
         }

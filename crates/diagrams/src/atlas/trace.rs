@@ -4,6 +4,7 @@ use crate::atlas::boundary::{Atlas, Edge, Pair, differing, edges, pieces};
 use crate::atlas::folder::parsed;
 use crate::atlas::grid::Grid;
 use crate::atlas::line::{Course, Line, Task, course, read_line};
+use crate::atlas::survey::Stage;
 use motiform_analysis::Regime;
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_lab::pool::each;
@@ -26,7 +27,8 @@ const CLOSE: f64 = 2.5;
 /// make such cells.
 const SHORTEST: usize = 5;
 
-/// Follows lines across the boundaries of a grid; `None` if the watch stopped it: what is finished is in the journal.
+/// Follows lines across the boundaries of a grid; `None` if the watch stopped it: what is finished is in the journal. The progress is
+/// the part of the boundaries that has a name: no measure of the time that is left, as `begins` is told.
 ///
 /// # Errors
 /// Those of the journal, and of the models.
@@ -35,12 +37,14 @@ pub fn trace(
     grid: &Grid,
     threads: usize,
     journal: &dyn Journal,
-    watch: &dyn Watch,
+    (watch, begins): (&dyn Watch, &dyn Fn(&Stage)),
 ) -> Result<Option<Vec<Line>>, Error> {
     let scan = plan.scan();
     let labels = grid.labels();
     let all = edges(grid, &labels);
     let mut work = Work { plan, scan: &scan, grid, labels: &labels, lines: Vec::new(), vain: Vec::new() };
+    let name = format!("bifurcations at the boundaries (at most {} lines)", plan.computation.lines);
+    begins(&Stage { name, share: [0.0, 1.0], even: false });
     for round in 0.. {
         let open = work.open(&all);
         watch.progress(1.0 - open.len() as f64 / all.len().max(1) as f64);

@@ -39,6 +39,11 @@ impl<'p> Bodies<'p> {
         Self { allowance, ..self }
     }
 
+    /// Returns `true` if no more than an allowance is spent.
+    pub(crate) const fn is_bounded(&self) -> bool {
+        self.allowance.is_some()
+    }
+
     /// Returns `true` if the work that is allowed is done.
     pub(crate) fn is_spent(&self) -> bool {
         self.allowance.is_some_and(Allowance::is_spent)

@@ -7,7 +7,8 @@ use super::origin::{Origin, sides};
 use super::reading::Reading;
 use super::result::{Branches, Followed, Leg, Link, Sample};
 use super::sweep::sweeps;
-use motiform_continuation::{Allowance, Branch, End};
+use crate::settles::settles;
+use motiform_continuation::{Allowance, Branch, End, Special};
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_store::Journal;
 use motiform_study::{BranchPlan, Error, Stride};
@@ -15,6 +16,9 @@ use motiform_study::{BranchPlan, Error, Stride};
 /// A new branch is compared with the others over so many points, and over fewer and fewer of the later ones: near a special point Newton's
 /// method may confuse the branches that meet there.
 const COMPARED: usize = 8;
+
+/// The part of a plane that a branch within an allowance goes through.
+const PART_OF_PLANE: f64 = 0.3;
 
 /// Takes the branches that there are.
 pub type Keep<'k> = dyn FnMut(&Branches) -> Result<(), Error> + 'k;
@@ -44,7 +48,7 @@ pub fn follow_kept(
 }
 
 /// As [`follow()`]; no more is spent on orbits than the allowance. A branch on which it is spent ends with [`End::Spent`], and what would
-/// begin after it is not followed.
+/// begin after it is not followed; one that winds about a connection ends with [`End::Settles`].
 ///
 /// # Errors
 /// As [`follow()`].
@@ -209,9 +213,23 @@ impl Work<'_> {
             }
             samples.push(sample);
             self.progress(samples.len());
+            if let Some(period) = self.winds(&samples) {
+                return Ok(Some(Leg { samples, end: End::Settles { period } }));
+            }
         }
         let end = branch.end().cloned().unwrap_or(End::Stopped);
         Ok(Some(Leg { samples, end }))
+    }
+
+    /// The period of the last point, if work is bounded and the branch winds about a connection: its folds have one place.
+    fn winds(&self, samples: &[Sample]) -> Option<f64> {
+        let along = &self.bodies.plan.computation.along;
+        // a line of an atlas is a part of the plane
+        let width = (along.to - along.from) / PART_OF_PLANE;
+        let place = |sample: &Sample| Some((sample.reading.period?, [sample.point.parameter / width]));
+        let from = self.bodies.is_bounded().then(|| settles(samples.iter().map(place)))??;
+        let folds = samples[from..].iter().filter(|sample| sample.point.special == Some(Special::Fold));
+        if folds.count() < 2 { None } else { samples.last()?.reading.period }
     }
 
     /// Progress of the work: branches, of as many as there may be, and the points of this one.

@@ -42,8 +42,25 @@ pub(super) fn passes(pair: &[CurveSample], target: &Target) -> bool {
     missed <= NEAR.0 * stretch + NEAR.1 * target.width
 }
 
+/// Returns `true` if two points of codimension two, located on two curves or on one, are one point: of one kind and period, and no farther
+/// apart than places on curves are told. Each comes with the length of the curve beside it (across and upwards).
+pub(crate) fn same_point(
+    [a, b]: [(&CurveSample, [f64; 2]); 2],
+    widths: [f64; 2],
+) -> bool {
+    let is_near = |side: usize| {
+        let missed = (a.0.parameters[side] - b.0.parameters[side]).abs();
+        missed <= NEAR.0 * a.1[side].max(b.1[side]) + NEAR.1 * widths[side]
+    };
+    a.0.degenerate == b.0.degenerate && (0..2).all(is_near) && same(a.0.period, b.0.period)
+}
+
 fn same_period(sample: &CurveSample, target: &Target) -> bool {
-    match (sample.period, target.period) {
+    same(sample.period, target.period)
+}
+
+fn same(period: Option<f64>, other: Option<f64>) -> bool {
+    match (period, other) {
         (Some(a), Some(b)) => (a - b).abs() <= PERIOD * b,
         (None, None) => true,
         _ => false,

@@ -5,6 +5,7 @@ use super::family::PlaneBodies;
 use crate::branches::family::{Bodies, lasting};
 use crate::branches::follow::follow_kept;
 use crate::branches::result::{Branches, Sample};
+use crate::settles::settles;
 use motiform_continuation::{Allowance, Curve, CurvePoint, Degenerate, End, Motion, Point, Special};
 use motiform_dynamics::{Part, Watch};
 use motiform_lab::pool::each;
@@ -169,7 +170,7 @@ pub fn follow_curve(
 }
 
 /// As [`follow_curve`]; no more is spent on orbits than the allowance, one half of it to each side: a side on which that is spent ends with
-/// [`End::Spent`].
+/// [`End::Spent`], and one that winds about a connection with [`End::Settles`].
 ///
 /// # Errors
 /// As [`follow_curve`].
@@ -240,6 +241,9 @@ fn leg(
         if watch.stopped() {
             return Err(Error::Interrupted);
         }
+        if let Some(period) = allowance.and_then(|_| settled(plan, &samples)) {
+            return Ok(Ok((CurveLeg { samples, end: End::Settles { period } }, curve.sought())));
+        }
         if comes_back(plan, &samples) {
             return Ok(Ok((CurveLeg { samples, end: End::Closed }, curve.sought())));
         }
@@ -249,6 +253,20 @@ fn leg(
         return Err(Error::Interrupted);
     }
     Ok(Ok((CurveLeg { samples, end }, curve.sought())))
+}
+
+/// The period of the last point, if the curve is one of orbits and its place has settled.
+fn settled(plan: &CurvePlan, samples: &[CurveSample]) -> Option<f64> {
+    let plane = &plan.computation.plane;
+    let place = |sample: &CurveSample| {
+        [0, 1].map(|side| sample.parameters[side] / (plane[side].to - plane[side].from))
+    };
+    let of_orbit = |sample: &CurveSample| match sample.special {
+        Special::Hopf(_) => None,
+        _ => Some((sample.period?, place(sample))),
+    };
+    settles(samples.iter().map(of_orbit))?;
+    samples.last()?.period
 }
 
 /// Returns `true` if the last step passed the start, in the direction in which it was left.

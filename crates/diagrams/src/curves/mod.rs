@@ -12,6 +12,7 @@ mod follow;
 mod summary;
 mod table;
 
+pub(crate) use crossing::same_point;
 pub use folder::CurveFolder;
 pub use follow::{
     CurveLeg, CurveSample, Curves, FollowedCurve, follow_curve, follow_curve_within, follow_curves,

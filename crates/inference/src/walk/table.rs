@@ -17,6 +17,9 @@ const ENDS: (f64, f64) = (0.03, 30.0);
 /// interval; beside them no error at all.
 const ERRORS: (f64, f64) = (-3.0, 4.0);
 
+/// The last step of the logarithm of the persistence time.
+const CLOSE: f64 = 1e-6;
+
 /// The quantity that an interval is computed for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Known {
@@ -86,7 +89,13 @@ impl Table {
             }
         }
         let best = *entries.iter().max_by(|a, b| a.highest().total_cmp(&b.highest()))?;
-        best.highest().is_finite().then_some(Self { entries, best })
+        if !best.highest().is_finite() {
+            return None;
+        }
+        let steps = [0, 1].map(|k| (area[k][1] - area[k][0]) / (size[k] - 1) as f64);
+        let best = refined(pieces, interval, (best, steps), ends);
+        entries.push(best);
+        Some(Self { entries, best })
     }
 
     pub(super) fn highest(&self) -> f64 {
@@ -174,6 +183,32 @@ fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
         kept.push(c);
     }
     kept
+}
+
+/// The walk of highest likelihood near the best one of a grid: from it in steps along each side, halved where none leads higher. An
+/// error of 0 stays 0.
+fn refined(pieces: &[Vec<Fix>], interval: f64, (mut best, mut steps): (Entry, [f64; 2]), ends: [f64; 2]) -> Entry {
+    let entry = |[time, error]: [f64; 2]| {
+        let persistence = libm::exp(time);
+        let error = libm::exp(error) * step_variance(persistence, interval); // exp(-inf) = 0: no error
+        Entry { persistence, error, sums: sums(pieces, persistence, error) }
+    };
+    let relative = libm::log(best.error / step_variance(best.persistence, interval));
+    let mut at = [libm::log(best.persistence), relative];
+    let reach = [ends, [ERRORS.0 * LN_10, ERRORS.1 * LN_10]];
+    let sides = if best.error > 0.0 { 2 } else { 1 };
+    while steps[0] > CLOSE {
+        let tried = (0..sides).flat_map(|side| [-1.0, 1.0].map(|sign| (side, sign))).map(|(side, sign)| {
+            let mut other = at;
+            other[side] = (at[side] + sign * steps[side]).clamp(reach[side][0], reach[side][1]);
+            (entry(other), other)
+        });
+        match tried.max_by(|a, b| a.0.highest().total_cmp(&b.0.highest())) {
+            Some((higher, place)) if higher.highest() > best.highest() => (best, at) = (higher, place),
+            _ => steps = steps.map(|step| 0.5 * step),
+        }
+    }
+    best
 }
 
 /// Points of a side.

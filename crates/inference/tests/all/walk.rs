@@ -110,6 +110,26 @@ fn intervals_hold_the_truth() {
 }
 
 /// Steps without memory set no lower bound to P, and D all the same; a path that keeps its velocity sets no upper one.
+/// The estimates are those of highest likelihood, and not the nearest ones of a grid: any other walk nearby has a smaller one.
+#[test]
+fn the_estimates_have_the_highest_likelihood() {
+    for seed in 1..=6 {
+        let fixes = walk([6.0, 0.8, 0.1], (1.0, 200), 1.0, seed);
+        let walk = found(&fixes);
+        let [p, s, e] = [walk.persistence.value, walk.speed.value, walk.error.value];
+        let likelihood = |p: f64, s: f64, e: f64| walk_likelihood(std::slice::from_ref(&fixes), p, s, e);
+        let highest = likelihood(p, s, e);
+        assert!((highest - walk.log_likelihood).abs() < 1e-7 * highest.abs().max(1.0));
+        for step in [1e-3, 1e-2] {
+            for by in [1.0 - step, 1.0 + step] {
+                for other in [likelihood(p * by, s, e), likelihood(p, s * by, e), likelihood(p * by, s / by.sqrt(), e)] {
+                    assert!(other <= highest + 1e-9, "seed {seed}, {by}: {other} above {highest}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn what_the_places_do_not_bound_is_open() {
     let free = found(&walk([0.01, 10.0, 0.0], (1.0, 400), 1.0, 5)); // D = 0.5

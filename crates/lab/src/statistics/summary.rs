@@ -170,6 +170,7 @@ fn diffusion(found: &Diffusion, units: &Shown) -> Vec<(&'static str, String)> {
             ),
         )
     }));
+    all.extend(found.doubt.iter().map(|doubt| ("", format!("in doubt: {doubt}"))));
     all
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ import pandas as pd
 
 from . import _motiform, plotting
 from .branches import _points
+from .units import Asked, Units, chosen, table_in
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,7 +60,7 @@ class Atlas:
     boundaries: tuple[Boundary, ...]
     """The boundaries, the longest first."""
     special: pd.DataFrame
-    """Points of codimension two on the curves, and connections in which motions end: ``kind``, ``motion``, the ``curve`` (-1 for an end), both parameters."""
+    """Points of codimension two on the curves, and connections in which motions end: ``kind``, ``motion``, the ``curve`` (-1 for an end), both parameters, ``period``."""
     cells: pd.DataFrame
     """A row per cell and motion: the parameters, ``regime``, the ``rows`` (initial states) that lead to it, ``computed``, and its numbers."""
     curves: pd.DataFrame
@@ -67,6 +68,19 @@ class Atlas:
     summary: Mapping[str, Any]
     """Everything that ``motiform atlas --json`` prints."""
     _native: _motiform.Atlas
+    units: Units | None = None
+    """What a unit of length and one of time are, if the study says it."""
+    in_model_units: bool = True
+    """Whether the tables are in model units: false of what :meth:`in_units` returns."""
+
+    def in_units(self, units: Asked = True) -> Atlas:
+        """A copy with the speeds, rates and times of its tables in the units of the study, or in others (``"20um,1min"``). Parameters and
+        `summary` stay in model units."""
+        if not self.in_model_units:
+            raise ValueError(f"the atlas is in {self.units} already")
+        shown = chosen(units, self.units)
+        cells, curves, special = (table_in(table, shown) for table in (self.cells, self.curves, self.special))
+        return replace(self, cells=cells, curves=curves, special=special, units=shown, in_model_units=shown is None)
 
     def grid(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.object_]]:
         """The values across, the values upwards, and the motions of each cell as text (``circular + zigzag``), upwards and across."""
@@ -118,12 +132,12 @@ def axis_text(name: str, values: Any) -> str:
     return ":".join([f"{name}={low}", high, *(str(int(part)) for part in parts[2:])])
 
 
-def atlas_of(native: _motiform.Atlas) -> Atlas:
+def atlas_of(native: _motiform.Atlas, units: Units | None = None) -> Atlas:
     """The atlas of the native module's summary and tables."""
     raw = json.loads(native.summary())
     across, upwards = (side["name"] for side in raw["plane"])
     points = [
-        {"kind": mark["kind"], "motion": curve["motion"], "curve": number, **mark["at"]}
+        {"kind": mark["kind"], "motion": curve["motion"], "curve": number, **mark["at"], "period": mark["period"]}
         for number, curve in enumerate(raw["curves"])
         for mark in curve["codimension_2"]
     ]
@@ -133,11 +147,12 @@ def atlas_of(native: _motiform.Atlas) -> Atlas:
         (across, upwards),
         tuple(Region(tuple(one["motions"]), one["share"], one["inside"]) for one in raw["regions"]),
         tuple(_boundary(one) for one in raw["boundaries"]),
-        pd.DataFrame(points, columns=["kind", "motion", "curve", across, upwards]),
+        pd.DataFrame(points, columns=["kind", "motion", "curve", across, upwards, "period"]),
         cells,
         curves,
         raw,
         native,
+        units,
     )
 
 

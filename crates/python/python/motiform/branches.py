@@ -7,12 +7,13 @@ import io
 import json
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from . import plotting
+from .units import Asked, Units, chosen, table_in
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,6 +58,10 @@ class Branches:
     """The points of all branches; the column ``branch`` says which."""
     complete: bool
     """Whether nothing was interrupted."""
+    units: Units | None = None
+    """What a unit of length and one of time are, if the study says it."""
+    in_model_units: bool = True
+    """Whether the tables are in model units: false of what :meth:`in_units` returns."""
 
     def __len__(self) -> int:
         return len(self.branches)
@@ -71,9 +76,25 @@ class Branches:
         filled = [table for table in tables if len(table)]
         return pd.concat(filled, ignore_index=True) if filled else pd.DataFrame(columns=["kind", self.along])
 
-    def plot(self, y: str = "speed", ax: Axes | None = None) -> Axes:
-        """The bifurcation diagram: the size of the column `y` against the parameter."""
-        return plotting.plot_branches(self, y, ax)
+    def in_units(self, units: Asked = True) -> Branches:
+        """A copy with speeds, turning rates and periods in the units of the study, or in others (``"20um,1min"``). Parameters, states,
+        eigenvalues and coefficients stay in model units."""
+        if not self.in_model_units:
+            raise ValueError(f"the branches are in {self.units} already")
+        shown = chosen(units, self.units)
+        made = tuple(
+            replace(branch, points=table_in(branch.points, shown), special=table_in(branch.special, shown))
+            for branch in self.branches
+        )
+        points = table_in(self.points, shown)
+        return replace(self, branches=made, points=points, units=shown, in_model_units=shown is None)
+
+    def plot(self, y: str = "speed", ax: Axes | None = None, *, units: Asked = None) -> Axes:
+        """The bifurcation diagram: the size of the column `y` against the parameter, in the units of the study, or in those that are given."""
+        if not self.in_model_units:
+            raise ValueError("plot the branches from which these were converted, with units")
+        shown = self.units if units is None else chosen(units, self.units)
+        return plotting.plot_branches(self.in_units(shown or False), y, ax)
 
     def __repr__(self) -> str:
         motions = ", ".join(branch.motion for branch in self.branches)
@@ -98,7 +119,7 @@ def _points(table: bytes) -> pd.DataFrame:
     return pd.DataFrame({name: [_READ.get(name, _number)(text) for text in column] for name, column in columns.items()})
 
 
-def branches_of(text: str, table: bytes) -> Branches:
+def branches_of(text: str, table: bytes, units: Units | None = None) -> Branches:
     """The branches of the native module's JSON and CSV."""
     raw = json.loads(text)
     points = _points(table)
@@ -112,4 +133,4 @@ def branches_of(text: str, table: bytes) -> Branches:
         )
 
     all_branches = tuple(branch(number, entry) for number, entry in enumerate(raw["branches"]))
-    return Branches(raw["along"]["name"], all_branches, points, raw["complete"])
+    return Branches(raw["along"]["name"], all_branches, points, raw["complete"], units)

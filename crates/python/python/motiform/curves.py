@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from . import plotting
 from .branches import _points
+from .units import Asked, Units, chosen, table_in
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -46,6 +47,10 @@ class Curves:
     """The points of all curves; the column ``curve`` says which."""
     complete: bool
     """Whether nothing was interrupted."""
+    units: Units | None = None
+    """What a unit of length and one of time are, if the study says it."""
+    in_model_units: bool = True
+    """Whether the tables are in model units: false of what :meth:`in_units` returns."""
 
     def __len__(self) -> int:
         return len(self.curves)
@@ -60,6 +65,19 @@ class Curves:
         filled = [table for table in tables if len(table)]
         return pd.concat(filled, ignore_index=True) if filled else pd.DataFrame(columns=["kind", *self.parameters])
 
+    def in_units(self, units: Asked = True) -> Curves:
+        """A copy with periods in the units of the study, or in others (``"20um,1min"``). Parameters, states, eigenvalues and coefficients
+        stay in model units."""
+        if not self.in_model_units:
+            raise ValueError(f"the curves are in {self.units} already")
+        shown = chosen(units, self.units)
+        made = tuple(
+            replace(curve, points=table_in(curve.points, shown), codimension_2=table_in(curve.codimension_2, shown))
+            for curve in self.curves
+        )
+        points = table_in(self.points, shown)
+        return replace(self, curves=made, points=points, units=shown, in_model_units=shown is None)
+
     def plot(self, ax: Axes | None = None) -> Axes:
         """The curves in their plane, on the axes of a diagram of regimes if that is given as `ax`."""
         return plotting.plot_curves(self, ax)
@@ -69,7 +87,7 @@ class Curves:
         return f"<{len(self)} curves over {' and '.join(self.parameters)}: {kinds}>"
 
 
-def curves_of(text: str, table: bytes) -> Curves:
+def curves_of(text: str, table: bytes, units: Units | None = None) -> Curves:
     """The curves of the native module's JSON and CSV."""
     raw = json.loads(text)
     points = _points(table)
@@ -83,4 +101,4 @@ def curves_of(text: str, table: bytes) -> Curves:
 
     across, upwards = (side["name"] for side in raw["in"])
     curves = tuple(curve(number, entry) for number, entry in enumerate(raw["curves"]))
-    return Curves((across, upwards), curves, points, raw["complete"])
+    return Curves((across, upwards), curves, points, raw["complete"], units)

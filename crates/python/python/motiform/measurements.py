@@ -87,6 +87,8 @@ class Statistics:
     """What a unit of length and one of time are, if the study says it."""
     in_model_units: bool = True
     """Whether numbers and tables are in model units: false of what :meth:`in_units` returns."""
+    doubt: str | None = None
+    """Why the diffusion coefficients may not be those of long times; ``None`` where nothing says so."""
 
     def to_xarray(self) -> xr.Dataset:
         """Displacements along ``lag``, and the correlations of each quantity along ``time_lag``."""
@@ -198,4 +200,5 @@ def statistics_from(text: str, tables: Sequence[tuple[str, bytes]], units: Units
         frames["first_passage"],
         raw,
         units,
+        doubt=raw["diffusion"]["doubt"],
     )

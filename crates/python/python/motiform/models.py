@@ -142,7 +142,7 @@ class Model(Analysed):
         with Bar(progress, branches, "branches") as bar:
             point = None if start is None else os.fspath(start)
             text, table, raised = _motiform.follow_branches(study, settings, point, bar.callable())
-        result = branches_of(text, table)
+        result = branches_of(text, table, self.units)
         if raised is not None:
             raise raised_with(raised, result)
         return result
@@ -228,7 +228,7 @@ class Model(Analysed):
         }  # fmt: skip
         with Bar(progress, 1, "of branches and curves") as bar:
             text, table, raised = _motiform.follow_curves(study, settings, bar.callable())
-        result = curves_of(text, table)
+        result = curves_of(text, table, self.units)
         if raised is not None:
             raise raised_with(raised, result)
         return result
@@ -276,7 +276,7 @@ class Model(Analysed):
             native = _motiform.make_atlas(study, names, counts, steady, place, bar.callable())
         if native is None:
             raise KeyboardInterrupt
-        return atlas_of(native)
+        return atlas_of(native, self.units)
 
     def __call__(self, t: float, u: npt.ArrayLike) -> Floats:
         """The vector field: d/dt of the coordinates at `u`, for integrators such as ``scipy.integrate.solve_ivp``.

@@ -213,7 +213,9 @@ def plot_branches(found: Branches, y: str, ax: Axes | None) -> Axes:
             ax.plot(here[found.along], here[y].abs(), zorder=3, **style)
             keys.append(Line2D([], [], label=kind, **style))
     ax.legend(handles=keys, fontsize="small")
-    ax.set(xlabel=found.along, ylabel=y)
+    known = dimensions("motion")
+    ylabel = label(y.replace("_", " "), found.units, known[y]) if y in known else y
+    ax.set(xlabel=found.along, ylabel=ylabel)
     return ax
 
 

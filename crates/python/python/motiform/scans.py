@@ -21,6 +21,8 @@ from .errors import Incomplete, Interrupted
 from .executors import gather
 from .models import Model
 from .progress import Bar, Progress
+from .units import Asked, Units, chosen, dimensions, factor
+from .units import name as unit_name
 
 Axes = Mapping[str, "str | npt.ArrayLike"]
 Path = str | os.PathLike[str]
@@ -110,6 +112,8 @@ def scan(
             table = Table(plan, why)
             raised = gather(plan, executor, table, None, bar.callable())
             result = dataset(plan, table.arrays())
+    if model.units is not None:
+        result.attrs["units"] = str(model.units)
     if raised is not None:
         raise Interrupted(result) if isinstance(raised, KeyboardInterrupt) else raised
     return result
@@ -231,6 +235,24 @@ class ScanAccessor:
             names = self._data[name].attrs["flag_meanings"].split()
             frame[name] = pd.Categorical.from_codes(frame[name].to_numpy(), categories=names)
         return frame
+
+    def in_units(self, units: Asked = True) -> xr.Dataset:
+        """A copy with speeds, rates, times and lengths in the units of the model that was scanned, or in others (``"20um,1min"``), as their
+        ``units`` say. Axes, which are parameters or coordinates, stay in model units."""
+        if "in_units" in self._data.attrs:
+            raise ValueError(f"the numbers are in {self._data.attrs['in_units']} already")
+        own = self._data.attrs.get("units")
+        shown = chosen(units, None if own is None else Units(own))
+        if shown is None:
+            return self._data.copy()
+        named = {name: power for name, power in dimensions("motion").items() if name in self._data.data_vars}
+        made = {
+            name: (self._data[name] * factor(shown, dimension)).assign_attrs(
+                self._data[name].attrs | {"units": unit_name(shown, dimension)}
+            )
+            for name, dimension in named.items()
+        }
+        return self._data.assign(made).assign_attrs(self._data.attrs | {"in_units": str(shown)})
 
     def plot(self, ax: Any = None) -> Any:
         """The phase diagram: the most frequent motion of each cell, in the colours of every figure of motiform."""

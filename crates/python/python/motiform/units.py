@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any, TypeVar
 
 import numpy as np
+import pandas as pd
 
 from . import _motiform
 
@@ -91,6 +92,14 @@ def label(quantity: str, units: Units | None, dimension: Dimension) -> str:
     """The label of an axis with its unit, exponents as Matplotlib sets them."""
     unit = re.sub(r"\^(-?\d+)", r"$^{\1}$", name(units, dimension))
     return f"{quantity} ({unit})" if unit else quantity
+
+
+def table_in(table: pd.DataFrame, units: Units | None) -> pd.DataFrame:
+    """A copy of a table of motions with its columns in other units; states, eigenvalues and parameters stay in model units."""
+    known = dimensions("motion")
+    named = [column for column in table.columns if column in known]
+    # an object column of numbers and None is one of numbers
+    return table.assign(**{column: pd.to_numeric(table[column]) * factor(units, known[column]) for column in named})
 
 
 D = TypeVar("D")

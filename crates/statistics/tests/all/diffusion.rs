@@ -79,3 +79,30 @@ fn a_walk_with_another_speed_than_the_body_is_none() {
     let reason = walk(0.08).speed.reason().unwrap().to_owned();
     assert!(reason.contains("is not the root-mean-square speed 1"), "{reason}");
 }
+
+/// A drift that is too slow for the correlation of the velocity to tell it from chance shows in the displacements at long lags.
+#[test]
+fn displacements_that_do_not_grow_as_the_lag_put_the_coefficient_in_doubt() {
+    let (g, s, dt) = (1.0, 1.0, 0.25);
+    let drifting = |drift: f64| {
+        let body = |normal: &mut motiform_dynamics::Normal| {
+            let mut track = ornstein_uhlenbeck(g, s, dt, 1600, normal);
+            for (k, (at, velocity)) in track.position.iter_mut().zip(&mut track.velocity).enumerate() {
+                at[0] += drift * dt * k as f64;
+                velocity[0] += drift;
+            }
+            track
+        };
+        statistics(&many(dt, 12, body, 21), &Settings::default()).unwrap()
+    };
+    let none = drifting(0.0).diffusion;
+    assert!(none.green_kubo.known().is_some() && none.doubt.is_none(), "{none:?}");
+    let found = drifting(0.12);
+    assert!(found.diffusion.displacements.known().is_some(), "{:?}", found.diffusion);
+    assert!(known(&found.exponents[1]).lower() > 1.0);
+    assert!(found.diffusion.doubt.unwrap().contains("not as lag^1"));
+    // nothing is doubted that is not stated
+    let line = along(0.1, 4000, |t| ([t, 0.0], [1.0, 0.0]));
+    let line = statistics(&Tracks::new(0.1, vec![], vec![line]).unwrap(), &Settings::default()).unwrap();
+    assert_eq!((line.diffusion.displacements.known(), line.diffusion.doubt), (None, None));
+}

@@ -88,7 +88,24 @@ fn line(kind: CurveKind, sample: &CurveSample) -> (&'static str, CurveStyle) {
 /// The mark of a point of codimension two; none of one that was not located ([`unlocated`] says how many there are).
 #[must_use]
 pub fn curve_mark((kind, sample): (Degenerate, &CurveSample)) -> Option<MapMark> {
-    let label = match kind {
+    Some(MapMark { label: point_words(kind)?, at: sample.parameters })
+}
+
+/// The words for the points of a curve.
+#[must_use]
+pub const fn curve_words(kind: CurveKind) -> &'static str {
+    match kind {
+        CurveKind::Hopf => "Hopf",
+        CurveKind::SymmetryBreaking => "symmetry breaking",
+        CurveKind::PeriodDoubling => "period doubling",
+        CurveKind::Fold | CurveKind::Pitchfork | CurveKind::Torus => kind.name(),
+    }
+}
+
+/// The words for a point of codimension two; none for one that was not located.
+#[must_use]
+pub fn point_words(kind: Degenerate) -> Option<String> {
+    Some(match kind {
         Degenerate::Cusp => "cusp".to_owned(),
         Degenerate::Bautin => "Bautin".to_owned(),
         Degenerate::BogdanovTakens => "Bogdanov-Takens".to_owned(),
@@ -99,8 +116,7 @@ pub fn curve_mark((kind, sample): (Degenerate, &CurveSample)) -> Option<MapMark>
         Degenerate::GainsSymmetry => "gains a symmetry".to_owned(),
         Degenerate::Unresolved => return None,
         other => other.name().to_owned(),
-    };
-    Some(MapMark { label, at: sample.parameters })
+    })
 }
 
 /// A sentence for the caption about points of codimension two that were not located; nothing without any.
