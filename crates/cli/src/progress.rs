@@ -74,7 +74,8 @@ impl Progress {
         let Ok(mut stage) = self.stage.lock() else { return };
         stage.1 += 1;
         let name = format!("{} of {}, {name}", stage.1, self.stages);
-        let template = if even { "{msg}: {percent}%, {eta} left" } else { "{msg}: {percent}% {prefix}, {elapsed}" };
+        let template =
+            if even { "{msg}: {percent}%, {eta} left" } else { "{msg}: {percent}% {prefix}, {elapsed}" };
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
         self.bar.set_style(style);
         self.bar.set_message(name.clone());

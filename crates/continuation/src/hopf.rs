@@ -103,11 +103,12 @@ pub(super) fn critical_space(body: &dyn Equivariant, shape: &[f64], frequency: f
     let a = matrix(&slice);
     let space = null_space(&a, Complex::new(0.0, frequency), copies(&a, frequency).max(1))?;
     let lifted = |q: nalgebra::DVectorView<'_, Complex<f64>>| {
-        let mut out = DVector::zeros(shape.len());
+        let (mut re, mut im) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
         for (direction, z) in slice.basis.iter().zip(q.iter()) {
-            direction.iter().zip(out.iter_mut()).for_each(|(x, sum): (_, &mut Complex<f64>)| *sum += z * x);
+            add(&mut re, z.re, direction);
+            add(&mut im, z.im, direction);
         }
-        out
+        DVector::from_iterator(shape.len(), re.into_iter().zip(im).map(|(re, im)| Complex::new(re, im)))
     };
     Some(space.column_iter().map(lifted).collect())
 }

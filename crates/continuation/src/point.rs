@@ -215,7 +215,10 @@ impl std::fmt::Display for End {
             Self::Homoclinic(connection) => write!(f, "{connection}"),
             Self::PeriodLimit { time } => write!(f, "the time of the orbit grew to {time}"),
             Self::Settles { period } => {
-                write!(f, "the period grew to {period:.1} and the place did not change any more, as beside a connection")
+                write!(
+                    f,
+                    "the period grew to {period:.1} and the place did not change any more, as beside a connection"
+                )
             }
             Self::Meets { parameter, gains } => {
                 let (meets, beyond) = match gains {

@@ -214,7 +214,8 @@ mod tests {
     fn a_label_that_is_not_beside_its_ring_is_led_to() {
         let words = Label::parse("Bautin");
         let [w, h] = size(&words);
-        let at = |x: f64, y: f64| Placed { point: [0.0, 0.0], words: words.clone(), place: Rect { x, y, w, h } };
+        let at =
+            |x: f64, y: f64| Placed { point: [0.0, 0.0], words: words.clone(), place: Rect { x, y, w, h } };
         assert_eq!(at(POINT + GAPS[0], -0.5 * h).leader(), None);
         // above and to the right: farther from the ring than from the square around it
         let corner = at(POINT + GAPS[0], -h - POINT - GAPS[0]).leader().expect("a line");

@@ -1,11 +1,11 @@
 //! The diffusion coefficient, from velocities and from displacements.
 
+use crate::consistency::APART;
 use crate::correlation::{Products, memory};
 use crate::displacement::square_sums;
 use crate::jackknife::Sums;
 use crate::lag_window::Integral;
 use crate::plateau::{Estimate, difference, too_coarse};
-use crate::consistency::APART;
 use crate::{Answer, Measured, Quantity, Result, Tracks, with_error};
 use serde::Serialize;
 

@@ -55,5 +55,8 @@ fn on_curve(on: &StabilityCurve) -> Vec<SpecialPoint<'_>> {
         Some((place, sample.degenerate?, beside))
     };
     let found: Vec<(usize, Degenerate, [f64; 2])> = samples.iter().enumerate().filter_map(point).collect();
-    found.into_iter().map(|(place, kind, beside)| SpecialPoint { on, kind, sample: samples[place], beside }).collect()
+    found
+        .into_iter()
+        .map(|(place, kind, beside)| SpecialPoint { on, kind, sample: samples[place], beside })
+        .collect()
 }

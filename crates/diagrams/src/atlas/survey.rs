@@ -27,7 +27,8 @@ pub struct Stage {
 }
 
 /// Names of the stages of [`survey()`], one for each of [`STRIDES`].
-const NAMES: [&str; 3] = ["coarse grid", "finer grid where motions differ", "finest grid where motions differ"];
+const NAMES: [&str; 3] =
+    ["coarse grid", "finer grid where motions differ", "finest grid where motions differ"];
 
 /// Classifies the cells of a plan; `None` if the watch stopped it: what is finished is in the journal. `begins` is told each stage.
 ///

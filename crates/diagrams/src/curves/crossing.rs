@@ -44,10 +44,7 @@ pub(super) fn passes(pair: &[CurveSample], target: &Target) -> bool {
 
 /// Returns `true` if two points of codimension two, located on two curves or on one, are one point: of one kind and period, and no farther
 /// apart than places on curves are told. Each comes with the length of the curve beside it (across and upwards).
-pub(crate) fn same_point(
-    [a, b]: [(&CurveSample, [f64; 2]); 2],
-    widths: [f64; 2],
-) -> bool {
+pub(crate) fn same_point([a, b]: [(&CurveSample, [f64; 2]); 2], widths: [f64; 2]) -> bool {
     let is_near = |side: usize| {
         let missed = (a.0.parameters[side] - b.0.parameters[side]).abs();
         missed <= NEAR.0 * a.1[side].max(b.1[side]) + NEAR.1 * widths[side]

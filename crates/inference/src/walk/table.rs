@@ -187,7 +187,12 @@ fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 /// The walk of highest likelihood near the best one of a grid: from it in steps along each side, halved where none leads higher. An
 /// error of 0 stays 0.
-fn refined(pieces: &[Vec<Fix>], interval: f64, (mut best, mut steps): (Entry, [f64; 2]), ends: [f64; 2]) -> Entry {
+fn refined(
+    pieces: &[Vec<Fix>],
+    interval: f64,
+    (mut best, mut steps): (Entry, [f64; 2]),
+    ends: [f64; 2],
+) -> Entry {
     let entry = |[time, error]: [f64; 2]| {
         let persistence = libm::exp(time);
         let error = libm::exp(error) * step_variance(persistence, interval); // exp(-inf) = 0: no error

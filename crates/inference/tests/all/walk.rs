@@ -122,7 +122,9 @@ fn the_estimates_have_the_highest_likelihood() {
         assert!((highest - walk.log_likelihood).abs() < 1e-7 * highest.abs().max(1.0));
         for step in [1e-3, 1e-2] {
             for by in [1.0 - step, 1.0 + step] {
-                for other in [likelihood(p * by, s, e), likelihood(p, s * by, e), likelihood(p * by, s / by.sqrt(), e)] {
+                for other in
+                    [likelihood(p * by, s, e), likelihood(p, s * by, e), likelihood(p * by, s / by.sqrt(), e)]
+                {
                     assert!(other <= highest + 1e-9, "seed {seed}, {by}: {other} above {highest}");
                 }
             }
