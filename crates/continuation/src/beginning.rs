@@ -35,7 +35,16 @@ impl<'b> Begin<'b> {
     pub(super) fn at(point: &Point, origin: &'b [f64], direction: &'b [f64]) -> Self {
         let twice = matches!(point.special, Some(Special::Pitchfork { breaks: Broken::Rotations }));
         let critical = if twice { 2 } else { 1 };
-        Self { origin, direction, growing: point.unstable..=point.unstable + critical }
+        Self::new(origin, direction, point.unstable..=point.unstable + critical)
+    }
+
+    /// Deviations grow in so many directions.
+    pub(super) const fn new(
+        origin: &'b [f64],
+        direction: &'b [f64],
+        growing: std::ops::RangeInclusive<usize>,
+    ) -> Self {
+        Self { origin, direction, growing }
     }
 }
 

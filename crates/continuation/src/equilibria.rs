@@ -151,7 +151,7 @@ impl Problem for Equilibria<'_> {
         let Ok(local) = self.local(x, &()) else { return Special::BranchPoint };
         if critical.angle != 0.0 {
             let (body, shape, frequency) = (local.body.as_ref(), &x[..self.dim], critical.angle.abs());
-            let part = Oscillation::of(body, shape, frequency).map_or(1.0, |found| found.period_part());
+            let part = Oscillation::all(body, shape, frequency).first().map_or(1.0, Oscillation::period_part);
             let first_lyapunov = first_lyapunov(body, shape, frequency, self.solved(x));
             return Special::Hopf(Hopf { frequency, part, first_lyapunov });
         }

@@ -9,7 +9,8 @@ use motiform_dynamics::{Dual, Equivariant, VectorField};
 use nalgebra::{Complex, DMatrix, DVector};
 
 type Number = Dual<f64, 1>;
-type Vector = DVector<Complex<f64>>;
+/// A complex vector.
+pub(super) type Vector = DVector<Complex<f64>>;
 
 /// Shapes below this part of the unit of the equations are 0.
 const ROUND_OFF: f64 = 1e-9;
@@ -95,21 +96,21 @@ impl Slice<'_> {
     }
 }
 
-/// The critical vector of a Hopf bifurcation in the full space, `(re, im)`: orbits begin as `u + epsilon Re(q e^(i frequency t))`,
-/// seen from the frame that turns with the shape.
-pub(super) fn critical_pair(
-    body: &dyn Equivariant,
-    shape: &[f64],
-    frequency: f64,
-) -> Option<(Vec<f64>, Vec<f64>)> {
+/// The critical vectors `q` of a Hopf bifurcation in the full space, an orthonormal basis: several where the shape's symmetry makes the
+/// eigenvalue a multiple one. Orbits begin as `u + epsilon Re(q e^(i frequency t))`, seen from the frame that turns with the shape.
+pub(super) fn critical_space(body: &dyn Equivariant, shape: &[f64], frequency: f64) -> Option<Vec<Vector>> {
     let slice = slice(body, shape);
-    let q = null_vector(&matrix(&slice), Complex::new(0.0, frequency))?;
-    let (mut re, mut im) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
-    for (direction, z) in slice.basis.iter().zip(q.iter()) {
-        add(&mut re, z.re, direction);
-        add(&mut im, z.im, direction);
-    }
-    Some((re, im))
+    let a = matrix(&slice);
+    let space = null_space(&a, Complex::new(0.0, frequency), copies(&a, frequency).max(1))?;
+    let lifted = |q: nalgebra::DVectorView<'_, Complex<f64>>| {
+        let (mut re, mut im) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
+        for (direction, z) in slice.basis.iter().zip(q.iter()) {
+            add(&mut re, z.re, direction);
+            add(&mut im, z.im, direction);
+        }
+        DVector::from_iterator(shape.len(), re.into_iter().zip(im).map(|(re, im)| Complex::new(re, im)))
+    };
+    Some(space.column_iter().map(lifted).collect())
 }
 
 fn slice<'b>(body: &'b dyn Equivariant, shape: &'b [f64]) -> Slice<'b> {
@@ -230,16 +231,27 @@ fn coefficient(slice: &Slice<'_>, a: &DMatrix<Complex<f64>>, pair: &Pair, h: f64
     Some(sum.re / (2.0 * frequency))
 }
 
-/// The vector of length 1 that `A - value` takes to 0, by inverse iteration.
+/// The vector of length 1 that `A - value` takes to 0.
 fn null_vector(a: &DMatrix<Complex<f64>>, value: Complex<f64>) -> Option<Vector> {
+    Some(null_space(a, value, 1)?.column(0).into_owned())
+}
+
+/// An orthonormal basis of the vectors that `A - value` takes to 0, by inverse iteration on as many as there are.
+fn null_space(a: &DMatrix<Complex<f64>>, value: Complex<f64>, count: usize) -> Option<DMatrix<Complex<f64>>> {
     let dim = a.nrows();
     let shift = value * (1.0 + 1e-9); // off the eigenvalue, so that the matrix has an inverse
     let inverse = (a - DMatrix::identity(dim, dim) * shift).lu();
-    let mut vector = DVector::from_fn(dim, |i, _| Complex::new(1.0, 0.3 / (1.0 + i as f64)));
+    let mut space = DMatrix::from_fn(dim, count, |i, j| {
+        Complex::new(if j > 0 && i % (j + 1) == 0 { -1.0 } else { 1.0 }, 0.3 / (1.0 + i as f64))
+    });
     for _ in 0..4 {
-        vector = inverse.solve(&vector)?;
-        let length = vector.norm();
-        vector /= Complex::new(length, 0.0);
+        space = inverse.solve(&space)?;
+        if count == 1 {
+            let length = space.norm();
+            space /= Complex::new(length, 0.0);
+        } else {
+            space = space.qr().q();
+        }
     }
-    vector.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(vector)
+    space.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(space)
 }

@@ -7,8 +7,8 @@ use super::correct::{crossing, product, scaled};
 use super::equilibria::Equilibria;
 use super::family::{Bodies, Family};
 use super::leaving::leaving;
+use super::onset::onset;
 use super::orbits::Orbits;
-use super::oscillation::Oscillation;
 use super::point::{Motion, Point};
 use super::problem::{Equations, Problem};
 use super::settings::Settings;
@@ -19,10 +19,6 @@ use motiform_analysis::equilibrium::Units;
 use motiform_analysis::linear::{add, norm};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
-use std::f64::consts::TAU;
-
-/// Nodes of the orbits that begin at a Hopf bifurcation.
-const NODES: usize = 8;
 
 /// The branches that begin or cross at a special point, each with its legs: one where it begins, two where it crosses; none at a fold, a
 /// continuum or a torus, nor where the special point is unresolved.
@@ -49,7 +45,7 @@ pub fn switch<'f>(
             Ok(Vec::new())
         }
         (Motion::Equilibrium(start), Special::Hopf(hopf)) => {
-            begin(family, (point, start, hopf.frequency), settings, watch).map(|branch| vec![vec![branch]])
+            onset(family, (point, start, hopf.frequency), settings, watch)
         }
         (Motion::Equilibrium(start), Special::Pitchfork { .. }) => {
             fork(family, (point, start), settings, watch)
@@ -57,7 +53,10 @@ pub fn switch<'f>(
         (Motion::Equilibrium(start), _) => {
             let (problem, x) = crossed(family, point, start, settings)?;
             let direction = direction(&problem, &x, point).ok_or_else(|| nothing(point.parameter))?;
-            let leg = |&side| cross(family, (point, start, &turned(&direction, side)), settings, watch);
+            let leg = |&side| {
+                let direction = turned(&direction, side);
+                cross(family, (point, start, Begin::at(point, &x, &direction)), settings, watch)
+            };
             sides.iter().map(leg).collect::<Result<_>>().map(|legs| vec![legs])
         }
         (Motion::Orbit { orbit, nodes }, _) => {
@@ -135,24 +134,33 @@ fn fork<'f>(
     let body = family.at(point.parameter)?;
     let (_, critical) = unseen(&problem, &x).ok_or_else(|| nothing(point.parameter))?;
     let directions = leaving(body.as_ref(), &start.shape, &critical, &problem.weights(&x));
-    let branch = |direction: &Vec<f64>| cross(family, (point, start, direction), settings, watch);
-    let (found, failed): (Vec<_>, Vec<_>) = directions.iter().map(branch).partition(Result::is_ok);
+    let branch = |direction: &Vec<f64>| {
+        cross(family, (point, start, Begin::at(point, &x, direction)), settings, watch)
+    };
+    those_found(directions.iter().map(branch))
+}
+
+/// Those of several new branches that Newton's method finds; the first error where it finds none.
+pub(super) fn those_found<'f>(
+    branches: impl Iterator<Item = Result<Branch<'f>>>,
+) -> Result<Vec<Vec<Branch<'f>>>> {
+    let (found, failed): (Vec<_>, Vec<_>) = branches.partition(Result::is_ok);
     match failed.into_iter().next() {
         Some(Err(error)) if found.is_empty() => Err(error),
         _ => Ok(found.into_iter().flatten().map(|branch| vec![branch]).collect()),
     }
 }
 
-/// Another branch of relative equilibria, which leaves in this direction.
-fn cross<'f>(
+/// Another branch of relative equilibria, which begins so.
+pub(super) fn cross<'f>(
     family: &'f dyn Family,
-    (point, start, direction): (&Point, &RelativeEquilibrium, &[f64]),
+    (point, start, begin): (&Point, &RelativeEquilibrium, Begin<'_>),
     settings: &Settings,
     watch: &'f dyn Watch,
 ) -> Result<Branch<'f>> {
-    let (problem, x) = crossed(family, point, start, settings)?;
+    let (problem, _) = crossed(family, point, start, settings)?;
     let body = family.at(point.parameter)?;
-    let mut tracer = follow(problem, &Begin::at(point, &x, direction), settings, watch)?;
+    let mut tracer = follow(problem, &begin, settings, watch)?;
     let dim = start.shape.len();
     let shape = tracer.unknowns()[..dim].to_vec();
     tracer.problem_mut().classes = Classes::of(body.as_ref(), &[&shape]);
@@ -193,7 +201,7 @@ fn leave<'f>(
 }
 
 /// With the symmetry that all shapes of the first orbit have.
-fn symmetric(mut tracer: Tracer<Orbits<'_>>) -> Tracer<Orbits<'_>> {
+pub(super) fn symmetric(mut tracer: Tracer<Orbits<'_>>) -> Tracer<Orbits<'_>> {
     let x = tracer.unknowns().to_vec();
     let problem = tracer.problem_mut();
     if let Ok(body) = problem.bodies.at(&x) {
@@ -204,7 +212,7 @@ fn symmetric(mut tracer: Tracer<Orbits<'_>>) -> Tracer<Orbits<'_>> {
     tracer
 }
 
-fn orbits<'f>(
+pub(super) fn orbits<'f>(
     family: &'f dyn Family,
     body: &dyn Equivariant,
     (nodes, mirrored): (&[Vec<f64>], bool),
@@ -226,7 +234,11 @@ fn orbits<'f>(
     }
 }
 
-fn unknowns(problem: &Orbits<'_>, nodes: &[Vec<f64>], (time, angle, parameter): (f64, f64, f64)) -> Vec<f64> {
+pub(super) fn unknowns(
+    problem: &Orbits<'_>,
+    nodes: &[Vec<f64>],
+    (time, angle, parameter): (f64, f64, f64),
+) -> Vec<f64> {
     let mut x = nodes.concat();
     x.push(time);
     if problem.turns {
@@ -234,38 +246,4 @@ fn unknowns(problem: &Orbits<'_>, nodes: &[Vec<f64>], (time, angle, parameter): 
     }
     x.push(parameter);
     x
-}
-
-/// The orbits that begin at a Hopf bifurcation, over the part of the period after which they are back but for a rotation or the mirror.
-fn begin<'f>(
-    family: &'f dyn Family,
-    (point, start, frequency): (&Point, &RelativeEquilibrium, f64),
-    settings: &Settings,
-    watch: &'f dyn Watch,
-) -> Result<Branch<'f>> {
-    let parameter = point.parameter;
-    let body = family.at(parameter)?;
-    let body = body.as_ref();
-    let oscillation =
-        Oscillation::of(body, &start.shape, frequency).ok_or_else(|| nothing(parameter))?.upright(body);
-    let Oscillation { shape, re, im, mirrored, part, turned } = oscillation;
-    let time = TAU / frequency * part;
-    let (mut nodes, mut swings) = (Vec::new(), Vec::new());
-    for i in 0..NODES {
-        let t = time * i as f64 / NODES as f64;
-        let (sin, cos) = libm::sincos(frequency * t);
-        let (mut node, mut swing) = (shape.clone(), vec![0.0; shape.len()]);
-        add(&mut swing, cos, &re);
-        add(&mut swing, -sin, &im);
-        body.rotate(start.turning_rate * t, &mut node);
-        body.rotate(start.turning_rate * t, &mut swing);
-        nodes.push(node);
-        swings.push(swing);
-    }
-    let problem = orbits(family, body, (&nodes, mirrored), settings);
-    let x = unknowns(&problem, &nodes, (time, start.turning_rate * time + turned, parameter));
-    let mut direction = swings.concat();
-    direction.resize(x.len(), 0.0);
-    let direction = scaled(direction, &problem.weights(&x)).ok_or_else(|| nothing(parameter))?;
-    Ok(Branch::orbits(symmetric(follow(problem, &Begin::at(point, &x, &direction), settings, watch)?), watch))
 }

@@ -13,4 +13,5 @@ mod orbits;
 mod path;
 mod random_texts;
 mod shrinking;
+mod symmetric_hopf;
 mod symmetric_rest;

@@ -1,0 +1,86 @@
+//! The motions that begin at a Hopf bifurcation.
+
+use super::beginning::{Begin, follow, nothing};
+use super::branch::Branch;
+use super::correct::scaled;
+use super::family::Family;
+use super::oscillation::{Oscillation, rotating};
+use super::point::Point;
+use super::problem::Equations;
+use super::settings::Settings;
+use super::switch::{cross, orbits, symmetric, those_found, unknowns};
+use motiform_analysis::linear::add;
+use motiform_analysis::{RelativeEquilibrium, Result};
+use motiform_dynamics::{Equivariant, Watch};
+use std::f64::consts::TAU;
+
+/// Nodes of the orbits that begin.
+const NODES: usize = 8;
+
+/// Directions that are critical beside that along the orbits: one for a pair of eigenvalues, three where the shape's symmetry makes it a
+/// double one.
+const BESIDE: (usize, usize) = (1, 3);
+
+/// Orbits, one branch for each kind of oscillation; from a circle the relative equilibria that begin as an oscillation which only turns too.
+pub(super) fn onset<'f>(
+    family: &'f dyn Family,
+    at: (&Point, &RelativeEquilibrium, f64),
+    settings: &Settings,
+    watch: &'f dyn Watch,
+) -> Result<Vec<Vec<Branch<'f>>>> {
+    let (point, start, frequency) = at;
+    let body = family.at(point.parameter)?;
+    let oscillations = Oscillation::all(body.as_ref(), &start.shape, frequency);
+    let rotating = rotating(body.as_ref(), &start.shape, frequency);
+    if oscillations.is_empty() && rotating.is_none() {
+        return Err(nothing(point.parameter));
+    }
+    let several = oscillations.len() + usize::from(rotating.is_some()) > 1;
+    let growing = point.unstable..=point.unstable + if several { BESIDE.1 } else { BESIDE.0 };
+    let turning = rotating.map(|(direction, rate)| {
+        let turning = RelativeEquilibrium { turning_rate: rate, ..start.clone() };
+        let mut x = start.shape.clone();
+        x.extend([rate, point.parameter]);
+        let mut along = direction;
+        along.extend([0.0, 0.0]);
+        cross(family, (point, &turning, Begin::new(&x, &along, growing.clone())), settings, watch)
+    });
+    let body = body.as_ref();
+    let orbits = oscillations.into_iter().map(|oscillation| {
+        let oscillation = (oscillation.upright(body), start.turning_rate, frequency);
+        swinging(family, (body, point.parameter), oscillation, growing.clone(), settings, watch)
+    });
+    those_found(orbits.chain(turning))
+}
+
+/// The orbits that begin as one oscillation, over the part of the period after which they are back but for a rotation or the mirror.
+fn swinging<'f>(
+    family: &'f dyn Family,
+    (body, parameter): (&dyn Equivariant, f64),
+    (oscillation, turning_rate, frequency): (Oscillation, f64, f64),
+    growing: std::ops::RangeInclusive<usize>,
+    settings: &Settings,
+    watch: &'f dyn Watch,
+) -> Result<Branch<'f>> {
+    let Oscillation { shape, re, im, across, part, turned } = oscillation;
+    let time = TAU / frequency * part;
+    let (mut nodes, mut swings) = (Vec::new(), Vec::new());
+    for i in 0..NODES {
+        let t = time * i as f64 / NODES as f64;
+        let (sin, cos) = libm::sincos(frequency * t);
+        let (mut node, mut swing) = (shape.clone(), vec![0.0; shape.len()]);
+        add(&mut swing, cos, &re);
+        add(&mut swing, -sin, &im);
+        body.rotate(turning_rate * t, &mut node);
+        body.rotate(turning_rate * t, &mut swing);
+        nodes.push(node);
+        swings.push(swing);
+    }
+    let problem = orbits(family, body, (&nodes, across.is_some()), settings);
+    let x = unknowns(&problem, &nodes, (time, turning_rate * time + turned, parameter));
+    let mut direction = swings.concat();
+    direction.resize(x.len(), 0.0);
+    let direction = scaled(direction, &problem.weights(&x)).ok_or_else(|| nothing(parameter))?;
+    let begin = Begin::new(&x, &direction, growing);
+    Ok(Branch::orbits(symmetric(follow(problem, &begin, settings, watch)?), watch))
+}
