@@ -43,7 +43,7 @@ pub(super) fn onset<'f>(
         x.extend([rate, point.parameter]);
         let mut along = direction;
         along.extend([0.0, 0.0]);
-        cross(family, (point, &turning, Begin::new(&x, &along, growing.clone())), settings, watch)
+        cross(family, (point, &turning, &Begin::new(&x, &along, growing.clone())), settings, watch)
     });
     let body = body.as_ref();
     let orbits = oscillations.into_iter().map(|oscillation| {

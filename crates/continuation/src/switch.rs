@@ -55,7 +55,7 @@ pub fn switch<'f>(
             let direction = direction(&problem, &x, point).ok_or_else(|| nothing(point.parameter))?;
             let leg = |&side| {
                 let direction = turned(&direction, side);
-                cross(family, (point, start, Begin::at(point, &x, &direction)), settings, watch)
+                cross(family, (point, start, &Begin::at(point, &x, &direction)), settings, watch)
             };
             sides.iter().map(leg).collect::<Result<_>>().map(|legs| vec![legs])
         }
@@ -135,7 +135,7 @@ fn fork<'f>(
     let (_, critical) = unseen(&problem, &x).ok_or_else(|| nothing(point.parameter))?;
     let directions = leaving(body.as_ref(), &start.shape, &critical, &problem.weights(&x));
     let branch = |direction: &Vec<f64>| {
-        cross(family, (point, start, Begin::at(point, &x, direction)), settings, watch)
+        cross(family, (point, start, &Begin::at(point, &x, direction)), settings, watch)
     };
     those_found(directions.iter().map(branch))
 }
@@ -154,13 +154,13 @@ pub(super) fn those_found<'f>(
 /// Another branch of relative equilibria, which begins so.
 pub(super) fn cross<'f>(
     family: &'f dyn Family,
-    (point, start, begin): (&Point, &RelativeEquilibrium, Begin<'_>),
+    (point, start, begin): (&Point, &RelativeEquilibrium, &Begin<'_>),
     settings: &Settings,
     watch: &'f dyn Watch,
 ) -> Result<Branch<'f>> {
     let (problem, _) = crossed(family, point, start, settings)?;
     let body = family.at(point.parameter)?;
-    let mut tracer = follow(problem, &begin, settings, watch)?;
+    let mut tracer = follow(problem, begin, settings, watch)?;
     let dim = start.shape.len();
     let shape = tracer.unknowns()[..dim].to_vec();
     tracer.problem_mut().classes = Classes::of(body.as_ref(), &[&shape]);
