@@ -37,13 +37,10 @@ impl Oscillation {
     pub(super) fn all(body: &dyn Equivariant, shape: &[f64], frequency: f64) -> Vec<Self> {
         let Some(space) = critical_space(body, shape, frequency) else { return Vec::new() };
         let classes = Classes::of(body, &[shape]);
-        kinds(body, &classes, &space)
-            .into_iter()
-            .map(|kind| Self::new(body, (shape, &classes), kind))
-            .collect()
+        kinds(body, &classes, &space).iter().map(|kind| Self::new(body, (shape, &classes), kind)).collect()
     }
 
-    fn new(body: &dyn Equivariant, (shape, classes): (&[f64], &Classes), kind: Kind) -> Self {
+    fn new(body: &dyn Equivariant, (shape, classes): (&[f64], &Classes), kind: &Kind) -> Self {
         let (re, im) = parts(&kind.vector);
         let across = kind.across.or_else(|| classes.axis.filter(|_| is_odd(classes, &re)));
         let (part, turned) = match across {

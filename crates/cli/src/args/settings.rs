@@ -117,9 +117,9 @@ impl<K: Keys> SettingOptions<K> {
 impl<K: Keys> FromArgMatches for SettingOptions<K> {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let given = |name: &&'static str| {
-            let values = matches.get_many::<Value>(name)?.cloned();
+            let mut values = matches.get_many::<Value>(name)?.cloned();
             let is_list = keys::<K>().any(|key| key.name() == *name && key.kind() == "array");
-            let value = if is_list { values.collect() } else { values.last()? };
+            let value = if is_list { values.collect() } else { values.next_back()? };
             (matches.value_source(name)? == ValueSource::CommandLine).then_some((*name, value))
         };
         Ok(Self { given: K::NAMES.iter().filter_map(given).collect(), keys: PhantomData })

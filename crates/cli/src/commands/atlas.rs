@@ -68,7 +68,7 @@ fn compute(
         other => other.map(|_| None),
     };
     watch.finish();
-    Ok(lines?)
+    lines
 }
 
 fn settings(options: &AtlasOptions) -> AtlasSettings {

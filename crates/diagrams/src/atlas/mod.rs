@@ -31,7 +31,7 @@ pub use line::{Line, LineEnd, StabilityCurve};
 pub use page::html;
 pub use region::{Region, regions};
 pub use summary::atlas_summary;
-pub use survey::{Stage, survey};
+pub use survey::{Begins, Stage, survey};
 pub use tables::{cell_columns, curve_columns};
 pub use trace::trace;
 pub(crate) use verify::verify_atlas;

@@ -15,6 +15,9 @@ const STRIDES: [usize; 3] = [4, 2, 1];
 /// Cells that are computed and kept together: a kill costs these at most.
 const TOGETHER: usize = 192;
 
+/// Called where a stage begins.
+pub type Begins<'a> = &'a dyn Fn(&Stage);
+
 /// A stage of the work on an atlas.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stage {
@@ -38,7 +41,7 @@ pub fn survey(
     plan: &AtlasPlan,
     threads: usize,
     journal: &dyn Journal,
-    (watch, begins): (&dyn Watch, &dyn Fn(&Stage)),
+    (watch, begins): (&dyn Watch, Begins<'_>),
 ) -> Result<Option<Grid>, Error> {
     let scan = plan.scan();
     let size = [0, 1].map(|side| scan.computation.axes[side].values.len());

@@ -4,7 +4,7 @@ use crate::atlas::boundary::{Atlas, Edge, Pair, differing, edges, pieces};
 use crate::atlas::folder::parsed;
 use crate::atlas::grid::Grid;
 use crate::atlas::line::{Course, Line, Task, course, read_line};
-use crate::atlas::survey::Stage;
+use crate::atlas::survey::{Begins, Stage};
 use motiform_analysis::Regime;
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_lab::pool::each;
@@ -37,7 +37,7 @@ pub fn trace(
     grid: &Grid,
     threads: usize,
     journal: &dyn Journal,
-    (watch, begins): (&dyn Watch, &dyn Fn(&Stage)),
+    (watch, begins): (&dyn Watch, Begins<'_>),
 ) -> Result<Option<Vec<Line>>, Error> {
     let scan = plan.scan();
     let labels = grid.labels();

@@ -16,7 +16,11 @@ fn both<S: Settings + Clone>(table: &str, of: fn(&Study) -> &S, given: &[(&str, 
         text += &format!("{name} = {value}\n"); // plain values are written alike in JSON and TOML
     }
     let names: Vec<&str> = given.iter().map(|entry| entry.0).collect();
-    assert_eq!(names, S::keys().iter().map(|key| key.name()).collect::<Vec<_>>(), "every key of [{table}]");
+    assert_eq!(
+        names,
+        S::keys().iter().map(motiform_study::Key::name).collect::<Vec<_>>(),
+        "every key of [{table}]"
+    );
     let typed = Study::parse(&text, "text", "a").unwrap();
     // ... and what is written reads back
     let back = Study::parse(&typed.to_toml().unwrap(), "text", "a").unwrap();
