@@ -1,4 +1,4 @@
-//! How far a fitted cell is from a change of its motion: the nearest bifurcations along its parameters.
+//! The distance of a fitted cell from a change of its motion: the nearest bifurcations along its parameters.
 
 use crate::Fitted;
 use crate::regime::natural_study;
@@ -29,7 +29,7 @@ pub struct NearBifurcation {
     pub at: f64,
     /// The kind: `fold`, `hopf`, `pitchfork`, `symmetry-breaking`, `period-doubling`, `torus`, `branch-point`, `continuum`, `homoclinic`.
     pub kind: String,
-    /// What is broken there: the `mirror` symmetry, or `rotations`.
+    /// The symmetry broken there: the `mirror` symmetry, or `rotations`.
     pub breaks: Option<String>,
 }
 

@@ -7,14 +7,14 @@ use motiform_tracks::{Options, Tracks, read};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// What was read.
+/// The file or folder that was read.
 #[derive(Debug)]
 pub struct Sample {
     /// The outlines, with units and notes.
     pub tracks: Tracks,
     /// Their modes, cell by cell.
     pub cells: Vec<CellTrack>,
-    /// What they have in common: drift, jumps and jitter of the stage.
+    /// Motion that they share: drift, jumps and jitter of the stage.
     pub field: FieldOfView,
 }
 
@@ -148,7 +148,7 @@ impl CellTrack {
         self.pieces().into_iter().max_by_key(|piece| piece.0.len()).unwrap_or(Track(Vec::new()))
     }
 
-    /// How many frames have each flag, by its name.
+    /// Number of frames with each flag, by its name.
     #[must_use]
     pub fn flags(&self) -> BTreeMap<&'static str, usize> {
         let mut counts = BTreeMap::new();

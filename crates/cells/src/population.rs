@@ -21,7 +21,7 @@ const UNDECIDED: &str = "undecided";
 pub struct NameShare {
     /// The motion, or `undecided`.
     pub name: &'static str,
-    /// How many cells, of how many, and the interval of the share.
+    /// The number of cells, of how many, and the interval of the share.
     #[serde(flatten)]
     pub share: Share,
 }
@@ -54,7 +54,7 @@ pub struct PopulationCoefficient {
     /// Its coefficient over the cells, from the fits with all terms: no cell's value is 0 because its data did not ask for the term.
     #[serde(flatten)]
     pub over: OverCells,
-    /// How many cells ask for the term.
+    /// The number of cells whose fit has the term.
     pub asked_for: usize,
 }
 

@@ -23,7 +23,7 @@ const SHOWN: usize = 3;
 /// Share of the simulated cells that may blow up.
 const MOST_LOST: f64 = 0.1;
 
-/// How many cells are simulated.
+/// The number of simulated cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Companions {
     /// Simulated cells: the least p-value is 1/(count + 1).
@@ -95,7 +95,7 @@ impl Prediction {
         })
     }
 
-    /// How many statistics have this verdict.
+    /// The number of statistics with this verdict.
     #[must_use]
     pub fn count(&self, agreement: Agreement) -> usize {
         self.comparisons.iter().filter(|one| one.envelope.agreement == agreement).count()

@@ -34,7 +34,7 @@ pub struct FittedRegime {
     pub best: Regime,
     /// The share of the most frequent motion.
     pub share: f64,
-    /// How many draws have each motion.
+    /// Number of draws with each motion.
     pub counts: Vec<(Regime, usize)>,
     /// Number of draws.
     pub draws: usize,
@@ -47,7 +47,7 @@ pub struct FittedRegime {
     /// `true` if a linear rate of the best model is so slow that the record holds less than three of its e-foldings.
     #[serde(default)]
     pub slow: bool,
-    /// How much of the motion the equations make without their noise; `None` with few draws, or where these blow up.
+    /// The part of the motion that the equations make without their noise; `None` with few draws, or where these blow up.
     #[serde(default)]
     pub driven: Option<Driven>,
 }
@@ -59,8 +59,8 @@ impl FittedRegime {
         self.best == Regime::BlowUp
     }
 
-    /// `true` if the models rest without their noise, although the cell moves: then the displacement is that of the noise, and the motion is
-    /// no rest.
+    /// `true` if the models rest without their noise, although the cell moves: then the displacement is that of the noise, and the motion
+    /// is no rest.
     #[must_use]
     pub fn is_carried(&self) -> bool {
         self.carried

@@ -1,4 +1,5 @@
-//! The state of standard output when the program started, which may have been closed (`motiform ... >&-`): the only file of this crate with `unsafe`.
+//! The state of standard output when the program started, which may have been closed (`motiform ... >&-`): the only file of this crate
+//! with `unsafe`.
 //!
 //! The standard library opens `/dev/null` in the place of a standard descriptor that is closed, before `main`: every result would be lost
 //! in silence, with exit code 0. In `main` that cannot be told from `> /dev/null` or Python's `subprocess.DEVNULL`, which are asked

@@ -16,9 +16,10 @@ pub(super) struct Kind {
     pub(super) across: Option<f64>,
 }
 
-/// The oscillations in the space of critical vectors, one of each kind up to the symmetry of the shape: three where the `n > 2` rotations of
-/// a shape with mirror axes mix two vectors, two standing ones and one that turns; two that turn where there is no mirror; the standing one
-/// for a circle, and none where it has no mirror: it only turns. Elsewhere there is one critical vector, or nothing says which combinations oscillate.
+/// The oscillations in the space of critical vectors, one of each kind up to the symmetry of the shape: three where the `n > 2`
+/// rotations of a shape with mirror axes mix two vectors, two standing ones and one that turns; two that turn where there is no mirror;
+/// the standing one for a circle, and none where it has no mirror: it only turns. Elsewhere there is one critical vector, or nothing
+/// says which combinations oscillate.
 ///
 /// Source: Golubitsky, Stewart, Schaeffer (1988), Singularities and Groups in Bifurcation Theory II, chapters XVII and XVIII: the
 /// equivariant Hopf theorem for `O(2)` and `D_n`.

@@ -21,7 +21,8 @@ const NODES: usize = 8;
 /// double one.
 const BESIDE: (usize, usize) = (1, 3);
 
-/// Orbits, one branch for each kind of oscillation; from a circle the relative equilibria that begin as an oscillation which only turns too.
+/// Orbits, one branch for each kind of oscillation; from a circle the relative equilibria that begin as an oscillation which only turns
+/// too.
 pub(super) fn onset<'f>(
     family: &'f dyn Family,
     at: (&Point, &RelativeEquilibrium, f64),

@@ -9,8 +9,8 @@ const STILL: f64 = 2e-3;
 /// The number of the point from which on the place stays while the period grows by 15 %, up to the last point. Points are
 /// periods with places, in parts of the ranges; `None` where a point has no period.
 ///
-/// Beside a connection of a saddle-focus the place oscillates about its limit, with amplitudes that fall exponentially with the period: turns
-/// beyond are smaller than the ones within.
+/// Beside a connection of a saddle-focus the place oscillates about its limit, with amplitudes that fall exponentially with the period:
+/// turns beyond are smaller than the ones within.
 pub(crate) fn settles<const N: usize>(
     points: impl DoubleEndedIterator<Item = Option<(f64, [f64; N])>> + ExactSizeIterator,
 ) -> Option<usize> {

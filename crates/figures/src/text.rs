@@ -62,7 +62,8 @@ pub(crate) struct Run {
     pub(crate) script: Script,
 }
 
-/// One line of rich text: `*x*` italic (digits of an index upright), `_2` or `_{max}` subscript, `^2` or `^{-1}` superscript, backslash literal.
+/// One line of rich text: `*x*` italic (digits of an index upright), `_2` or `_{max}` subscript, `^2` or `^{-1}` superscript, backslash
+/// literal.
 ///
 /// A hyphen before a digit becomes a true minus, unless it follows a letter or digit on the line.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -71,7 +71,7 @@ pub fn read_dataset_by(
         Error::unreadable(&path, format!("{error}; give a folder written by `motiform simulate`"))
     })?;
     let mut manifest: Manifest =
-        serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))?;
+        serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(&path, error))?;
     let model = manifest.plan.body().map_err(|error| Error::unreadable(&path, error))?;
     let path = trajectory_path(folder)?;
     let trajectory = read(&mut manifest, &path)?;
@@ -92,7 +92,7 @@ pub fn read_dataset_by(
 /// # Errors
 /// [`Error::Store`].
 pub fn read_table_file(path: &Path) -> Result<(Table, Option<Manifest>), Error> {
-    let manifest = table_metadata(path)?.map(|text| serde_json::from_str(&text)).transpose();
+    let manifest = table_metadata(path)?.map(|text| serde_json::from_slice(text.as_bytes())).transpose();
     Ok((read_table(path)?, manifest.map_err(|error| Error::unreadable(path, error))?))
 }
 

@@ -28,7 +28,8 @@ pub(crate) fn columns(model: &dyn Model) -> Table {
     Table { columns: all.chain(observed.map(|observed| column(observed.name, observed.meaning))).collect() }
 }
 
-/// The dimension of a column of a trajectory; that of a number for other names. A shape is a deviation of the outline and has that of its size.
+/// The dimension of a column of a trajectory; that of a number for other names. A shape is a deviation of the outline and has that of
+/// its size.
 #[must_use]
 pub fn dimension(model: &dyn Model, column: &str) -> Dimension {
     if let Some(known) = [&T, &X, &Y, &SPEED, &TURNING_RATE].into_iter().find(|known| known.name == column) {

@@ -53,7 +53,7 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
 
 fn median(sizes: &[Vec<f64>]) -> f64 {
     let mut all: Vec<f64> = sizes.iter().flatten().copied().filter(|x| !x.is_nan()).collect();
-    all.sort_by(f64::total_cmp);
+    all.sort_unstable_by(f64::total_cmp);
     all[all.len() / 2]
 }
 

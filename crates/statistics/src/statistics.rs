@@ -112,7 +112,7 @@ fn discs(settings: &Settings, displacement: &MeanSquare) -> Result<Vec<f64>> {
         return Ok(radii(displacement));
     }
     let mut given = settings.radii.clone();
-    given.sort_by(f64::total_cmp);
+    given.sort_unstable_by(f64::total_cmp);
     match given.iter().find(|radius| !(**radius > 0.0 && radius.is_finite())) {
         Some(&value) => Err(crate::Error::Setting { key: "radius", value, remedy: "give a radius above 0" }),
         None => Ok(given),

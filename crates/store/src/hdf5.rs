@@ -66,7 +66,7 @@ pub fn read_fields(path: &Path) -> Result<Fields, Error> {
     let texts =
         attributes.iter().filter_map(|(name, value)| Some((name.clone(), value.as_str()?.to_owned())));
     let mut attributes: Vec<(String, String)> = texts.collect();
-    attributes.sort(); // the file has no order of its own
+    attributes.sort_unstable(); // the file has no order of its own
     let points = outlines.len() / (2 * times.len()).max(1);
     let fields = Fields { times, arcs, phi, outlines, points, attributes };
     for part in parts(&fields) {

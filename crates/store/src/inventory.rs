@@ -78,7 +78,8 @@ impl Inventory {
     /// Lines that are cut off, by a kill or a full disk, are skipped: what they would list is not known to be ours.
     fn parse(text: &str) -> Result<Self, String> {
         let mut lines = text.lines();
-        let head: Value = lines.next().and_then(|line| serde_json::from_str(line).ok()).unwrap_or_default();
+        let head: Value =
+            lines.next().and_then(|line| serde_json::from_slice(line.as_bytes()).ok()).unwrap_or_default();
         let (Some(version), Some(kind)) = (head["motiform"].as_str(), head["kind"].as_str()) else {
             return Err("it is no inventory of motiform".to_owned());
         };
@@ -92,7 +93,9 @@ impl Inventory {
             staging_for: head["staging_for"].as_str().map(str::to_owned),
             ..Self::default()
         };
-        lines.filter_map(|line| serde_json::from_str(line).ok()).for_each(|line| found.add(&line));
+        lines
+            .filter_map(|line| serde_json::from_slice(line.as_bytes()).ok())
+            .for_each(|line| found.add(&line));
         Ok(found)
     }
 

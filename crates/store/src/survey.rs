@@ -23,7 +23,7 @@ impl Survey {
         let mut survey = Self::default();
         survey.walk(folder, "", inventory, &|name, digests| is_ours(&folder.join(name), digests))?;
         for names in [&mut survey.changed, &mut survey.edited, &mut survey.foreign] {
-            names.sort();
+            names.sort_unstable();
         }
         Ok(survey)
     }
@@ -33,7 +33,7 @@ impl Survey {
     pub(crate) fn names(folder: &Path, inventory: &Inventory) -> Result<Vec<String>> {
         let mut survey = Self::default();
         survey.walk(folder, "", inventory, &|_, _| Ok(true))?;
-        survey.foreign.sort();
+        survey.foreign.sort_unstable();
         Ok(survey.outside_results(folder))
     }
 

@@ -43,6 +43,8 @@ settings! {
         pub steady: bool,
         /// Of the orbits follow those alone that begin where a stable motion loses its stability.
         pub from_stable: bool,
+        /// Doublings of the period in a row that are followed: 3, if not given. Each one takes twice as long as the one before.
+        pub doublings: Option<u64>,
     }
 }
 
@@ -62,6 +64,7 @@ impl Default for FollowSettings {
             direction: None,
             steady: false,
             from_stable: false,
+            doublings: None,
         }
     }
 }
@@ -86,6 +89,7 @@ impl FollowSettings {
                 direction: self.direction.unwrap_or_default(),
                 steady: self.steady,
                 from_stable: self.from_stable,
+                doublings: self.doublings,
             },
             given: None,
         })

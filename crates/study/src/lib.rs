@@ -51,7 +51,7 @@ pub use plan::{Plan, Provenance, Question, RunPlan};
 pub use random::Random;
 pub use remarks::{idle_ties, remarks};
 pub use scan::ScanPlan;
-pub use stride::{Stride, Towards};
+pub use stride::{DOUBLINGS, Stride, Towards};
 pub use study::Study;
 pub use ties::Ties;
 pub use units::Shown;

@@ -80,7 +80,14 @@ pub struct Stride {
     /// Of the orbits follow those alone that begin where a stable motion loses its stability.
     #[serde(default, skip_serializing_if = "is_false")]
     pub from_stable: bool,
+    /// Doublings of the period in a row that are followed, by default [`DOUBLINGS`]: in a cascade each branch takes twice as long as the
+    /// one before, in a range that is 4.7 times shorter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doublings: Option<u64>,
 }
+
+/// Doublings in a row: three make one ratio of neighbouring intervals, which tells a cascade.
+pub const DOUBLINGS: u64 = 3;
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
 const fn is_false(value: &bool) -> bool {

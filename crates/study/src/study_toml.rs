@@ -149,6 +149,7 @@ mod tests {
             direction: Some(Towards::Down),
             steady: true,
             from_stable: true,
+            doublings: Some(1),
         };
         study.return_map = Some(ReturnMapSettings { y: 1.0, x_min: -2.0, x_max: 3.5, centre: true });
         study.figure = FigureSettings {

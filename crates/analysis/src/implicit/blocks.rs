@@ -107,7 +107,7 @@ impl<'j> Blocks<'j> {
         self.is_solved(&whole, &right).then_some(last)
     }
 
-    /// Whether a solution leaves nothing but round-off.
+    /// True where a solution leaves nothing but round-off.
     fn is_solved(&self, w: &[DMatrix<f64>], right: &[DMatrix<f64>]) -> bool {
         let a = &Tableau::get().inverse;
         (0..STAGES).all(|i| {

@@ -40,7 +40,7 @@ const FEW: usize = 12;
 /// Shortest step, as part of the span.
 const SHORTEST: f64 = 1e-12;
 
-/// What the flow leads to.
+/// The state that the flow leads to.
 #[derive(Clone, Debug)]
 pub struct Flowed {
     /// The state at the end.

@@ -112,7 +112,7 @@ impl<'f, F: VectorField<f64> + Differentiable + ?Sized> Step<'f, F> {
     }
 }
 
-/// What stages and their rates leave of the equations.
+/// The residual of the equations at stages and their rates.
 fn left(h: f64, u: &[f64], stages: &DMatrix<f64>, rates: &DMatrix<f64>) -> DMatrix<f64> {
     let (dim, weights) = (u.len(), &Tableau::get().weights);
     DMatrix::from_fn(dim * STAGES, 1, |row, _| {

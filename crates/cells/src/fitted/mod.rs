@@ -89,8 +89,8 @@ impl Fitted {
         self.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name())
     }
 
-    /// `true` if noise carries all of the displacement: the models that the data allow rest without it, while the speed exceeds its errors of
-    /// observation.
+    /// `true` if noise carries all of the displacement: the models that the data allow rest without it, while the speed exceeds its errors
+    /// of observation.
     #[must_use]
     pub fn is_walk(&self) -> bool {
         self.doubts.is_empty() && self.regime.as_ref().is_some_and(FittedRegime::is_carried)

@@ -32,7 +32,7 @@ impl Places {
         Self { interval: interval(&modes.frames), pieces }
     }
 
-    /// How many intervals lie between two times, rounded.
+    /// The number of intervals between two times, rounded.
     pub(super) fn lag(&self, from: f64, to: f64) -> f64 {
         ((to - from) / self.interval).round()
     }

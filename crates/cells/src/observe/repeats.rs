@@ -1,4 +1,4 @@
-//! Whether shape and motion repeat, with rotations and the mirror divided out.
+//! Repetitions of shape and motion, with rotations and the mirror divided out.
 
 use super::measures::{Measures, Series, mean, scatter};
 use serde::Serialize;
@@ -15,7 +15,7 @@ const LONGEST: f64 = 0.4;
 pub struct Repeats {
     /// Its period (unit of time).
     pub period: f64,
-    /// How many were seen.
+    /// The number seen.
     pub periods: f64,
     /// Correlation of the invariants with themselves one period later.
     pub likeness: f64,

@@ -83,7 +83,7 @@ pub(crate) enum Observable {
 pub(crate) struct EquilibriaOptions {
     #[command(flatten)]
     pub(crate) motion: MotionOptions,
-    /// How many random shapes Newton's method starts from, beside the circle
+    /// Number of random shapes Newton's method starts from, beside the circle
     #[arg(long, value_name = "M", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_hyphen_values = true)]
     pub(crate) starts: u32,
 }

@@ -82,6 +82,7 @@ impl Keys for Following {
         "samples",
         "steady",
         "from_stable",
+        "doublings",
     ];
     const RENAMED: &'static [(&'static str, &'static str)] = &[("from", "motion"), ("samples", "sweep")];
 }

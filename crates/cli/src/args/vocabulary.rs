@@ -35,6 +35,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("force", "replace an earlier result; what motiform did not write stays"),
     ("format", "format of the tables in an output folder"),
     ("from", "draw from this time"),
+    ("doublings", "doublings of the period in a row that are followed"),
     ("from-stable", "of the orbits follow those that begin where a stable motion loses its stability"),
     ("in", "the plane of curves"),
     ("initial", "an initial value"),

@@ -21,7 +21,7 @@ fn known_names(command: Command) -> Command {
     let models: Vec<&str> = MODELS.iter().map(|model| model.name).collect();
     let specs = MODELS.iter().flat_map(ModelInfo::parameters);
     let mut parameters: Vec<&str> = specs.map(|spec| spec.name).collect();
-    parameters.sort();
+    parameters.sort_unstable();
     parameters.dedup();
     let complete = |command: Command| {
         command.mut_args(|arg| match arg.get_id().as_str() {

@@ -167,6 +167,13 @@ fn text(folder: &BranchFolder, written: Option<&str>, units: &Shown) -> anyhow::
     if found.left > 0 {
         writeln!(text, "more       begins at {} of these points; --branches N follows more", found.left)?;
     }
+    if found.doublings_left > 0 {
+        let left = found.doublings_left;
+        writeln!(
+            text,
+            "doublings  of the period that were not followed: {left}; --doublings N follows N in a row"
+        )?;
+    }
     if let Some(written) = written {
         writeln!(text, "written    {written}")?;
     }

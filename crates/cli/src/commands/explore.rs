@@ -87,7 +87,7 @@ fn study_files(folder: &Path) -> anyhow::Result<Vec<String>> {
             files.push(path.display().to_string());
         }
     }
-    files.sort();
+    files.sort_unstable();
     if files.is_empty() {
         files.push("none of its cells has equations".to_owned());
     }

@@ -171,7 +171,7 @@ impl Target {
                 let mut names: Vec<String> = std::fs::read_dir(staged.path())?
                     .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
                     .collect::<std::io::Result<_>>()?;
-                names.sort();
+                names.sort_unstable();
                 let (path, kept) = staged.commit()?;
                 kept.iter().for_each(|note| warn(note));
                 let written = format!("{}: {}", path.display(), names.join(" "));

@@ -27,7 +27,7 @@ fn shim() -> &'static PathBuf {
     })
 }
 
-/// How many calls there are from one that fails to the next.
+/// The number of calls from one that fails to the next.
 pub(crate) fn every() -> usize {
     std::env::var("MOTIFORM_FAULTS").ok().and_then(|text| text.parse().ok()).unwrap_or(23)
 }

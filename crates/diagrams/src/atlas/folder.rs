@@ -87,5 +87,5 @@ impl AtlasFolder {
 
 /// A kept item from its JSON; `None` where it is something else.
 pub(crate) fn parsed<T: for<'d> Deserialize<'d>>(bytes: &[u8]) -> Option<T> {
-    serde_json::from_str(std::str::from_utf8(bytes).ok()?).ok()
+    serde_json::from_slice(bytes).ok()
 }

@@ -124,5 +124,5 @@ pub(crate) fn finish<C: Question>(
 pub(crate) fn read<T: for<'d> Deserialize<'d>>(folder: &Path, name: &str) -> Result<T, Error> {
     let path = folder.join(name);
     let text = input::manifest(&path).map_err(|error| Error::unreadable(&path, error))?;
-    serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))
+    serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(&path, error))
 }

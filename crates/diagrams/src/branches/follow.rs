@@ -11,7 +11,7 @@ use crate::settles::settles;
 use motiform_continuation::{Allowance, Branch, End, Special};
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_store::Journal;
-use motiform_study::{BranchPlan, Error, Stride};
+use motiform_study::{BranchPlan, DOUBLINGS, Error, Stride};
 
 /// A new branch is compared with the others over so many points, and over fewer and fewer of the later ones: near a special point Newton's
 /// method may confuse the branches that meet there.
@@ -88,6 +88,7 @@ fn follow_bodies(
             keep(&work.done)?;
         }
     }
+    work.done.doublings_left = work.unasked().filter(|&origin| work.is_too_deep(origin)).count();
     let mut done = work.done;
     if plan.computation.samples > 0 && done.sweeps.is_none() {
         done.sweeps = sweeps(plan, journal, watch)?;
@@ -105,8 +106,19 @@ struct Work<'w> {
 }
 
 impl Work<'_> {
-    /// The origins that were not asked yet, in the order of the branches.
+    /// The origins that were not asked yet, in the order of the branches, without doublings after too many others.
     fn open(&self) -> impl Iterator<Item = Origin> {
+        self.unasked().filter(|&origin| !self.is_too_deep(origin))
+    }
+
+    /// Returns `true` at a doubling of the period after as many others as are followed in a row.
+    fn is_too_deep(&self, origin: Origin) -> bool {
+        let most = self.bodies.plan.computation.stride.doublings.unwrap_or(DOUBLINGS);
+        origin.doublings(&self.done.branches) > most
+    }
+
+    /// All origins that were not asked yet.
+    fn unasked(&self) -> impl Iterator<Item = Origin> {
         let all =
             self.done.branches.iter().enumerate().flat_map(|(number, branch)| Origin::on(number, branch));
         let Stride { steady, from_stable, .. } = self.bodies.plan.computation.stride;

@@ -139,6 +139,20 @@ impl Origin {
         }
     }
 
+    /// Doublings of the period in a row that lead here, this one included.
+    pub(super) fn doublings(self, branches: &[Followed]) -> u64 {
+        match self {
+            Self::Special { branch, leg, point } => {
+                let here = &branches[branch];
+                match here.legs[leg].samples[point].point.special {
+                    Some(Special::PeriodDoubling) => 1 + here.origin.doublings(branches),
+                    _ => 0,
+                }
+            }
+            _ => 0,
+        }
+    }
+
     /// The branch on which it lies.
     #[must_use]
     pub const fn branch(self) -> Option<usize> {

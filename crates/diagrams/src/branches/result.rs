@@ -66,6 +66,9 @@ pub struct Branches {
     pub links: Vec<Link>,
     /// Number of origins that were left because there were enough branches.
     pub left: usize,
+    /// Number of doublings of the period that were left because as many precede them as are followed in a row.
+    #[serde(default)]
+    pub doublings_left: usize,
     /// Motions sampled along the parameter, if that was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweeps: Option<Sweeps>,
@@ -133,7 +136,14 @@ impl Followed {
 
 impl Branches {
     pub(super) const fn none() -> Self {
-        Self { branches: Vec::new(), links: Vec::new(), left: 0, sweeps: None, complete: false }
+        Self {
+            branches: Vec::new(),
+            links: Vec::new(),
+            left: 0,
+            doublings_left: 0,
+            sweeps: None,
+            complete: false,
+        }
     }
 
     /// The point with these numbers: branch, leg and point.
@@ -146,6 +156,7 @@ impl Branches {
     pub(super) fn whole(mut self) -> Self {
         self.branches.retain(Followed::is_whole);
         self.left = 0;
+        self.doublings_left = 0;
         self.complete = false;
         self
     }

@@ -86,6 +86,7 @@ pub fn summary(plan: &BranchPlan, found: &Branches) -> Value {
         "along": c.along,
         "complete": found.complete,
         "origins_left": found.left,
+        "doublings_left": found.doublings_left,
         "branches": entries.map(|(number, followed)| entry(plan, found, (number, followed))).collect::<Vec<_>>(),
     })
 }

@@ -41,7 +41,8 @@ impl Table {
         if head.plane != *plane {
             return None;
         }
-        let rows = lines.map(|line| serde_json::from_str(line).ok().map(row)).collect::<Option<_>>()?;
+        let rows =
+            lines.map(|line| serde_json::from_slice(line.as_bytes()).ok().map(row)).collect::<Option<_>>()?;
         Some(Self { window: head.window, rows })
     }
 }

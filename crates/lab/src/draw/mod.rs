@@ -104,7 +104,8 @@ pub fn dataset_figures(dataset: &Dataset) -> Result<Figures, Error> {
     Ok(if body.rows().len() < 2 { Vec::new() } else { figures(&body) })
 }
 
-/// The still figures of a dataset in a style, with their data, by name: the contents of the files of [`draw`]. None with fewer than two rows.
+/// The still figures of a dataset in a style, with their data, by name: the contents of the files of [`draw`]. None with fewer than two
+/// rows.
 ///
 /// # Errors
 /// As [`draw`].

@@ -150,7 +150,8 @@ impl Lives {
     /// [`Error::Store`]; [`Error::OtherPlan`] for another plan.
     pub fn read(path: &Path, plan: &ScanPlan) -> Result<Self, Error> {
         let text = input::manifest(path).map_err(|error| Error::unreadable(path, error))?;
-        let lives: Self = serde_json::from_str(&text).map_err(|error| Error::unreadable(path, error))?;
+        let lives: Self =
+            serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(path, error))?;
         if lives.plan_hash == plan.hash() && lives.orbits.len() == plan.rows() {
             Ok(lives)
         } else {

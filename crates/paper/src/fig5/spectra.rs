@@ -70,7 +70,7 @@ fn picture(context: &Context<'_>, zigzag: &Spectrum, chaos: &Spectrum) -> Result
 /// The share of the frequencies that is needed to hold 99 % of the power.
 fn breadth(spectrum: &Spectrum) -> f64 {
     let mut power = spectrum.power.clone();
-    power.sort_by(|a, b| b.total_cmp(a));
+    power.sort_unstable_by(|a, b| b.total_cmp(a));
     let total: f64 = power.iter().sum();
     let mut sum = 0.0;
     let needed = power.iter().take_while(|p| {

@@ -46,7 +46,13 @@ impl Atlas {
         context.choose("Motions of the cell", "Steady motions of the cell").clone_into(&mut study.title);
         let (end, steady) = (context.choose(RANGE.1, QUICK), context.choose(false, true));
         let along = Along { name: "length".to_owned(), from: RANGE.0, to: end };
-        let stride = Stride { steady, from_stable: !steady, direction: Towards::Up, ..Stride::default() };
+        let stride = Stride {
+            steady,
+            from_stable: !steady,
+            doublings: Some(1), // the second is 7e-4 beside the first, and its orbits last twice as long
+            direction: Towards::Up,
+            ..Stride::default()
+        };
         let settings = BranchSettings { branches: MOST, stride, ..BranchSettings::over(along) };
         let plan = BranchPlan::new(&study, &settings)?;
         let follow = || {

@@ -107,6 +107,7 @@ class Model(Analysed):
         tolerance: float | None = None,
         steady: bool = False,
         from_stable: bool = False,
+        doublings: int = 3,
         branches: int = 8,
         points: int = 2000,
         initial: Mapping[str, float] | None = None,
@@ -128,7 +129,8 @@ class Model(Analysed):
         branches, ``"FILE.json:NUMBER"`` of ``motiform equilibria --json``, ``"DATASET:t=TIME"`` or ``"DATASET:ROW"``; a dataset alone starts from
         its last state. `direction` says to which sides the start is followed. `branch_step` (0.02) and `first_step` (0.005) are the longest
         and the first step, as parts of the range; Newton's method has converged with a step below `tolerance` (1e-9). With `steady` the
-        orbits that begin at Hopf points are not followed; with `from_stable` those alone that begin where a stable motion loses its stability.
+        orbits that begin at Hopf points are not followed; with `from_stable` those alone that begin where a stable motion loses its stability. Of a
+        cascade at most so many `doublings` of the period in a row are followed.
 
         More: docs/continuation.md.
         """
@@ -137,7 +139,8 @@ class Model(Analysed):
         remark(study, (name,))
         settings: dict[str, Any] = {
             "along": range_, "from": from_, "direction": direction, "branch_step": branch_step, "first_step": first_step,
-            "tolerance": tolerance, "steady": steady, "from_stable": from_stable, "branches": branches, "points": points,
+            "tolerance": tolerance, "steady": steady, "from_stable": from_stable, "doublings": doublings,
+            "branches": branches, "points": points,
         }  # fmt: skip
         with Bar(progress, branches, "branches") as bar:
             point = None if start is None else os.fspath(start)

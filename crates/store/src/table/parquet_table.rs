@@ -75,7 +75,9 @@ fn columns(file: &FileMetaData) -> Table {
     let meanings = file
         .key_value_metadata()
         .and_then(|entries| entries.iter().find(|entry| entry.key == "motiform.columns"))
-        .and_then(|entry| serde_json::from_str::<serde_json::Value>(entry.value.as_deref()?).ok());
+        .and_then(|entry| {
+            serde_json::from_slice::<serde_json::Value>(entry.value.as_deref()?.as_bytes()).ok()
+        });
     let mut table = Table::default();
     for field in file.schema_descr().columns() {
         let meaning =

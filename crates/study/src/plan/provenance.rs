@@ -53,7 +53,7 @@ impl<C: Question> Provenance<C> {
             reason: format!("{}: {reason}", C::MANIFEST),
         };
         let text = input::manifest(&path).map_err(|error| none(error.to_string()))?;
-        let read: Self = serde_json::from_str(&text).map_err(|error| none(error.to_string()))?;
+        let read: Self = serde_json::from_slice(text.as_bytes()).map_err(|error| none(error.to_string()))?;
         match read.plan.hash() == read.plan_hash {
             true => Ok(read),
             false => Err(none("it was changed: its plan does not give its hash".to_owned())),

@@ -30,7 +30,7 @@ pub(super) fn images(folder: &Path) -> Result<Vec<(Option<i64>, PathBuf)>> {
     if numbers.len() < found.len() {
         found.iter_mut().for_each(|one| one.0 = None);
     }
-    found.sort();
+    found.sort_unstable();
     Ok(found)
 }
 

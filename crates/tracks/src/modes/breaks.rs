@@ -156,6 +156,6 @@ fn apart(a: &FrameModes, b: &FrameModes) -> f64 {
 }
 
 fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
-    values.sort_by(f64::total_cmp);
+    values.sort_unstable_by(f64::total_cmp);
     values.get((share * values.len() as f64) as usize).copied().unwrap_or(0.0)
 }

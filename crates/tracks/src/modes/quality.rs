@@ -74,7 +74,7 @@ fn deviations(logs: &[Option<f64>], steps: &[usize]) -> Vec<Option<f64>> {
 }
 
 pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
+    values.sort_unstable_by(f64::total_cmp);
     let (low, high) = (values.get(values.len().saturating_sub(1) / 2)?, values.get(values.len() / 2)?);
     Some(0.5 * (low + high))
 }

@@ -22,7 +22,7 @@ pub struct ObservedChaos {
     pub upper: f64,
     /// Time between the samples used: the first lag at which the autocorrelation is not positive.
     pub interval: f64,
-    /// How many there were.
+    /// Their number.
     pub samples: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Whether two answers say the same.
+//! Comparison of two answers.
 
 use super::request::{Answer, Request};
 use std::fmt;

@@ -40,7 +40,7 @@ fn amplitude(n: i64) -> String {
 }
 
 impl Text {
-    /// How many modes the system of this seed has.
+    /// The number of modes of the system of this seed.
     pub(crate) fn modes(seed: u64) -> u32 {
         2 + u32::try_from(seed % 7).expect("it is small")
     }

@@ -162,7 +162,7 @@ fn caption(
         (true, 1) => ", drawn once for all its mirror images",
         (true, _) => ", each drawn once for all its mirror images",
     };
-    let left = match found.left {
+    let left = match found.left + found.doublings_left {
         0 => String::new(),
         1 => "; one point at which more may begin was left".to_owned(),
         left => format!("; {left} points at which more may begin were left"),

@@ -47,7 +47,7 @@ pub(super) fn table(asked: &Asked<'_>) -> Result<StartPoint, Error> {
 fn written_in(asked: &Asked<'_>) -> Result<Option<Manifest>, Error> {
     let entries = columns::metadata(&asked.path).map_err(|error| Error::unreadable(&asked.path, error))?;
     let text = entries.into_iter().find(|entry| entry.0 == "motiform").map(|entry| entry.1);
-    text.map(|text| serde_json::from_str(&text)).transpose().map_err(|_| {
+    text.map(|text| serde_json::from_slice(text.as_bytes())).transpose().map_err(|_| {
         asked.wrong(
             "this is a table of another result than a dataset: of branches, give their folder".to_owned(),
         )
@@ -57,7 +57,7 @@ fn written_in(asked: &Asked<'_>) -> Result<Option<Manifest>, Error> {
 fn manifest(folder: &Path) -> Result<Manifest, Error> {
     let path = folder.join("manifest.json");
     let text = input::manifest(&path).map_err(|error| Error::unreadable(&path, error))?;
-    serde_json::from_str(&text).map_err(|error| Error::unreadable(&path, error))
+    serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(&path, error))
 }
 
 fn state(asked: &Asked<'_>, table: &Path, manifest: Manifest) -> Result<StartPoint, Error> {
