@@ -5,7 +5,7 @@
     z3' = -kappa3 z3 + e31 z1^3 + e32 z1 z2
 
 State (Re z1, Im z1, Re z2, Im z2, Re z3, Im z3). Member i of n has its own kappa2 and its own start. See
-crates/models/src/tensor/fourier.rs; the terms whose coefficients are 0 in the paper's full model are left out.
+crates/engine/models/src/tensor/fourier.rs; the terms whose coefficients are 0 in the paper's full model are left out.
 """
 
 import numpy as np

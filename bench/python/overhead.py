@@ -21,7 +21,7 @@ import numpy as np
 import motiform
 from motiform import _motiform
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "crates/python/tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "crates/apps/python/tests"))
 from test_interruption import LONG, PROGRAM  # noqa: E402
 
 COUNT = 200  # runs in a row, per round

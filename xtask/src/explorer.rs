@@ -30,7 +30,7 @@ pub(crate) fn test() -> Result<()> {
 /// Chromium, and in part in Firefox.
 pub(crate) fn test_built() -> Result<()> {
     let root = root()?.canonicalize()?;
-    let folder = root.join("crates/explorer/web");
+    let folder = root.join("crates/apps/explorer/web");
     let node = node(&root)?;
     let [chromium, firefox] = [chromium()?, firefox()?];
     npm("page dependencies", &node, &folder, &["ci", "--no-audit", "--no-fund"])?;
@@ -45,7 +45,7 @@ pub(crate) fn test_built() -> Result<()> {
 /// All tests of the page in Firefox; those that ask for what Firefox does not offer its drivers are skipped, with the reason.
 pub(crate) fn test_in_firefox() -> Result<()> {
     let root = root()?.canonicalize()?;
-    let folder = root.join("crates/explorer/web");
+    let folder = root.join("crates/apps/explorer/web");
     let (node, firefox) = (node(&root)?, firefox()?);
     npm("page dependencies", &node, &folder, &["ci", "--no-audit", "--no-fund"])?;
     cargo("program", &["build", "--release", "--workspace"])?;
@@ -69,11 +69,11 @@ fn compare(node: &Path, root: &Path, web: &Path) -> Result<()> {
     let mut vite = Command::new(node);
     vite.arg(web.join("node_modules/vite/bin/vite.js")).arg("build").arg(web);
     step("page", vite.arg("--outDir").arg(&built).arg("--emptyOutDir"))?;
-    let committed = root.join("crates/explorer/page");
+    let committed = root.join("crates/apps/explorer/page");
     if contents(&built)? != contents(&committed)? {
         bail!(
-            "the page in crates/explorer/page is not what web/ gives: \
-             run `npm run build` in crates/explorer/web and commit"
+            "the page in crates/apps/explorer/page is not what web/ gives: \
+             run `npm run build` in crates/apps/explorer/web and commit"
         );
     }
     Ok(())

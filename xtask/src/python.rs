@@ -9,7 +9,7 @@ use std::process::Command;
 pub(crate) fn test() -> Result<()> {
     let python = environment("target/python")?;
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".[test]"];
-    // Crates with the features that they have in the whole workspace are not built again (crates/python/Cargo.toml).
+    // Crates with the features that they have in the whole workspace are not built again (crates/apps/python/Cargo.toml).
     let features = "--features workspace";
     step("python package", Command::new(&python).args(install).env("MATURIN_PEP517_ARGS", features))?;
     // Files stay together: what a file prepares is prepared once.
@@ -57,13 +57,13 @@ mod tests {
         lines.filter(|line| !line.starts_with("motiform")).collect()
     }
 
-    /// Otherwise cargo builds half of the workspace once more for the package (crates/python/Cargo.toml).
+    /// Otherwise cargo builds half of the workspace once more for the package (crates/apps/python/Cargo.toml).
     #[test]
     fn the_package_is_built_from_what_the_tests_are_built_from() {
         let workspace = packages(&["--workspace", "--edges", "normal,build,dev"]);
         let package =
             packages(&["--package", "motiform-py", "--features", "workspace", "--edges", "normal,build"]);
         let others: Vec<&String> = package.difference(&workspace).collect();
-        assert!(others.is_empty(), "the feature `workspace` of crates/python asks for {others:?}");
+        assert!(others.is_empty(), "the feature `workspace` of crates/apps/python asks for {others:?}");
     }
 }

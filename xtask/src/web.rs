@@ -23,7 +23,7 @@ pub(crate) const SITE: &str = "docs/site";
 /// Builds all of it.
 pub(crate) fn run() -> Result<()> {
     let root = root()?.canonicalize()?;
-    let web = root.join("crates/explorer/web");
+    let web = root.join("crates/apps/explorer/web");
     if !is_installed()? {
         bail!(REMEDY);
     }

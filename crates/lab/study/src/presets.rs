@@ -1,0 +1,99 @@
+//! The presets: study files that come with the program.
+
+use crate::error::nearest_of;
+use crate::{Error, Study};
+use motiform_models::{MODELS, ModelInfo};
+
+/// A preset: a study file of the folder `presets/`.
+#[derive(Debug)]
+pub struct Preset {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// Its model.
+    pub model: &'static str,
+    /// The study file.
+    pub text: &'static str,
+}
+
+macro_rules! presets {
+    ($(#[$doc:meta])* $list:ident: $($model:literal: $($name:literal),*;)*) => {
+        $(#[$doc])*
+        pub static $list: &[Preset] = &[$($(
+            Preset {
+                name: $name,
+                model: $model,
+                text: include_str!(concat!("../../../../presets/", $name, ".toml")),
+            },
+        )*)*];
+    };
+}
+
+presets! {
+    /// The paper's presets, in the order of its figures.
+    PRESETS:
+    "tensor": "fig1", "fig2", "fig3", "fig4", "fig5a", "fig5b";
+    "cell": "fig6a", "fig6b", "fig6c", "fig6d";
+}
+
+presets! {
+    /// Extensions from the literature, as equations given as text.
+    EXTENSIONS:
+    "amplitudes": "ohta-ohkuma", "chiral", "force", "elongating-field", "noisy-heading";
+}
+
+/// All presets.
+fn all() -> impl Iterator<Item = &'static Preset> {
+    PRESETS.iter().chain(EXTENSIONS)
+}
+
+/// The study of a preset of any model.
+///
+/// # Errors
+/// [`Error::UnknownPreset`] with the nearest name, for the model of this name.
+pub fn find_any(name: &str, model: &'static str) -> Result<Study, Error> {
+    match all().find(|preset| preset.name == name) {
+        Some(preset) => Study::parse(preset.text, &format!("preset {name}"), name),
+        None => {
+            let known = names_of(model);
+            let nearest = nearest_of(name, &known);
+            Err(Error::UnknownPreset { name: name.to_owned(), model, nearest, known })
+        }
+    }
+}
+
+/// The names of a model's presets.
+#[must_use]
+pub fn names_of(model: &str) -> Vec<&'static str> {
+    all().filter(|preset| preset.model == model).map(|preset| preset.name).collect()
+}
+
+/// The study of a preset.
+///
+/// # Errors
+/// [`Error::UnknownPreset`] with the nearest name.
+pub fn find(info: &'static ModelInfo, name: &str) -> Result<Study, Error> {
+    let preset = all().find(|preset| preset.model == info.name && preset.name == name);
+    let Some(preset) = preset else {
+        let known = names_of(info.name);
+        let nearest = nearest_of(name, &known);
+        return Err(Error::UnknownPreset { name: name.to_owned(), model: info.name, nearest, known });
+    };
+    Study::parse(preset.text, &format!("preset {name}"), name)
+}
+
+/// The model that a preset belongs to.
+#[must_use]
+pub fn model_of(name: &str) -> Option<&'static ModelInfo> {
+    let preset = PRESETS.iter().find(|preset| preset.name == name)?;
+    MODELS.iter().find(|info| info.name == preset.model)
+}
+
+/// Returns `true` if a text is the title or the sentence of one of a model's presets.
+pub(crate) fn says(model: &str, text: &str) -> bool {
+    let theirs = |preset: &&'static Preset| preset.model == model;
+    let says = |preset: &Preset| {
+        Study::parse(preset.text, preset.name, preset.name)
+            .is_ok_and(|study| study.title == text || study.about == text)
+    };
+    all().filter(theirs).any(says)
+}
