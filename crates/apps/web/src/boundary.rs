@@ -1,5 +1,5 @@
 //! The boundary to the worker's JavaScript: exported functions over linear memory, and functions that the worker provides. No bindings are
-//! generated, so there is nothing to keep in step but this file and `web/src/alone/engine.ts`.
+//! generated, so there is nothing to keep in step but this file and `apps/explorer/web/src/alone/engine.ts`.
 //!
 //! A text comes in by [`buffer`], which gives the place to write it to, and the length that the next call
 //! names. Messages go out by a pointer and a length, which the worker copies before it returns.

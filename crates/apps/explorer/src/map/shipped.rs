@@ -1,6 +1,6 @@
 //! Coarse maps that come with the program: those of Figs. 1, 4 and 6, shown at once while finer cells are computed.
 //!
-//! A file of `crates/apps/explorer/maps/` has a line of JSON with the plane and its window, then a line for each cell. They are what the program
+//! A file of `crates/apps/explorer/maps/` has a line of JSON with plane and window, then a line for each cell. They are what the program
 //! computes, to the bit: a test computes them all. `MOTIFORM_UPDATE=1 cargo test --release --workspace --lib shipped` writes them.
 
 use motiform_analysis::regime::{Attractor, Regime};

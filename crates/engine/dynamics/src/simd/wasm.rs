@@ -2,7 +2,7 @@
 //!
 //! A module either has these instructions everywhere or cannot be loaded, so there is nothing to detect: they are used where the module is
 //! built with them (`-C target-feature=+simd128`), and its functions for them are safe. Tests:
-//! `web/tests/module.test.mjs`, whole maps against those of this machine, to the bit.
+//! `apps/explorer/web/tests/module.test.mjs`, whole maps against those of this machine, to the bit.
 
 use super::Registers;
 use std::arch::wasm32::*;
