@@ -65,6 +65,7 @@ impl BranchSettings {
             direction: Towards::Both,
             steady: false,
             from_stable: false,
+            doublings: None,
         };
         Self { along, origin: None, points: 2000, branches: 8, samples: 0, stride, given: None }
     }
