@@ -73,7 +73,11 @@ impl Progress {
     pub(crate) fn stage(&self, name: &str, share: [f64; 2], (done, even): (&'static str, bool)) {
         let Ok(mut stage) = self.stage.lock() else { return };
         stage.1 += 1;
-        let name = format!("{} of {}, {name}", stage.1, self.stages);
+        let name = if self.stages == 1 {
+            name.to_owned()
+        } else {
+            format!("{} of {}, {name}", stage.1, self.stages)
+        };
         let template =
             if even { "{msg}: {percent}%, {eta} left" } else { "{msg}: {percent}% {prefix}, {elapsed}" };
         let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -104,10 +108,12 @@ impl Progress {
         }
     }
 
-    /// The share of the present stage that is done, or of the whole.
-    fn share(&self, done: f64) -> f64 {
+    /// The share of the present stage that is done, or of the whole, and `true` if it may become smaller: what is left to do is found on
+    /// the way.
+    fn share(&self, done: f64) -> (f64, bool) {
         let stage = self.stage.lock().ok();
-        stage.as_ref().and_then(|stage| stage.0.as_ref()).map_or(done, |stage| stage.part(done))
+        let present = stage.as_ref().and_then(|stage| stage.0.as_ref());
+        present.map_or((done, false), |stage| (stage.part(done), !stage.even))
     }
 
     /// Removes the bar.
@@ -147,9 +153,10 @@ impl Watch for Progress {
         if let Some(next) = &self.next {
             self.line(next, done);
         }
-        // Never back: threads may report out of order.
-        let done = (self.share(done) * self.total) as u64;
-        if done <= self.bar.position() {
+        let (share, back) = self.share(done);
+        let done = (share * self.total) as u64;
+        // Threads may report out of order.
+        if done <= self.bar.position() && !back {
             return;
         }
         self.bar.set_position(done);

@@ -22,7 +22,7 @@ const NODES: usize = 8;
 const BESIDE: (usize, usize) = (1, 3);
 
 /// Orbits, one branch for each kind of oscillation; from a circle the relative equilibria that begin as an oscillation which only turns
-/// too.
+/// too. With [`Settings::steady`] these alone.
 pub(super) fn onset<'f>(
     family: &'f dyn Family,
     at: (&Point, &RelativeEquilibrium, f64),
@@ -31,7 +31,8 @@ pub(super) fn onset<'f>(
 ) -> Result<Vec<Vec<Branch<'f>>>> {
     let (point, start, frequency) = at;
     let body = family.at(point.parameter)?;
-    let oscillations = Oscillation::all(body.as_ref(), &start.shape, frequency);
+    let oscillations =
+        if settings.steady { Vec::new() } else { Oscillation::all(body.as_ref(), &start.shape, frequency) };
     let rotating = rotating(body.as_ref(), &start.shape, frequency);
     if oscillations.is_empty() && rotating.is_none() {
         return Err(nothing(point.parameter));

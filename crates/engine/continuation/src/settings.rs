@@ -30,6 +30,8 @@ pub struct Settings {
     pub longest_time: f64,
     /// Parts of an orbit to begin with, at least 1; more follow where it amplifies deviations.
     pub parts: usize,
+    /// Of the motions that begin at a Hopf bifurcation, steady ones alone.
+    pub steady: bool,
     /// Method and tolerance of the flow, for orbits.
     pub flow: Flow,
 }
@@ -48,6 +50,7 @@ impl Settings {
             largest_size: 1e6,
             longest_time: f64::INFINITY,
             parts: 4,
+            steady: false,
             flow: Flow {
                 method: Method::Explicit(&DOP853),
                 control: StepControl::Adaptive { rtol: 1e-12, atol: 1e-16 },

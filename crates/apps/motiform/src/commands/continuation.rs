@@ -41,7 +41,8 @@ pub(super) fn no_units(of: &str) -> Error {
 fn branches(options: &ContinueOptions, plan: BranchPlan, units: &Shown) -> anyhow::Result<End> {
     let out = output(options, plan.default_folder());
     let (files, before) = prepare(options, out, |path, opening| BranchFolder::open(path, &plan, opening))?;
-    let watch = Progress::new(plan.computation.branches as f64, "branches");
+    let watch = Progress::staged(1);
+    watch.stage("branches", [0.0, 1.0], ("of those known so far", false));
     let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| BranchFolder::keep(found, folder));
     let journal: &dyn Journal = files.as_ref().map_or(&(), |folder| folder);
     let found = follow_kept(&plan, before, (&mut keep, journal), &watch);

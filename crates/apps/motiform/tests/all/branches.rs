@@ -189,3 +189,22 @@ fn a_transcritical_point_is_where_the_branches_cross() {
         assert!(range.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{json}");
     }
 }
+
+/// A circle without a mirror begins to turn at mu = 0, with an amplitude of the root of mu: a steady motion, which `--steady` follows.
+#[test]
+fn a_circle_that_begins_to_turn_begins_a_steady_motion() {
+    let folder = Folder::new();
+    folder.write(
+        "chiral.toml",
+        "[model.amplitudes]\nmodes = [2]\nsymmetry = \"rotation\"\n[model.amplitudes.parameters]\nmu = -0.5\n\
+         [model.amplitudes.equations]\nz2 = \"(mu+0.5*i)*z2-z2^2*conj(z2)\"\n",
+    );
+    for options in ["", "--steady", "--from-stable"] {
+        let json = follow(&folder, &format!("chiral.toml --along mu=-1:1 {options}"));
+        let branches = json["branches"].as_array().expect("branches");
+        assert_eq!(branches.len(), 2, "{options} {json}");
+        assert!(same(&special(&json, "mu"), &expected(&[("hopf", 0.0)]), 1e-9), "{options} {json}");
+        let stable: Vec<f64> = serde_json::from_value(branches[1]["stable"][0].clone()).expect("a range");
+        assert!(stable[0].abs() < 1e-6 && (stable[1] - 1.0).abs() < 1e-9, "{options} {json}");
+    }
+}

@@ -6,6 +6,7 @@ mod bits;
 mod bounds;
 mod branches;
 mod budgets;
+mod cascades;
 mod cell;
 mod certificates;
 mod closed_output;

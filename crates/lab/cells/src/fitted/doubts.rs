@@ -42,6 +42,19 @@ pub(super) fn doubts(
     doubts
 }
 
+/// Why the coefficients are biased by more than their intervals say; `None` where nothing shows it.
+pub(super) fn bias(warnings: &[Warning]) -> Option<&'static str> {
+    warnings.iter().find_map(|warning| match warning {
+        Warning::CoarseSampling { .. } => {
+            Some("the sampling is too coarse for the fastest rate of the equations, which biases the coefficients")
+        }
+        Warning::Drifting { .. } => Some(
+            "coefficients change with the sampling interval: they have a bias that intervals from the noise do not hold",
+        ),
+        _ => None,
+    })
+}
+
 /// `true` if there is no motion and no place with this warning.
 fn serious(warning: &Warning) -> bool {
     match warning {

@@ -1,7 +1,7 @@
 //! From tracks to a fit with everything that follows from it, stage by stage.
 
 use super::Fitted;
-use super::doubts::doubts;
+use super::doubts::{bias, doubts};
 use crate::regime::{FittedRegime, regime_of};
 use crate::stages::Stages;
 use crate::{Checks, FitOptions, Result};
@@ -63,7 +63,7 @@ pub(crate) fn fitted(
     }
     let averaged =
         if handed || !whole.converged() { Vec::new() } else { averaged(&whole, &selection.subsets) };
-    let places = places((&whole, &selection), &unplaced(&doubts, regime.as_ref(), handed));
+    let places = places((&whole, &selection), &unplaced(&doubts, regime.as_ref(), bias(&warnings), handed));
     Ok(Box::new(Fitted {
         whole,
         selection,
@@ -104,12 +104,19 @@ fn walk_not_excluded(
 }
 
 /// Why the cell has no place; empty where it may have one.
-fn unplaced(doubts: &[String], regime: Option<&FittedRegime>, handed: bool) -> Vec<String> {
+fn unplaced(
+    doubts: &[String],
+    regime: Option<&FittedRegime>,
+    bias: Option<&'static str>,
+    handed: bool,
+) -> Vec<String> {
     let mut reasons = doubts.to_vec();
     if regime.is_some_and(FittedRegime::is_carried) {
         reasons.push("noise carries the displacement: without it the equations rest, and the paper's planes are about motion without noise".to_owned());
     }
-    reasons.extend(regime.and_then(FittedRegime::no_intervals).map(str::to_owned));
+    reasons.extend(
+        regime.and_then(FittedRegime::no_intervals).or(bias.filter(|_| doubts.is_empty())).map(str::to_owned),
+    );
     if handed {
         reasons.push("the cell is handed, and the paper's planes are not".to_owned());
     }

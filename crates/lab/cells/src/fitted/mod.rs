@@ -125,10 +125,10 @@ impl Fitted {
         self.known.identifiable
     }
 
-    /// Why the intervals of the coefficients are not stated: [`FittedRegime::no_intervals`].
+    /// Why the intervals of the coefficients are not stated: [`FittedRegime::no_intervals`], and that the sampling biases them.
     #[must_use]
     pub fn no_intervals(&self) -> Option<&'static str> {
-        self.regime.as_ref()?.no_intervals()
+        self.regime.as_ref().and_then(FittedRegime::no_intervals).or_else(|| doubts::bias(&self.warnings))
     }
 
     /// A coefficient over all tied sets.

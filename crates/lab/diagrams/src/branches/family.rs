@@ -63,7 +63,8 @@ impl<'p> Bodies<'p> {
         settings.most_points = c.points;
         settings.largest_size = c.start.escape_norm * self.units.length;
         settings.longest_time = LOOKS * self.info.look;
-        let Stride { first_step, branch_step, tolerance, .. } = c.stride;
+        let Stride { first_step, branch_step, tolerance, steady, .. } = c.stride;
+        settings.steady = steady;
         settings.first_step = first_step.unwrap_or(settings.first_step);
         settings.largest_step = branch_step.unwrap_or(settings.largest_step);
         settings.tolerance = tolerance.unwrap_or(settings.tolerance);

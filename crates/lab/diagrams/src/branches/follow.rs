@@ -68,6 +68,7 @@ fn follow_bodies(
         watch,
         stop: &StopOnly(watch),
         done: before.map_or_else(Branches::none, Branches::whole),
+        expected: plan.computation.branches,
     };
     if work.done.branches.is_empty() {
         if !work.begin()? {
@@ -81,6 +82,7 @@ fn follow_bodies(
             break;
         }
         let there = work.done.branches.len();
+        work.expected = plan.computation.branches.min(there + work.open().count());
         if !work.grow(origin)? {
             return Ok(work.done);
         }
@@ -103,6 +105,9 @@ struct Work<'w> {
     /// For the flow, whose progress is none of the work.
     stop: &'w dyn Watch,
     done: Branches,
+    /// Number of branches as far as is known: those there are, and one for each origin that was not asked yet; at first as many as are
+    /// followed at most.
+    expected: usize,
 }
 
 impl Work<'_> {
@@ -122,9 +127,9 @@ impl Work<'_> {
         let all =
             self.done.branches.iter().enumerate().flat_map(|(number, branch)| Origin::on(number, branch));
         let Stride { steady, from_stable, .. } = self.bodies.plan.computation.stride;
-        let is_orbit = |origin: &Origin| !origin.is_steady(&self.done.branches);
+        let found = &self.done.branches;
         let wanted = move |origin: &Origin| {
-            !is_orbit(origin) || !steady && (!from_stable || origin.is_on_stable(&self.done.branches))
+            !origin.is_of_orbits(found) || !steady && (!from_stable || origin.is_on_stable(found))
         };
         all.filter(|origin| self.done.links.iter().all(|link| link.origin != *origin)).filter(wanted)
     }
@@ -244,11 +249,10 @@ impl Work<'_> {
         if folds.count() < 2 { None } else { samples.last()?.reading.period }
     }
 
-    /// Progress of the work: branches, of as many as there may be, and the points of this one.
+    /// Progress of the work: branches, of those that are known to come, and the points of this one.
     fn progress(&self, points: usize) {
-        let c = &self.bodies.plan.computation;
         let part = (points as f64 / TYPICAL).min(1.0);
-        self.watch.progress((self.done.branches.len() as f64 + part) / c.branches as f64);
+        self.watch.progress((self.done.branches.len() as f64 + part) / self.expected as f64);
     }
 
     /// Keeps the branch of the start. Whether it came to its end.

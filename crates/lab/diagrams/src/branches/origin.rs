@@ -111,15 +111,14 @@ impl Origin {
         }
     }
 
-    /// Returns `true` if steady motions begin here.
-    pub(super) fn is_steady(self, branches: &[Followed]) -> bool {
+    /// Returns `true` if orbits alone begin here; at a Hopf bifurcation of a circle steady motions do, too.
+    pub(super) fn is_of_orbits(self, branches: &[Followed]) -> bool {
         match self {
             Self::Special { branch, leg, point } => {
-                let point = &branches[branch].legs[leg].samples[point].point;
-                point.motion.orbit().is_none() && !matches!(point.special, Some(Special::Hopf(_)))
+                branches[branch].legs[leg].samples[point].point.motion.orbit().is_some()
             }
-            Self::Loop { .. } => false,
-            _ => true,
+            Self::Loop { .. } => true,
+            _ => false,
         }
     }
 
@@ -173,7 +172,8 @@ impl Origin {
         branches: &[Followed],
         watch: &'f dyn Watch,
     ) -> Result<Vec<Vec<Branch<'f>>>, Refused> {
-        let settings = bodies.settings();
+        let mut settings = bodies.settings();
+        settings.steady |= bodies.plan.computation.stride.from_stable && !self.is_on_stable(branches);
         let legs = match self {
             Self::Start => Ok(Vec::new()),
             Self::Special { branch, leg, point } => {
