@@ -16,8 +16,9 @@ mod web;
 
 use anyhow::{Context, Result, bail};
 use beside::Beside;
+use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
 
 const HELP: &str = "\
 usage: cargo xtask COMMAND
@@ -25,6 +26,7 @@ usage: cargo xtask COMMAND
   test     everything that must pass before a push: format, lints, documentation, all tests, also those of Python
            and those in a browser
   quick    the Rust tests alone
+  checks   lints and documentation
   explorer the page of `motiform explore`: builds it, compares it with the committed one, tests it in Chromium, and in part in
            Firefox
   firefox  all tests of the page in Firefox
@@ -48,16 +50,18 @@ usage: cargo xtask COMMAND
            the tests to notice; see docs/records/mutants.md (needs `cargo install --locked cargo-mutants`)
   deny     licences, advisories and sources of the dependencies (needs `cargo install --locked cargo-deny`)";
 
-/// Lints and documentation are checked with all features enabled, so that optional parts are tested too.
-const STEPS: &[(&str, &[&str])] = &[
+const BEFORE: &[(&str, &[&str])] = &[
     ("format", &["fmt", "--all", "--check"]),
+    ("build of the tests", &["test", "--release", "--workspace", "--no-run"]),
+];
+
+/// Lints and documentation are checked with all features enabled, so that optional parts are tested too.
+const CHECKS: &[(&str, &[&str])] = &[
     (
         "lints",
         &["clippy", "--release", "--workspace", "--all-targets", "--all-features", "--", "-D", "warnings"],
     ),
     ("documentation", &["doc", "--release", "--workspace", "--no-deps", "--document-private-items"]),
-    ("build of the tests", &["test", "--release", "--workspace", "--no-run"]),
-    ("tests", TESTS),
 ];
 
 const TESTS: &[&str] = &["test", "--release", "--workspace", "--no-fail-fast"];
@@ -80,6 +84,11 @@ fn run() -> Result<()> {
             done
         }
         Some("quick") => cargo("tests", TESTS),
+        Some("checks") => {
+            let done = all(CHECKS);
+            parts::print();
+            done
+        }
         Some("explorer") => explorer::test(),
         Some("firefox") => explorer::test_in_firefox(),
         Some("python") => {
@@ -102,14 +111,41 @@ fn run() -> Result<()> {
     }
 }
 
+fn all(steps: &[(&str, &[&str])]) -> Result<()> {
+    steps.iter().try_for_each(|(name, arguments)| cargo(name, arguments))
+}
+
 fn everything() -> Result<()> {
-    STEPS.iter().try_for_each(|(name, arguments)| cargo(name, arguments))?;
+    all(BEFORE)?;
+    tests_beside_checks()?;
     // Browsers wait for most of their time.
     let python = Beside::begin("python")?;
     let page = explorer::test_built(); // the tests have built the program
     python.end()?;
     page?;
     book::build() // in the environment of the Python tests
+}
+
+/// The tests leave a quarter of two processors idle, because each binary ends with its longest test: lints and documentation are checked
+/// meanwhile, as soon as cargo is done with building, which only one cargo can do at a time.
+fn tests_beside_checks() -> Result<()> {
+    let mut checks = None;
+    let tests = parts::timed("tests", || -> Result<_> {
+        eprintln!("== tests: cargo {}", TESTS.join(" "));
+        let mut tests = cargo_command();
+        tests.args(TESTS).env("RUSTDOCFLAGS", "-D warnings").current_dir(root()?).stderr(Stdio::piped());
+        let mut child = tests.spawn().context("tests")?;
+        for line in child.stderr.take().map(BufReader::new).into_iter().flat_map(BufRead::lines) {
+            let line = line?;
+            eprintln!("{line}");
+            if checks.is_none() && line.trim_start().starts_with("Running ") {
+                checks = Some(Beside::begin("checks")?);
+            }
+        }
+        Ok(child.wait()?)
+    })?;
+    checks.map_or(Ok(()), Beside::end)?;
+    if tests.success() { Ok(()) } else { bail!("tests failed") }
 }
 
 fn help() -> Result<()> {
