@@ -54,10 +54,4 @@ impl Fit {
     pub fn definition(&self) -> Definition {
         equations(&self.library, self.handed, &self.parameters().coefficients)
     }
-
-    /// The equations with other values of the coefficients, in the order of [`Fit::coefficients`]: for draws.
-    #[must_use]
-    pub fn definition_with(&self, coefficients: &[f64]) -> Definition {
-        equations(&self.library, self.handed, coefficients)
-    }
 }

@@ -27,8 +27,8 @@ settings! {
         pub points: u64,
         /// Most branches, by default 8; 1 follows the motion alone, and nothing that begins on its branch.
         pub branches: u64,
-        /// Values of the parameter at which motions are simulated, too, swept upwards and downwards, each run from the end of the one
-        /// before: grey beneath the branches.
+        /// Number of values of the parameter at which motions are simulated, too: upwards and downwards, each run from the end of the
+        /// one before. They are drawn in grey beneath the branches.
         pub samples: u64,
         /// First step along a branch, as a part of the range (and of the size of the shape, and of the period): 0.005, if not given.
         pub first_step: Option<f64>,

@@ -172,7 +172,7 @@ pub fn files<N: std::fmt::Display>(
         if numbers {
             push("csv", data.into_bytes());
         }
-        if let Some(caption) = caption {
+        if let Some(caption) = caption.filter(|caption| !caption.is_empty()) {
             push("txt", caption.into_bytes());
         }
     }
