@@ -85,6 +85,10 @@ fn all_regions(folder: &AtlasFolder) -> (Table, usize) {
         let one = |at: usize| move |found: &Found| found.numbers[at].map(|value| format!("{value:.4}"));
         let exponent = |found: &Found| {
             let [.., value, error] = found.numbers;
+            // exactly 0 where no deviation grows or decays: the rotations of a steady motion
+            if (value, error) == (Some(0.0), Some(0.0)) {
+                return Some("0".to_owned());
+            }
             Some(format!("{:.4}\u{a0}±\u{a0}{:.1e}", value?, error?))
         };
         vec![
