@@ -196,8 +196,8 @@ fn a_circle_that_begins_to_turn_begins_a_steady_motion() {
     let folder = Folder::new();
     folder.write(
         "chiral.toml",
-        "[model.amplitudes]\nmodes = [2]\nsymmetry = \"rotation\"\n[model.amplitudes.parameters]\nmu = -0.5\n\
-         [model.amplitudes.equations]\nz2 = \"(mu+0.5*i)*z2-z2^2*conj(z2)\"\n",
+        "[model.amplitudes]\nmodes = [1]\nsymmetry = \"rotation\"\n[model.amplitudes.parameters]\nmu = -0.5\n\
+         [model.amplitudes.equations]\nz1 = \"(mu+0.5*i)*z1-z1^2*conj(z1)\"\n",
     );
     for options in ["", "--steady", "--from-stable"] {
         let json = follow(&folder, &format!("chiral.toml --along mu=-1:1 {options}"));
