@@ -152,6 +152,13 @@ impl BranchDiagram {
         Range::of(shown.filter_map(|p| kind.place(p[1])))
     }
 
+    /// Returns `true` if a branch leaves the frame upwards or downwards.
+    #[must_use]
+    pub fn leaves(&self, kind: AxisKind) -> bool {
+        let ends = |range: Option<Range>| range.map(|range| [range.min, range.max]);
+        ends(self.places(kind, false)) != ends(self.values(kind))
+    }
+
     /// The values in sight: an unstable motion whose values are far from those of all others leaves the frame, or it would squeeze them.
     fn values(&self, kind: AxisKind) -> Option<Range> {
         let all = self.places(kind, false)?;

@@ -13,7 +13,7 @@ const FLATTEST: f64 = 0.62;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Room {
     width: Option<f64>,
-    /// Height of the frame, where a row of panels has one.
+    /// Height of the frame, where a row of panels or a slide has one.
     height: Option<f64>,
     /// The place of the sheet on a larger one.
     corner: Point,
@@ -34,6 +34,11 @@ impl Room {
     /// A panel of a larger sheet: its number, width, the height of its frame and its upper left corner.
     pub(crate) const fn panel(panel: usize, width: f64, height: Option<f64>, corner: Point) -> Self {
         Self { width: Some(width), height, corner, panel }
+    }
+
+    /// The same with a frame of this height.
+    pub(crate) const fn with_height(self, height: f64) -> Self {
+        Self { height: Some(height), ..self }
     }
 
     /// The height of the frame, if one is asked for.

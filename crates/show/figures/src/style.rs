@@ -47,8 +47,11 @@ pub(crate) const PER_POINT: f64 = 1.4;
 /// Width of a column of a journal in millimetres.
 const COLUMN: f64 = 86.0;
 
-/// Units across a slide of 960 pt: text of 12 units has 18 pt.
-const SLIDE: f64 = 640.0;
+/// Units across a slide of 960 pt, and from its top to its bottom: text of 12 units has 18 pt.
+const SLIDE: [f64; 2] = [640.0, 360.0];
+
+/// Heights of a frame that are tried where a figure is higher than a slide.
+const LOWER: [f64; 8] = [300.0, 270.0, 240.0, 215.0, 190.0, 165.0, 140.0, 120.0];
 
 impl Width {
     /// The medium that sheets of this width are laid out for.
@@ -57,7 +60,7 @@ impl Width {
         match self {
             Self::Millimetres(size) => Room::of(size / 25.4 * 72.0 * PER_POINT),
             Self::Pixels(_) => Room::OWN,
-            Self::Slide => Room::of(SLIDE),
+            Self::Slide => Room::of(SLIDE[0]),
         }
     }
 }
@@ -95,7 +98,12 @@ impl Style {
     pub fn draw(&self, figure: &mut dyn Figure) -> Result<Drawn> {
         let left = self.words(figure);
         let width = self.width();
-        let (svg, data) = (figure.sheet(width.map_or(Room::OWN, Width::room))?.finish(), figure.data());
+        let room = width.map_or(Room::OWN, Width::room);
+        let whole = figure.sheet(room)?.finish();
+        let (svg, data) = match width {
+            Some(Width::Slide) => (on_slide(figure, room, whole)?, figure.data()),
+            _ => (whole, figure.data()),
+        };
         let svg = width.map_or_else(|| svg.clone(), |width| resized(&svg, width));
         Ok(Drawn { svg, data, caption: left })
     }
@@ -138,13 +146,34 @@ impl Style {
     }
 }
 
+/// The sheet with the highest frame that leaves it no higher than a slide; as it is, where its frame has a shape of its own.
+fn on_slide(figure: &dyn Figure, room: Room, whole: String) -> Result<String> {
+    let fits = |svg: &str| sized(svg).is_none_or(|(_, [_, height], _)| height <= SLIDE[1]);
+    if fits(&whole) {
+        return Ok(whole);
+    }
+    for height in LOWER {
+        let lower = figure.sheet(room.with_height(height))?.finish();
+        if fits(&lower) {
+            return Ok(lower);
+        }
+    }
+    Ok(whole)
+}
+
+/// The first tag of a sheet up to its width, its size, and what follows.
+fn sized(svg: &str) -> Option<(&str, [f64; 2], &str)> {
+    let (before, rest) = svg.split_once(" width=\"")?;
+    let (width, rest) = rest.split_once("\" height=\"")?;
+    let (height, rest) = rest.split_once('"')?;
+    Some((before, [width.parse().ok()?, height.parse().ok()?], rest))
+}
+
 /// The same sheet at another size: the first tag says both its size and the part of the plane that it shows.
 fn resized(svg: &str, width: Width) -> String {
     let sheet = || {
-        let (before, rest) = svg.split_once(" width=\"")?;
-        let (old_width, rest) = rest.split_once("\" height=\"")?;
-        let (old_height, rest) = rest.split_once('"')?;
-        let ratio = old_height.parse::<f64>().ok()? / old_width.parse::<f64>().ok()?;
+        let (before, [old_width, old_height], rest) = sized(svg)?;
+        let ratio = old_height / old_width;
         let (size, unit) = match width {
             Width::Millimetres(size) => (size, "mm"),
             Width::Pixels(size) => (size, ""),

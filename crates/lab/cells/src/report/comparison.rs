@@ -54,7 +54,10 @@ pub(crate) fn pictures(case: &Case<'_>, name: &str, setting: &Setting<'_>) -> Re
     let Some(prediction) = case.prediction().filter(|prediction| !prediction.is_unstable()) else {
         return Ok(Vec::new());
     };
-    let paths = side_by_side(case, prediction, &setting.units);
+    let caption =
+        "At one scale. A ring where a path begins; outlines from the first (dark) to the last (bright).";
+    let paths =
+        TrackPanels { caption: vec![caption.to_owned()], ..side_by_side(case, prediction, &setting.units) };
     files(vec![(format!("paths-{name}"), Box::new(paths))], false, setting.format)
 }
 

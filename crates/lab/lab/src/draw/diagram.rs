@@ -72,6 +72,18 @@ pub fn exponents(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Resul
         return Ok(None);
     }
     let mut caption = caption(plan, info, cells, units);
+    let without = cells
+        .iter()
+        .filter(|cell| !series.iter().any(|one| one.points.iter().any(|point| is_at(plan, cell, point))));
+    match without.count() {
+        0 => {}
+        1 => caption.push(
+            "One cell without an exponent is left out: its bodies blow up, or are undetermined.".to_owned(),
+        ),
+        count => caption.push(format!(
+            "{count} cells without an exponent are left out: their bodies blow up, or are undetermined."
+        )),
+    }
     caption.push(
         "Medians over the initial states that lead to the same motion; bars: medians of the half widths of the 95 % \
          confidence intervals. Exponents of fixed shapes and of periodic orbits are those of the linearised motion; the \
@@ -89,6 +101,11 @@ pub fn exponents(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Resul
         }
         .with(series),
     ))
+}
+
+/// Returns `true` if this is a point of the cell.
+fn is_at(plan: &ScanPlan, cell: &CellSummary, point: &Measured) -> bool {
+    plan.axis_values(cell.cell).first() == Some(&point.x)
 }
 
 /// The exponents of one regime.

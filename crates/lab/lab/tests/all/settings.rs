@@ -72,6 +72,7 @@ fn a_setting_by_name_is_that_of_a_study_file() {
             ("direction", json!("down")),
             ("steady", json!(true)),
             ("from_stable", json!(true)),
+            ("doublings", json!(2)),
         ],
     );
     assert_eq!(follow[0], follow[1]);

@@ -18,6 +18,9 @@ const SLIDE: [f64; 2] = [18.0, 14.0];
 /// Kinds whose sheets may be narrower: both axes of a path have one unit, and its frame a largest height, panels of tracks a largest width.
 const NARROWER: [&str; 3] = ["path-section", "tracks", "film-strip"];
 
+/// Kinds whose frames have a shape of their own, and rows of panels: on a slide they may be higher than it.
+const HIGHER: [&str; 3] = ["tracks", "film-strip", "panels"];
+
 /// Words that lie over others or reach beyond the sheet.
 fn faults(svg: &str) -> Vec<String> {
     let [width, height] = sides(svg);
@@ -68,7 +71,10 @@ fn slides_can_be_read_from_afar() {
     for (name, mut figure) in kinds() {
         let style = Style { medium: Some(Medium::Slide), ..Style::default() };
         let svg = style.draw(figure.as_mut()).expect("a figure").svg;
-        let [width, _] = sides(&svg);
+        let [width, height] = sides(&svg);
+        if height > 1081.0 / 1920.0 * width && !HIGHER.contains(&name) {
+            wrong.push(format!("{name}: higher than a slide, {:.2} of its width", height / width));
+        }
         let found = least(&svg).map(|size| size * 640.0 / width / ON_SLIDE);
         assert!(found[0] >= SLIDE[0] && found[1] >= SLIDE[1], "{name}: text of {found:.2?} pt");
         wrong.extend(faults(&svg).into_iter().map(|fault| format!("{name} on a slide: {fault}")));

@@ -5,6 +5,7 @@ use crate::branches::result::Leg;
 use crate::branches::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, is_stable};
 use motiform_continuation::{End, Special};
+use motiform_figures::axes::AxisKind;
 use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Chart, Glyph};
 use motiform_lab::draw::{Figures, words};
 use motiform_study::plan::Named;
@@ -123,12 +124,26 @@ fn diagram_in(
         dots: found.sweeps.iter().flat_map(|sweeps| dots(sweeps, ordinate)).collect(),
         marks: found.branches.iter().flat_map(|followed| marks(followed, ordinate)).collect(),
     };
+    let period = ordinate == Ordinate::Period;
+    let mut caption = caption(plan, found, (mirror, ordinate), units)?;
+    let connects =
+        |followed: &Followed| followed.legs.iter().any(|leg| matches!(leg.end, End::Homoclinic(_)));
+    if period && found.branches.iter().any(connects) {
+        caption.push(
+            "Connections stand at the longest period that was computed; it grows without bound.".to_owned(),
+        );
+    }
+    if diagram.leaves(AxisKind::of(period)) {
+        caption.push(
+            "Unstable motions whose values are far from those of all others leave the frame.".to_owned(),
+        );
+    }
     let chart = Chart {
-        title: plan.title(),
-        caption: caption(plan, found, (mirror, ordinate), units)?,
+        title: if period { format!("{}: periods", plan.title()) } else { plan.title() },
+        caption,
         x_label: spec.map_or_else(|| along.name.clone(), |spec| spec.symbol.to_owned()),
         y_label: units.axis(ordinate.quantity()),
-        logarithmic_y: ordinate == Ordinate::Period,
+        logarithmic_y: period,
         ..Chart::default()
     };
     let factor = units.factor(ordinate.quantity().dimension);
