@@ -14,7 +14,7 @@ import pytest
 
 import motiform
 from motiform._registry import NUMBERS
-from motiform.units import COLUMNS
+from motiform.units import dimensions
 
 UNITS = "20um,3min"
 
@@ -145,8 +145,9 @@ def test_statistics_are_those_that_the_program_prints(binary: Path) -> None:
 
 
 def test_columns_of_motions_have_the_units_that_scans_state() -> None:
+    known = dimensions("motion")
     for name, _, unit in NUMBERS:
-        dimension = COLUMNS.get(name)
+        dimension = known.get(name)
         assert unit in ("", "1", "rad") if dimension is None else unit == motiform.units.name(None, dimension), name
 
 

@@ -213,8 +213,8 @@ def plot_branches(found: Branches, y: str, ax: Axes | None) -> Axes:
             ax.plot(here[found.along], here[y].abs(), zorder=3, **style)
             keys.append(Line2D([], [], label=kind, **style))
     ax.legend(handles=keys, fontsize="small")
-    known = dimensions("motion")
-    ylabel = label(y.replace("_", " "), found.units, known[y]) if y in known else y
+    columns = dimensions("motion")
+    ylabel = label(y.replace("_", " "), found.units, columns[y]) if y in columns else y
     ax.set(xlabel=found.along, ylabel=ylabel)
     return ax
 
