@@ -164,14 +164,14 @@ def test_branches_and_curves_are_converted_on_request(body: motiform.Model) -> N
         other.in_units()
     with pytest.raises(ValueError, match="with units"):
         other.plot()
-    curves = body.curves("symmetry-breaking", ("kappa2", 0.7, 0.85), ("kappa3", 0.48, 0.52), from_="zigzag", branches=1, points=8)
+    curves = body.curves("symmetry-breaking", ("kappa2", 0.76, 0.95), ("kappa3", 0.098, 0.102), from_="zigzag", branches=1, points=60)
     assert len(curves) >= 1 and curves.units == body.units
     np.testing.assert_allclose(curves.in_units("1um,2s").points["period"], 2.0 * curves.points["period"], rtol=1e-14)
     np.testing.assert_array_equal(curves.in_units().points["kappa2"], curves.points["kappa2"])
 
 
 def test_scans_and_atlases_are_converted_on_request(body: motiform.Model) -> None:
-    data = body.scan({"kappa2": [0.5, 0.8]})
+    data = motiform.scan(body, {"kappa2": [0.8, 0.9]}, progress=False)
     other = data.motiform.in_units()
     np.testing.assert_allclose(other["period"], 3.0 * data["period"], rtol=1e-14)
     np.testing.assert_allclose(other["speed_mean"], 20.0 / 3.0 * data["speed_mean"], rtol=1e-14)
@@ -180,7 +180,7 @@ def test_scans_and_atlases_are_converted_on_request(body: motiform.Model) -> Non
     with pytest.raises(ValueError, match="already"):
         other.motiform.in_units()
     with pytest.raises(ValueError, match="the study has no units"):
-        motiform.preset("fig5a").scan({"kappa2": [0.5]}).motiform.in_units()
+        motiform.scan(motiform.preset("fig5a"), {"kappa2": [0.9]}, progress=False).motiform.in_units()
     atlas = body.atlas({"kappa2": (1.2, 1.6, 3), "kappa3": (0.6, 1.0, 3)}, samples=1, lines=0)
     assert atlas.units == body.units
     np.testing.assert_allclose(atlas.in_units().cells["speed_mean"], 20.0 / 3.0 * atlas.cells["speed_mean"], rtol=1e-14)
