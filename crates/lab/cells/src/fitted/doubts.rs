@@ -1,5 +1,6 @@
 //! What leaves a fit without motion, place and symmetry.
 
+use crate::regime::FittedRegime;
 use motiform_inference::{HANDED_RATE, Handedness, Stretch, Symmetry, Track, Warning};
 
 /// Significance below which innovations that are not white leave a cell without motion and place.
@@ -42,8 +43,13 @@ pub(super) fn doubts(
     doubts
 }
 
-/// Why the coefficients are biased by more than their intervals say; `None` where nothing shows it.
-pub(super) fn bias(warnings: &[Warning]) -> Option<&'static str> {
+/// Why neither intervals of the coefficients nor a place are stated: for the sake of the motion ([`FittedRegime::no_intervals`]), or
+/// because the sampling biases the coefficients.
+pub(super) fn no_intervals(regime: Option<&FittedRegime>, warnings: &[Warning]) -> Option<&'static str> {
+    regime.and_then(FittedRegime::no_intervals).or_else(|| bias(warnings))
+}
+
+fn bias(warnings: &[Warning]) -> Option<&'static str> {
     warnings.iter().find_map(|warning| match warning {
         Warning::CoarseSampling { .. } => {
             Some("the sampling is too coarse for the fastest rate of the equations, which biases the coefficients")
@@ -65,5 +71,24 @@ fn serious(warning: &Warning) -> bool {
         | Warning::Stretched { .. } => true,
         Warning::Coloured { channels } => channels.iter().any(|channel| channel.p_value < COLOURED),
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{no_intervals, serious};
+    use motiform_inference::Warning;
+
+    #[test]
+    fn coefficients_that_the_sampling_biases_have_no_intervals() {
+        let drifting = Warning::Drifting { names: vec!["z2: z2".to_owned()] };
+        let coarse = Warning::CoarseSampling { product: 2.5 };
+        let other = Warning::ErrorsDiffer { ratio: 2.0 };
+        let why = |warnings: &[Warning]| no_intervals(None, warnings);
+        assert!(why(&[other.clone(), drifting.clone()]).is_some_and(|why| why.contains("sampling interval")));
+        assert!(why(&[coarse.clone()]).is_some_and(|why| why.contains("too coarse")));
+        assert_eq!((why(&[]), why(&[other])), (None, None));
+        // one is a doubt about the motion, too, the other is not
+        assert!(serious(&coarse) && !serious(&drifting));
     }
 }

@@ -1,15 +1,15 @@
 //! From tracks to a fit with everything that follows from it, stage by stage.
 
 use super::Fitted;
-use super::doubts::{bias, doubts};
+use super::doubts::{doubts, no_intervals};
 use crate::regime::{FittedRegime, regime_of};
 use crate::stages::Stages;
 use crate::{Checks, FitOptions, Result};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
 use motiform_inference::{
-    Beside, Fit, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, averaged, drift, fit,
-    handed_beside, handedness, identifiability, place_among, select, walk_p_value, warnings,
+    Beside, Fit, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, Warning, averaged, drift,
+    fit, handed_beside, handedness, identifiability, place_among, select, walk_p_value, warnings,
 };
 
 /// Fits these tracks, stage by stage.
@@ -63,7 +63,7 @@ pub(crate) fn fitted(
     }
     let averaged =
         if handed || !whole.converged() { Vec::new() } else { averaged(&whole, &selection.subsets) };
-    let places = places((&whole, &selection), &unplaced(&doubts, regime.as_ref(), bias(&warnings), handed));
+    let places = places((&whole, &selection), &unplaced(&doubts, regime.as_ref(), &warnings, handed));
     Ok(Box::new(Fitted {
         whole,
         selection,
@@ -107,16 +107,16 @@ fn walk_not_excluded(
 fn unplaced(
     doubts: &[String],
     regime: Option<&FittedRegime>,
-    bias: Option<&'static str>,
+    warnings: &[Warning],
     handed: bool,
 ) -> Vec<String> {
     let mut reasons = doubts.to_vec();
     if regime.is_some_and(FittedRegime::is_carried) {
         reasons.push("noise carries the displacement: without it the equations rest, and the paper's planes are about motion without noise".to_owned());
     }
-    reasons.extend(
-        regime.and_then(FittedRegime::no_intervals).or(bias.filter(|_| doubts.is_empty())).map(str::to_owned),
-    );
+    // a sampling that is too coarse is a doubt already
+    let unstated = no_intervals(regime, warnings).filter(|_| doubts.is_empty() || regime.is_some());
+    reasons.extend(unstated.map(str::to_owned));
     if handed {
         reasons.push("the cell is handed, and the paper's planes are not".to_owned());
     }

@@ -125,10 +125,10 @@ impl Fitted {
         self.known.identifiable
     }
 
-    /// Why the intervals of the coefficients are not stated: [`FittedRegime::no_intervals`], and that the sampling biases them.
+    /// Why the intervals of the coefficients are not stated: [`FittedRegime::no_intervals`], or a bias by the sampling.
     #[must_use]
     pub fn no_intervals(&self) -> Option<&'static str> {
-        self.regime.as_ref().and_then(FittedRegime::no_intervals).or_else(|| doubts::bias(&self.warnings))
+        doubts::no_intervals(self.regime.as_ref(), &self.warnings)
     }
 
     /// A coefficient over all tied sets.

@@ -129,7 +129,8 @@ impl Work<'_> {
         let Stride { steady, from_stable, .. } = self.bodies.plan.computation.stride;
         let found = &self.done.branches;
         let wanted = move |origin: &Origin| {
-            !origin.is_of_orbits(found) || !steady && (!from_stable || origin.is_on_stable(found))
+            let orbits = !steady && (!from_stable || origin.is_on_stable(found));
+            orbits || origin.is_steady(self.bodies, found)
         };
         all.filter(|origin| self.done.links.iter().all(|link| link.origin != *origin)).filter(wanted)
     }

@@ -111,14 +111,22 @@ impl Origin {
         }
     }
 
-    /// Returns `true` if orbits alone begin here; at a Hopf bifurcation of a circle steady motions do, too.
-    pub(super) fn is_of_orbits(self, branches: &[Followed]) -> bool {
+    /// Returns `true` if steady motions begin here: at a Hopf bifurcation those of a circle that begins to turn.
+    pub(super) fn is_steady(self, bodies: &Bodies<'_>, branches: &[Followed]) -> bool {
         match self {
             Self::Special { branch, leg, point } => {
-                branches[branch].legs[leg].samples[point].point.motion.orbit().is_some()
+                let point = &branches[branch].legs[leg].samples[point].point;
+                match (&point.motion, point.special) {
+                    (Motion::Orbit { .. }, _) => false,
+                    (Motion::Equilibrium(at), Some(Special::Hopf(_))) => {
+                        let body = bodies.model(point.parameter);
+                        body.is_ok_and(|body| Isotropy::of(body.as_ref(), &at.shape, Isotropy::SAME).circle)
+                    }
+                    _ => true,
+                }
             }
-            Self::Loop { .. } => true,
-            _ => false,
+            Self::Loop { .. } => false,
+            _ => true,
         }
     }
 

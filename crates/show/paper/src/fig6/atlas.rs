@@ -49,7 +49,7 @@ impl Atlas {
         let stride = Stride {
             steady,
             from_stable: !steady,
-            doublings: Some(0), // the cascade at 29.360 takes 1e-3 of the length, and each of its orbits a quarter of an hour
+            doublings: Some(0), // the cascade at 29.360 takes 1e-3 of the length, and each of its orbits a third of an hour
             direction: Towards::Up,
             ..Stride::default()
         };
