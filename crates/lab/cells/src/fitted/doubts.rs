@@ -86,7 +86,7 @@ mod tests {
         let other = Warning::ErrorsDiffer { ratio: 2.0 };
         let why = |warnings: &[Warning]| no_intervals(None, warnings);
         assert!(why(&[other.clone(), drifting.clone()]).is_some_and(|why| why.contains("sampling interval")));
-        assert!(why(&[coarse.clone()]).is_some_and(|why| why.contains("too coarse")));
+        assert!(why(std::slice::from_ref(&coarse)).is_some_and(|why| why.contains("too coarse")));
         assert_eq!((why(&[]), why(&[other])), (None, None));
         // one is a doubt about the motion, too, the other is not
         assert!(serious(&coarse) && !serious(&drifting));
