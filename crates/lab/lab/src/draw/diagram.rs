@@ -135,7 +135,7 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary], units: &Sho
         if count < all { format!("{count} of {all} cells are computed") } else { format!("{all} cells") };
     let random = format!("{}, seed {}", c.random.words(), c.seed);
     let given = if plan.varies_start().unwrap_or(false) {
-        "the one with the coordinates on the axes and the others as given, or almost 0"
+        "the one with the coordinates on the axes and the others as given, or 0"
     } else {
         "the given one"
     };

@@ -79,7 +79,17 @@ pub(super) fn method(body: &Body<'_>) -> String {
     } else {
         noise
     };
-    format!("{noise}{transient}{end}{}", before_blow_up(body)).trim_start().to_owned()
+    format!("{noise}{transient}{end}{}{}", before_blow_up(body), times(body)).trim_start().to_owned()
+}
+
+/// The times that are shown, where `[figure] from` or `to` leave some out.
+fn times(body: &Body<'_>) -> String {
+    let (all, rows) = (body.column("t"), body.rows());
+    if body.cut() || rows.is_empty() || rows.len() == all.len() {
+        return String::new();
+    }
+    let [from, to] = [all[rows.start], all[rows.end - 1]].map(|t| body.units().words(t, Dimension::TIME, ""));
+    format!(" Shown: *t*{SPACE}={SPACE}{from} to {to}.")
 }
 
 /// The noise, its amplitudes and seed.

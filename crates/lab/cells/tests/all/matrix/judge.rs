@@ -15,8 +15,9 @@ pub(super) struct Tally {
     pub(super) undecided: usize,
     /// What is said and is not so.
     pub(super) wrong: Vec<String>,
-    /// Intervals of coefficients, those that hold the truth and all: of the terms that are listed, and of those of the law.
-    pub(super) held: [[usize; 2]; 2],
+    /// Printed intervals of coefficients, those that hold the truth and all: of the terms that are listed, of those of the law, and of
+    /// the listed ones of cells that are in doubt (which are among the first).
+    pub(super) held: [[usize; 2]; 3],
     /// Printed intervals of places, likewise.
     pub(super) placed: [usize; 2],
     /// Cells with a wrong statement.
@@ -34,7 +35,7 @@ impl Tally {
         };
         self.motion(fitted, motion, law.is_handed());
         self.symmetry(fitted, law.is_handed());
-        if coefficients && !law.is_handed() && fitted.doubts.is_empty() && fitted.is_identifiable() {
+        if coefficients && !law.is_handed() {
             self.coefficients(fitted, law);
             self.place(fitted, law);
         }
@@ -78,11 +79,12 @@ impl Tally {
         }
     }
 
-    /// All terms of the library.
+    /// All terms of the library, as the page and the command print them.
     fn coefficients(&mut self, fitted: &Fitted, law: &Law) {
-        if fitted.no_intervals().is_some() {
+        if fitted.no_intervals().is_some() || !fitted.model().converged() {
             return;
         }
+        let doubted = !fitted.doubts.is_empty() || !fitted.is_identifiable();
         for coefficient in &fitted.whole.coefficients {
             let term = law.terms.iter().find(|term| term.name == coefficient.name);
             let truth = term.map_or(0.0, |term| term.value.re);
@@ -90,7 +92,8 @@ impl Tally {
             let over = printed.filter(|one| one.weight > 0.0);
             let [low, high] = printed.map_or([0.0; 2], |one| one.interval);
             let held = usize::from((low..=high).contains(&truth));
-            for (kind, counts) in [over.is_some(), term.is_some()].into_iter().enumerate() {
+            let kinds = [over.is_some(), term.is_some(), over.is_some() && doubted];
+            for (kind, counts) in kinds.into_iter().enumerate() {
                 self.held[kind][0] += if counts { held } else { 0 };
                 self.held[kind][1] += usize::from(counts);
             }

@@ -232,7 +232,7 @@ impl Tally {
         self.undecided += other.undecided;
         self.cells_wrong += other.cells_wrong;
         self.wrong.extend(other.wrong.iter().cloned());
-        (0..2).for_each(|i| (0..2).for_each(|k| self.held[i][k] += other.held[i][k]));
+        (0..3).for_each(|i| (0..2).for_each(|k| self.held[i][k] += other.held[i][k]));
         (0..2).for_each(|k| self.placed[k] += other.placed[k]);
     }
 }
@@ -241,7 +241,7 @@ fn print(words: &str, tally: &Tally) {
     let Tally { cells, right, undecided, cells_wrong, held, placed, wrong } = tally;
     let held = held.map(|[held, all]| format!("{held}/{all}")).join(" ");
     println!(
-        "{words:32} {cells:5} cells {right:5} right {undecided:5} undecided {cells_wrong:4} wrong; intervals of listed and of true terms {held}, places {}/{}",
+        "{words:32} {cells:5} cells {right:5} right {undecided:5} undecided {cells_wrong:4} wrong; intervals of listed and of true terms and of cells in doubt {held}, places {}/{}",
         placed[0], placed[1]
     );
     if words != "all" {

@@ -52,9 +52,9 @@ pub(super) fn displacements(measurement: &Measurement, units: &Shown) -> Result<
         logarithmic_y: true,
         ..Chart::default()
     }
-    .with(lines)
     .with([intervals.collect::<Vec<_>>()])
-    .with([measured(shown.iter().map(|p| (p.x, p.y)))]);
+    .with([measured(shown.iter().map(|p| (p.x, p.y)))])
+    .with(lines); // on top: the dotted one lies on the points
     Ok(with_axes(figure, [&LAG, &MSD], units))
 }
 
@@ -110,13 +110,14 @@ const BEFORE: f64 = 8.0;
 fn diffusive(measurement: &Measurement, (first, last): (f64, f64), units: &Shown) -> Option<ExpectedLine> {
     let found = &measurement.statistics.diffusion;
     let ([intercept, slope], [lag, _]) = (found.line?, found.lags?);
-    found.displacements.known()?;
+    let coefficient = found.displacements.known()?;
     let points = logarithmic(((lag / BEFORE).clamp(first, last), last));
     let points = points.into_iter().map(|t| [t, intercept + slope * t]).filter(|[t, y]| *y > 0.5 * slope * t);
     let label = format!(
-        "diffusive: 4*D*(*τ* {} {})",
+        "diffusive: 4*D*(*τ* {} {}), *D* = {}",
         if intercept < 0.0 { "−" } else { "+" },
-        in_words(units, Dimension::TIME, (intercept / slope).abs())
+        in_words(units, Dimension::TIME, (intercept / slope).abs()),
+        value_in(units, Dimension::DIFFUSION, &coefficient)
     );
     Some(ExpectedLine { label, style: LineStyle::Dotted, points: points.collect() })
 }
