@@ -4,7 +4,7 @@
 //! [`stage_velocities`] estimates the drift of the stage; [`select`] chooses the terms that the data support;
 //! [`identifiability()`] finds the combinations of coefficients that the motion determines; [`handedness`]
 //! tests whether left and right differ; [`warnings()`] and [`drift()`] state reasons to doubt the fit;
-//! [`weak()`] is an inexpensive independent estimate; [`place()`] and [`place_among`] locate the model in the
+//! [`ladder()`] compares models from a random walk on by frames that their fits did not see; [`weak()`] is an inexpensive independent estimate; [`place()`] and [`place_among`] locate the model in the
 //! paper's planes; [`Fit::definition`] makes it a model.
 //! Knows no file. Method and measurements: docs/inference.md.
 
@@ -18,6 +18,7 @@ mod filter;
 mod fit;
 mod handed;
 mod identifiability;
+mod ladder;
 mod library;
 mod linear;
 mod names;
@@ -43,6 +44,7 @@ pub use handed::{DOUBTED_RATE, HANDED_RATE, Handedness, SEEN, Symmetry, handedne
 pub use identifiability::{
     Combination, EquationKnowledge, FIXED, FREE, Identifiability, Knowledge, identifiability,
 };
+pub use ladder::{BLOCKS, Ladder, Model, Rung, ladder};
 pub use library::{Library, MOST_MODES, Term};
 pub use names::paper;
 pub use null::{WALK_RATE, walk_p_value};

@@ -34,6 +34,9 @@ pub struct FitOptions {
     /// `true` if a velocity of the stage that a cell shows is fitted and subtracted.
     #[serde(default)]
     pub stage: bool,
+    /// `true` if models from a random walk on are compared by frames that their fits did not see.
+    #[serde(default)]
+    pub ladder: bool,
 }
 
 /// What folders of fits had that do not say.
@@ -63,6 +66,7 @@ impl Default for FitOptions {
             drift: true,
             together: false,
             stage: false,
+            ladder: false,
         }
     }
 }

@@ -8,8 +8,14 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// The stages of a fit, by name, with the share of the work that is done when each ends: rough values, for the display of progress.
-const STAGES: [(&str, f64); 5] =
-    [("whole", 0.35), ("selection", 0.4), ("handedness", 0.75), ("drift", 0.85), ("regime", 1.0)];
+const STAGES: [(&str, f64); 6] = [
+    ("whole", 0.35),
+    ("selection", 0.4),
+    ("handedness", 0.75),
+    ("drift", 0.85),
+    ("regime", 0.99),
+    ("ladder", 1.0),
+];
 
 /// Where the results of stages are kept, if they are.
 #[derive(Debug, Default)]

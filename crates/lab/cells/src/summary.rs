@@ -4,7 +4,7 @@ use crate::{
     CellFit, CellTrack, Comparison, Fitted, FittedRegime, Observation, Prediction, Sample, Statistic,
     fitted_population, observed_population, population_numbers, population_statistics,
 };
-use motiform_inference::{Coefficient, Estimate, Knowledge, Place, Placement, Symmetry};
+use motiform_inference::{Coefficient, Estimate, Knowledge, Ladder, Place, Placement, Rung, Symmetry};
 use serde_json::{Map, Value, json};
 
 /// Sets of terms that are listed at most, the best first; `ties` counts all of them.
@@ -151,6 +151,9 @@ fn add(object: &mut Value, fitted: &Fitted) {
         .map(|one| (one.name.clone(), json!({ "variance": one.variance, "autocorrelation": one.autocorrelation, "p_value": one.p_value })))
         .collect();
     object["innovations"] = innovations.into();
+    if let Some(found) = &fitted.ladder {
+        object["ladder"] = ladder(found);
+    }
     object["ties"] = json!(fitted.selection.subsets.ties.len());
     object["log_likelihood"] = json!(model.log_likelihood);
     let [full, reduced] = &fitted.places;
@@ -202,6 +205,30 @@ fn counts(found: &FittedRegime) -> String {
         found.counts.iter().map(|(regime, count)| format!("{regime} {count}")).collect();
     let driven = found.driven.as_ref().map_or_else(String::new, |driven| format!("; {}", driven.in_words()));
     format!("{}{driven}", counts.join(", "))
+}
+
+fn ladder(found: &std::result::Result<Ladder, String>) -> Value {
+    match found {
+        Err(why) => json!({ "not_computed": why }),
+        Ok(found) => {
+            let rung = |rung: &Rung| {
+                json!({
+                    "model": rung.model.words(),
+                    "coefficients": rung.coefficients,
+                    "gain_per_frame": rung.gain,
+                    "behind": rung.behind,
+                    "error": rung.error,
+                    "as_good": rung.is_as_good(),
+                })
+            };
+            json!({
+                "sentence": found.sentence(),
+                "blocks": found.blocks,
+                "frames": found.frames,
+                "models": found.rungs.iter().map(rung).collect::<Vec<_>>(),
+            })
+        }
+    }
 }
 
 /// Combinations that are free.

@@ -96,6 +96,10 @@ pub(crate) struct FitCellsOptions {
     /// Also look for the nearest bifurcations along gamma, kappa2 and kappa3 of each fit (may take minutes a cell)
     #[arg(long)]
     pub(crate) bifurcations: bool,
+    /// Also compare models, from a persistent random walk to all terms and handed ones, by frames that their fits did not see (each is
+    /// fitted five times: takes several times as long)
+    #[arg(long)]
+    pub(crate) ladder: bool,
     /// Fit one set of coefficients to all cells, with errors from the differences between cells
     #[arg(long)]
     pub(crate) together: bool,

@@ -42,6 +42,7 @@ const MEANINGS: &[(&str, &str)] = &[
     ("input-format", "format of the files with outlines"),
     ("interval", "time between frames"),
     ("json", "print one JSON object"),
+    ("ladder", "also compare models by frames that their fits did not see"),
     ("length-unit", "unit of `--pixel-size`"),
     ("lines", "maximum number of lines across boundaries"),
     ("max-steps", "maximum number of steps"),

@@ -78,6 +78,7 @@ fn settings(options: &FitCellsOptions) -> FitOptions {
         simulations: options.simulations as usize,
         bifurcations: options.bifurcations,
         together: options.together,
+        ladder: options.ladder,
         stage: options.cells.correct.contains(&Correction::Drift),
         ..FitOptions::default()
     }
@@ -201,6 +202,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
         writeln!(text, "no intervals   {reason}")?;
     }
     text += &sets(fitted)?;
+    text += &ladder(fitted)?;
     let noise = &model.noise;
     let [velocity, shape] =
         [&noise.eta_v, &noise.eta_shape].map(|estimate| with_error(estimate.value, estimate.error));
@@ -252,6 +254,23 @@ fn sets(fitted: &Fitted) -> Result<String, std::fmt::Error> {
         let not_in_all = subsets.counts().into_iter().filter(|(_, count)| *count < all);
         let words: Vec<String> = not_in_all.map(|(name, count)| format!("{name} in {count}")).collect();
         writeln!(text, "sets of terms  {all} are as good; not in all of them: {}", words.join(", "))?;
+    }
+    Ok(text)
+}
+
+/// The models by what they say of frames that their fits did not see.
+fn ladder(fitted: &Fitted) -> Result<String, std::fmt::Error> {
+    let mut text = String::new();
+    match &fitted.ladder {
+        None => {}
+        Some(Err(why)) => writeln!(text, "ladder         not computed: {why}")?,
+        Some(Ok(found)) => {
+            writeln!(text, "ladder         {}", found.sentence())?;
+            for rung in &found.rungs {
+                let gain = rung.in_words();
+                writeln!(text, "  {:<55} {:>3} coefficients  {gain}", rung.model.words(), rung.coefficients)?;
+            }
+        }
     }
     Ok(text)
 }

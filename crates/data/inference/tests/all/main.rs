@@ -9,6 +9,7 @@ mod fit;
 mod four_modes;
 mod handed;
 mod identifiability;
+mod ladder;
 mod library;
 mod null;
 mod order_five;

@@ -8,8 +8,9 @@ use crate::{Checks, FitOptions, Result};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
 use motiform_inference::{
-    Beside, Fit, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, Warning, averaged, drift,
-    fit, handed_beside, handedness, identifiability, place_among, select, walk_p_value, warnings,
+    Beside, Fit, Ladder, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, Warning,
+    averaged, drift, fit, handed_beside, handedness, identifiability, ladder, place_among, select,
+    walk_p_value, warnings,
 };
 
 /// Fits these tracks, stage by stage.
@@ -61,6 +62,10 @@ pub(crate) fn fitted(
         found.regime = None;
         doubts.push(doubt);
     }
+    let ladder = stages.get("ladder", watch, |watch| match options.ladder {
+        true => Ok(Some(steps(tracks, &whole, watch)?)),
+        false => Ok(None),
+    })?;
     let averaged =
         if handed || !whole.converged() { Vec::new() } else { averaged(&whole, &selection.subsets) };
     let places = places((&whole, &selection), &unplaced(&doubts, regime.as_ref(), &warnings, handed));
@@ -78,10 +83,19 @@ pub(crate) fn fitted(
         places,
         averaged,
         stage: Vec::new(),
+        ladder,
         beside_stage,
         beside_stretch,
         between: None,
     }))
+}
+
+/// The ladder of models, or why there is none.
+fn steps(tracks: &[Track], whole: &Fit, watch: &dyn Watch) -> Result<std::result::Result<Ladder, String>> {
+    match ladder(tracks, whole, watch) {
+        Err(error @ motiform_inference::Error::TooShort { .. }) => Ok(Err(error.to_string())),
+        found => Ok(Ok(found?)),
+    }
 }
 
 /// That a cell which is named after a motion may be a persistent random walk, as a doubt.

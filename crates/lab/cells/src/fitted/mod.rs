@@ -9,8 +9,8 @@ pub(crate) use make::fitted;
 use crate::Checks;
 use crate::regime::FittedRegime;
 use motiform_inference::{
-    Averaged, BetweenCells, Drift, Fit, HANDED_RATE, Handedness, Identifiability, Placement, Selection,
-    Symmetry, Warning,
+    Averaged, BetweenCells, Drift, Fit, HANDED_RATE, Handedness, Identifiability, Ladder, Placement,
+    Selection, Symmetry, Warning,
 };
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +57,9 @@ pub struct Fitted {
     /// The same beside a small strain of the path and a constant elongation of the outlines, as images have that are stretched.
     #[serde(default)]
     pub beside_stretch: Option<f64>,
+    /// Models from a random walk on, compared by frames that their fits did not see, or why they are not; `None` where this was not asked for.
+    #[serde(default)]
+    pub ladder: Option<std::result::Result<Ladder, String>>,
     /// Of several cells together: errors of the model's coefficients from the differences between cells.
     pub between: Option<BetweenCells>,
 }

@@ -7,7 +7,7 @@ use crate::report::terms::{typeset, unit};
 use crate::{CellFit, Fitted};
 use motiform_figures::literal;
 use motiform_figures::report::{Cell, Section, Table};
-use motiform_inference::{Coefficient, EquationKnowledge, paper};
+use motiform_inference::{Coefficient, EquationKnowledge, Rung, paper};
 use motiform_study::Dimension;
 
 pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
@@ -25,6 +25,7 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
     );
     let mut tables = vec![coefficients(fitted, units)];
     tables.extend(sets(fitted));
+    tables.extend(ladder(fitted));
     tables.extend(motions(fitted));
     tables.extend(bifurcations(fit));
     tables.extend(determined(fitted));
@@ -159,6 +160,33 @@ fn sets(fitted: &Fitted) -> Option<Table> {
         head: ["term", "sets of terms that are as good", "in the set above"].map(str::to_owned).to_vec(),
         rows,
     })
+}
+
+/// The models by what they say of frames that their fits did not see.
+fn ladder(fitted: &Fitted) -> Option<Table> {
+    let found = fitted.ladder.as_ref()?;
+    let row = |rung: &Rung| {
+        vec![
+            Cell::text(literal(rung.model.words())),
+            Cell::number(rung.coefficients.to_string()),
+            Cell::number(rung.gain.map_or_else(String::new, plain)),
+            Cell::text(rung.in_words()),
+        ]
+    };
+    let (caption, rows) = match found {
+        Err(why) => (format!("Models are not compared: {}.", literal(why)), Vec::new()),
+        Ok(found) => (
+            format!(
+                "Models compared by {} frames that their fits did not see: {}. The record is cut into {} blocks, each left out of a fit in turn; the gain is log-likelihood per frame above the first model, the error that of the differences between blocks.",
+                found.frames,
+                literal(&found.sentence()),
+                found.blocks
+            ),
+            found.rungs.iter().map(row).collect(),
+        ),
+    };
+    let head = ["model", "coefficients", "gain per frame", "frames not seen"].map(str::to_owned).to_vec();
+    Some(Table { caption, head, rows })
 }
 
 /// The motions of the models that the data allow.

@@ -1,0 +1,75 @@
+//! Models compared by frames that their fits did not see.
+
+use crate::common::{Equations, Experiment, full};
+use motiform_dynamics::Complex;
+use motiform_inference::{Error, Ladder, Model, Rung, Settings, Track, fit, ladder};
+
+fn of(tracks: &[Track]) -> Ladder {
+    let whole = fit(tracks, &Settings::default(), &()).expect("a fit");
+    let found = ladder(tracks, &whole, &()).expect("a ladder");
+    for rung in &found.rungs {
+        let Rung { model, coefficients, gain, behind, error } = rung;
+        println!("{:55} {coefficients:3} {gain:.4?} {behind:.1?} +- {error:.1?}", model.words());
+    }
+    found
+}
+
+fn experiment(equations: Equations, eta: f64, frames: usize, seed: u64) -> Experiment {
+    Experiment { frames, ..Experiment::new(equations, eta, seed) }
+}
+
+fn is_as_good(found: &Ladder, model: Model) -> bool {
+    found.rungs.iter().find(|rung| rung.model == model).is_some_and(Rung::is_as_good)
+}
+
+/// Velocities that decay and shapes that fluctuate by themselves: the walk is enough, and 22 terms predict worse.
+#[test]
+fn a_walk_needs_no_more_than_a_walk() {
+    let term = |equation, c: f64, factors: &[i32]| (equation, Complex::new(c, 0.0), factors.to_vec());
+    let walk = vec![term(1, -0.1, &[1]), term(2, -0.5, &[2]), term(3, -0.7, &[3])];
+    for seed in 910..913 {
+        let found = of(&[experiment(walk.clone(), 0.2, 300, seed).track()]);
+        assert_eq!(found.simplest().map(|rung| rung.model), Some(Model::PassiveWalk));
+        let all = found.rungs.iter().find(|rung| rung.model == Model::ThreeModes).expect("a rung");
+        assert!(all.gain.is_some_and(|gain| gain < 0.0), "{all:?}");
+        assert_eq!((found.blocks, found.rungs[0].gain), (5, Some(0.0)));
+    }
+}
+
+/// Chaos by z1, z2 and z3: no walk and no two modes predict it, the terms that the data ask for do.
+#[test]
+fn a_motion_of_three_modes_needs_them() {
+    let found = of(&[experiment(full(0.5, 0.1), 0.02, 400, 31).track()]);
+    assert_eq!(found.simplest().map(|rung| rung.model), Some(Model::Selected));
+    for model in [Model::PassiveWalk, Model::PolarWalk, Model::Speed, Model::TwoModes] {
+        assert!(!is_as_good(&found, model), "{model:?}");
+    }
+    // their number over the fits is that of the law
+    let selected = found.rungs.iter().find(|rung| rung.model == Model::Selected).expect("a rung");
+    assert!((8..=11).contains(&selected.coefficients), "{selected:?}");
+}
+
+/// A velocity that turns to one side: real coefficients predict worse.
+#[test]
+fn a_handed_motion_needs_complex_coefficients() {
+    let mut handed = experiment(full(0.5, 0.1), 0.02, 400, 5);
+    handed.equations[0].1 = Complex::new(1.0, 0.15);
+    let found = of(&[handed.track()]);
+    assert_eq!(found.best().map(|rung| rung.model), Some(Model::Handed));
+    assert!(!is_as_good(&found, Model::Selected) && !is_as_good(&found, Model::ThreeModes));
+}
+
+/// Two modes of a record that is seen: the ladder has no third one. Records that are too short to be cut are refused.
+#[test]
+fn the_ladder_has_the_modes_of_the_fit_and_records_of_forty_frames() {
+    let track = experiment(full(1.5, 0.9), 0.02, 60, 3).track();
+    let library = motiform_inference::Library::new(2, 3).expect("a library");
+    let settings = Settings { library, ..Settings::default() };
+    let tracks = [track];
+    let whole = fit(&tracks, &settings, &()).expect("a fit");
+    let found = ladder(&tracks, &whole, &()).expect("a ladder");
+    let models: Vec<Model> = found.rungs.iter().map(|rung| rung.model).collect();
+    assert!(models.contains(&Model::TwoModes) && !models.contains(&Model::ThreeModes), "{models:?}");
+    let short = [Track(tracks[0].0[..39].to_vec())];
+    assert!(matches!(ladder(&short, &whole, &()), Err(Error::TooShort { frames: 39, least: 40, .. })));
+}
