@@ -40,7 +40,7 @@ impl<T: Scalar> Shape<T> for Memory {
     }
 }
 
-/// How rotations and the mirror act: on two vectors.
+/// Action of rotations and of the mirror: on two vectors.
 impl Equivariant for Memory {
     fn symmetry(&self) -> Symmetry {
         Symmetry::FULL

@@ -209,7 +209,8 @@ pub(crate) struct LyapunovOptions {
     pub(crate) t_end: Option<f64>,
     /// For transient chaos: compute the exponent of the chaotic saddle from this many initial states, with the rate of
     /// escape
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true, conflicts_with_all = ["samples", "random"])]
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["samples", "random"])]
     pub(crate) saddle: Option<u16>,
 }
 

@@ -22,7 +22,7 @@ struct Stage {
     started: Instant,
     /// Its part of the progress that is told.
     share: [f64; 2],
-    /// What its share is of.
+    /// The whole that its share is of.
     done: &'static str,
     /// `true` if the remaining time follows from the share.
     even: bool,

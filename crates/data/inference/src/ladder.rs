@@ -95,7 +95,7 @@ impl Rung {
         matches!((self.behind, self.error), (Some(behind), Some(error)) if behind <= 2.0 * error)
     }
 
-    /// What it says of the frames, in words.
+    /// Its prediction against that of the best model, in words.
     #[must_use]
     pub fn in_words(&self) -> String {
         match (self.behind, self.error) {
@@ -174,7 +174,7 @@ pub fn ladder(tracks: &[Track], whole: &Fit, watch: &dyn Watch) -> Result<Ladder
     Ok(compared(&models, &found))
 }
 
-/// What a fit says of the frames of a block.
+/// The prediction of a block's frames by a fit.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     value: f64,

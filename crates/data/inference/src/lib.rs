@@ -4,7 +4,8 @@
 //! [`stage_velocities`] estimates the drift of the stage; [`select`] chooses the terms that the data support;
 //! [`identifiability()`] finds the combinations of coefficients that the motion determines; [`handedness`]
 //! tests whether left and right differ; [`warnings()`] and [`drift()`] state reasons to doubt the fit;
-//! [`ladder()`] compares models from a random walk on by frames that their fits did not see; [`weak()`] is an inexpensive independent estimate; [`place()`] and [`place_among`] locate the model in the
+//! [`ladder()`] compares models from a random walk on by frames that their fits did not see; [`weak()`] is an inexpensive independent
+//! estimate; [`place()`] and [`place_among`] locate the model in the
 //! paper's planes; [`Fit::definition`] makes it a model.
 //! Knows no file. Method and measurements: docs/inference.md.
 

@@ -24,7 +24,7 @@ const RIDGE: f64 = 1e-9;
 /// Share of the information on the velocity that the coefficients must leave: below, it cannot be told from the cell's own motion.
 const LEAST_LEFT: f64 = 1e-6;
 
-/// What does not turn with a cell, and can be taken for its handedness.
+/// Parameters that do not turn with a cell, and can be taken for its handedness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beside {
     /// A velocity of the stage.

@@ -107,7 +107,7 @@ impl<P: Problem> Tracer<P> {
         Some(Connection { error, joins, ..found })
     }
 
-    /// How the saddles that the orbit is seen to pass are related.
+    /// The relation between the saddles that the orbit is seen to pass.
     fn joins(&self) -> Option<Joins> {
         self.passages().map(|passages| passages.joins)
     }

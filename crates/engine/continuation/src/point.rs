@@ -104,7 +104,7 @@ pub enum End {
     /// A curve of special points comes to where its condition is not resolved any more: multipliers change so much with the parameters,
     /// close to a connection of saddles, that round-off decides whether one is critical. The last point is one where it still is.
     Lost {
-        /// How far the critical multiplier, or eigenvalue in units of the rate of the equations, was from where it belongs after the
+        /// Distance of the critical multiplier, or eigenvalue in units of the rate of the equations, from where it belongs after the
         /// shortest step that was tried.
         off: f64,
     },

@@ -1,4 +1,4 @@
-//! What stands beside a fit for the reader to judge it by: another estimate, and what the fit leaves unexplained.
+//! Checks beside a fit for the reader to judge it by: another estimate, and what the fit leaves unexplained.
 
 use motiform_inference::{Channel, Fit, Track, Weak, weak, whiteness};
 use serde::{Deserialize, Serialize};

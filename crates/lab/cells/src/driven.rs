@@ -1,4 +1,4 @@
-//! How much of a cell's motion its equations make without their noise.
+//! The share of a cell's motion that its equations make without their noise.
 
 use crate::natural::{model, noise};
 use motiform_dynamics::order::ascending;

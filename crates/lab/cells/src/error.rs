@@ -24,7 +24,7 @@ pub enum Error {
     OtherFits {
         /// The folder.
         path: PathBuf,
-        /// What differs: in the folder, and requested.
+        /// The values that differ: in the folder, and requested.
         differences: String,
     },
     /// Studies and files that are written.

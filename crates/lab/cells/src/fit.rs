@@ -10,7 +10,7 @@ use motiform_inference::{LEAST_FRAMES, Library, Settings, Track, between_cells, 
 use motiform_lab::pool;
 use serde::{Deserialize, Serialize};
 
-/// What is fitted.
+/// Settings of a fit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FitOptions {
     /// Highest order of the terms: 3 or 5.
@@ -39,7 +39,7 @@ pub struct FitOptions {
     pub ladder: bool,
 }
 
-/// What folders of fits had that do not say.
+/// The value in folders of fits that do not say.
 fn three() -> usize {
     3
 }
@@ -87,7 +87,7 @@ pub struct CellFit {
 }
 
 impl CellFit {
-    /// What makes the fit doubtful, in sentences.
+    /// Reasons to doubt the fit, in sentences.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let of_fit = self.fitted.iter().flat_map(|fitted| fitted.warnings.iter().map(ToString::to_string));

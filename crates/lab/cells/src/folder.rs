@@ -50,7 +50,7 @@ pub fn write_observations(
     Ok(staged.commit()?)
 }
 
-/// What both kinds of results have.
+/// Parts that both kinds of results have.
 fn common(sample: &Sample, summary: &Value, target: &Path) -> Result<Vec<(String, Vec<u8>)>> {
     let mut text = serde_json::to_vec_pretty(summary).map_err(|error| Error::write_failed(target, error))?;
     text.push(b'\n');

@@ -1,4 +1,4 @@
-//! How a cell moves, from its samples alone: a name only where the record leaves no other, else what is missing.
+//! The motion of a cell, from its samples alone: a name only where the record leaves no other, else what is missing.
 //!
 //! Definitions and limits: docs/cells.md, section 'Observed motion'.
 
@@ -96,7 +96,8 @@ pub fn observe(cell: &CellTrack) -> Observation {
     let Some(measures) = Measures::of(&cell.path()) else {
         let all = cell.modes.frames.len();
         return bare(format!(
-            "the {frames} frames that count, of {all}, are not equally spaced for long enough: gaps and frames left out leave no stretch of {LEAST_FRAMES}"
+            "the {frames} frames that count, of {all}, are not equally spaced for long enough: gaps and frames left \
+             out leave no stretch of {LEAST_FRAMES}"
         ));
     };
     let repeats = Repeats::of(&measures);
@@ -156,7 +157,8 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
     {
         if m.shape_wobble > (MOST_WOBBLE * radius).max(m.mean_shape) {
             let why = format!(
-                "the path is straight, but the shape changes by {:.1} % of the radius: more than its mean deformation, and a body that moves straight keeps its shape",
+                "the path is straight, but the shape changes by {:.1} % of the radius: more than its mean deformation, \
+                 and a body that moves straight keeps its shape",
                 100.0 * m.shape_wobble / radius
             );
             return (None, why);
@@ -184,7 +186,8 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
     match repeats {
         Some(repeats) => repeating(repeats),
         None => {
-            let why = "neither steady nor repeating: noise and chaos cannot be told apart by samples alone; equations fitted to them can decide";
+            let why = "neither steady nor repeating: noise and chaos cannot be told apart by samples alone; equations \
+             fitted to them can decide";
             (None, why.to_owned())
         }
     }
@@ -193,7 +196,8 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
 fn rest(m: &Measures) -> (Option<Regime>, String) {
     if m.wandering >= CLEAR {
         let why = format!(
-            "displacements from frame to frame are within {CLEAR} of their errors, but over the record the cell wanders, {:.0} errors from its mean place: it moves, or the stage drifts",
+            "displacements from frame to frame are within {CLEAR} of their errors, but over the record the cell \
+             wanders, {:.0} errors from its mean place: it moves, or the stage drifts",
             m.wandering
         );
         return (None, why);

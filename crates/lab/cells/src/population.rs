@@ -1,4 +1,4 @@
-//! What a population of cells has in common: shares of names and numbers over cells. The units are whole cells, never frames.
+//! Results over a population of cells: shares of names and numbers over cells. The units are whole cells, never frames.
 
 use crate::{CellFit, Fitted, Observation};
 use motiform_analysis::Share;
@@ -162,7 +162,7 @@ fn most_frequent<T: Ord>(all: impl Iterator<Item = T>) -> Option<T> {
     counts.into_iter().find(|(_, count)| *count == most).map(|(one, _)| one)
 }
 
-/// What fitted cells have in common.
+/// Results over fitted cells.
 ///
 /// # Checked by  `tests/all/population.rs`: coverage of the intervals, shares
 #[must_use]
@@ -194,7 +194,7 @@ pub fn fitted_population(fits: &[CellFit]) -> FittedPopulation {
     }
 }
 
-/// What observed cells have in common.
+/// Results over observed cells.
 #[must_use]
 pub fn observed_population(found: &[Observation]) -> ObservedPopulation {
     let name = |one: &Observation| one.motion.regime.map_or(UNDECIDED, |regime| regime.name());

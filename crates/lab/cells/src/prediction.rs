@@ -48,7 +48,7 @@ pub struct Comparison {
     pub envelope: Envelope,
 }
 
-/// What simulations of the fitted model look like.
+/// Statistics of cells simulated by the fitted model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Prediction {
     /// Simulated cells that count.
@@ -78,7 +78,8 @@ impl Prediction {
         }
         let (differ, all) = (self.count(Agreement::Differs), self.comparisons.len());
         (3 * differ >= all && differ > 1).then(|| {
-            format!("{differ} of {all} statistics of cells simulated by the fit, with its noise and its uncertainty, differ from those of the cell")
+            format!("{differ} of {all} statistics of cells simulated by the fit, with its noise and its uncertainty, \
+             differ from those of the cell")
         })
     }
 
@@ -89,7 +90,8 @@ impl Prediction {
         let differ = self.count(Agreement::Differs);
         (differ > 1 && self.contradiction().is_none()).then(|| {
             format!(
-                "{differ} of {} statistics of the cell differ from those of simulated cells: the equations, or the noise, do not describe all of its motion",
+                "{differ} of {} statistics of the cell differ from those of simulated cells: the equations, or the \
+                 noise, do not describe all of its motion",
                 self.comparisons.len()
             )
         })

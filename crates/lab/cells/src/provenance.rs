@@ -26,7 +26,7 @@ pub(crate) fn study_file(
     Ok(text)
 }
 
-/// What is needed to make the fit again, and its likelihood.
+/// Everything that is needed to make the fit again, and its likelihood.
 fn entries(
     sample: &Sample,
     fit: &CellFit,

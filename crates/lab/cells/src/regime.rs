@@ -74,11 +74,13 @@ impl FittedRegime {
     pub fn no_intervals(&self) -> Option<&'static str> {
         if self.slow {
             return Some(
-                "a linear rate of the equations is below three e-foldings in the record: it is too short to tell linear from nonlinear terms",
+                "a linear rate of the equations is below three e-foldings in the record: it is too short to tell \
+                 linear from nonlinear terms",
             );
         }
         matches!(self.best, Regime::Straight | Regime::Circular).then_some(
-            "the motion is steady: the cell stays next to one point of the shape, and intervals from its noise about it hold the truth in 81 to 86 % of cases only (simulated cells)",
+            "the motion is steady: the cell stays next to one point of the shape, and intervals from its noise about \
+             it hold the truth in 81 to 86 % of cases only (simulated cells)",
         )
     }
 }

@@ -126,7 +126,12 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["symmetry"] = json!(fitted.symmetry());
     object["handed_p_value"] = json!(fitted.handedness.p_value);
     let noise = &model.noise;
-    object["noise"] = json!({ "measurement_factor": number(&noise.s), "eta_v": number(&noise.eta_v), "eta_shape": number(&noise.eta_shape), "centre": number(&noise.centre) });
+    object["noise"] = json!({
+        "measurement_factor": number(&noise.s),
+        "eta_v": number(&noise.eta_v),
+        "eta_shape": number(&noise.eta_shape),
+        "centre": number(&noise.centre),
+    });
     object["stage"] = json!(fitted.stage);
     object["handed_beside_stage"] = json!(fitted.beside_stage);
     object["handed_beside_stretch"] = json!(fitted.beside_stretch);
@@ -183,7 +188,8 @@ impl Fitted {
                 )
             }
             Some(found) if found.blows_up() => format!(
-                "the fitted equations blow up without noise, and a cell that was tracked did not: too few frames, or terms are missing; motions of {} models: {}",
+                "the fitted equations blow up without noise, and a cell that was tracked did not: too few frames, or \
+                 terms are missing; motions of {} models: {}",
                 found.draws,
                 counts(found)
             ),

@@ -133,7 +133,7 @@ messages! {
     /// A map begins; its cells follow.
     #[derive(Serialize)]
     MapStart { epoch: u32, x: Grid, y: Option<Grid>, lines: Vec<Line>, }
-    /// How far a map is: cells, and cells per second.
+    /// Progress of a map: cells, and cells per second.
     #[derive(Serialize)]
     Progress { epoch: u32, done: usize, total: usize, rate: f64, }
     /// A map is complete.
@@ -182,7 +182,7 @@ messages! {
     /// The special points of all branches so far.
     #[derive(Serialize)]
     Specials { epoch: u32, points: Vec<SpecialPoint>, }
-    /// How far the branches are, 0 to 1, and the one under way.
+    /// Progress of the branches, 0 to 1, and the one under way.
     #[derive(Serialize)]
     FollowProgress as "Following" { epoch: u32, done: f64, branch: usize, }
     /// No more branches: `left` points were left at which more may begin; `why` says what made it impossible.

@@ -25,7 +25,7 @@ pub(crate) struct CellsOptions {
     #[arg(long, value_name = "UNIT", default_value = "um")]
     pub(crate) length_unit: String,
     /// The format, where the content does not decide it: csv, parquet, trackmate, quimp-csv, quimp-snqp, amoepy, roi, roi-zip or wkt
-    #[arg(long = "input-format", alias = "format", value_name = "FORMAT", value_parser = |text: &str| text.parse::<Format>().map_err(|error| error.to_string()))]
+    #[arg(long = "input-format", alias = "format", value_name = "FORMAT", value_parser = format)]
     pub(crate) format: Option<Format>,
     /// A column of the table by its header (repeatable): cell, frame, i, x, y or wkt, e.g. --column frame=t
     #[arg(long = "column", value_name = "NAME=HEADER", value_parser = column)]
@@ -54,6 +54,10 @@ pub(crate) struct CellsOptions {
 }
 
 /// `frame=t`.
+fn format(text: &str) -> Result<Format, String> {
+    text.parse::<Format>().map_err(|error| error.to_string())
+}
+
 fn column(text: &str) -> Result<(String, String), String> {
     let (name, header) = text.split_once('=').ok_or("write NAME=HEADER, e.g. frame=t")?;
     let known = ["cell", "frame", "i", "x", "y", "wkt"];

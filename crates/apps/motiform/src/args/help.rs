@@ -9,8 +9,8 @@ Start here:
   motiform atlas fig4                           a plane of two parameters: its motions and their boundaries
   motiform models tensor                        its equations, parameters and presets
 
-Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a motion is undecided); \
-2 invalid input, or a file that cannot be written; 130 interrupted (results computed so far are kept).
+Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a motion is undecided); 2 invalid input, \
+or a file that cannot be written; 130 interrupted (results computed so far are kept).
 
 The book: docs/README.md, with a tutorial; docs/options.md has every option.";
 
@@ -23,13 +23,13 @@ Examples:
   motiform simulate tensor --preset fig2 --noise 1e-6 --t-end 5000
   motiform simulate my-study.toml --json
 
-Noise: du = f(u) dt + ETA dW for every coordinate u accepted by --initial, with independent Wiener processes W. Without f \
-the variance would be ETA^2 t: ETA has the unit of u per square root of model time. For tensor the coordinates are v1, v2 (velocity) \
-and s11, s12, u111, u222 (shape), for cell c1, s1, c2, ... of phi. The law is invariant under rotations. The path depends on \
-the seed and the model's rates, not on --dt-out.
+Noise: du = f(u) dt + ETA dW for every coordinate u accepted by --initial, with independent Wiener processes W. Without f the \
+variance would be ETA^2 t: ETA has the unit of u per square root of model time. For tensor the coordinates are v1, v2 \
+(velocity) and s11, s12, u111, u222 (shape), for cell c1, s1, c2, ... of phi. The law is invariant under rotations. The path \
+depends on the seed and the model's rates, not on --dt-out.
 
-The motion is classified from the end of the run if a short integration is conclusive (never with noise); `motiform classify` integrates \
-for longer.
+The motion is classified from the end of the run if a short integration is conclusive (never with noise); `motiform classify` \
+integrates for longer.
 
 The output folder contains
   manifest.json        plan, hash, version, seed, outcome
@@ -52,8 +52,8 @@ The output folder contains
   _manifest.json       plan, hash, version
   part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
   _diagram             the phase diagram, as .svg and .png; with one axis also _exponent, if exponents are known
---resume continues a scan that was interrupted or killed. The results do not depend on the number of threads, \
-shards or interruptions. Exit code 1: some cells are undetermined.
+--resume continues a scan that was interrupted or killed. The results do not depend on the number of threads, shards or \
+interruptions. Exit code 1: some cells are undetermined.
 
 More: docs/recipes.md; many nodes: docs/clusters.md.";
 
@@ -90,11 +90,12 @@ Examples:
   motiform continue --start equilibria.json:2 --along r=0:30    # the second one listed, stable or not
   motiform continue --start my-study-branches:0:17 --along s=5:15 --direction up --branch-step 0.005
 
-The start is simulated until its motion is named, as `motiform classify` does. That motion is followed to both sides of the range by \
-pseudo-arclength, through folds and whether or not it is stable. What begins at its special points is followed too, and so on, \
-each branch once, mirror images not twice. With --start a point of an earlier result is the start, with its parameters: \
-a point of a branch (branch and point as in points.parquet) or an equilibrium is polished by Newton's method and not simulated, so that it may be \
-unstable; a state of a dataset is simulated on, but --motion motionless, straight or circular takes the steady motion close to it. Special points:
+The start is simulated until its motion is named, as `motiform classify` does. That motion is followed to both sides of the \
+range by pseudo-arclength, through folds and whether or not it is stable. What begins at its special points is followed too, \
+and so on, each branch once, mirror images not twice. With --start a point of an earlier result is the start, with its \
+parameters: a point of a branch (branch and point as in points.parquet) or an equilibrium is polished by Newton's method and \
+not simulated, so that it may be unstable; a state of a dataset is simulated on, but --motion motionless, straight or circular \
+takes the steady motion close to it. Special points:
   fold                branch turns back               hopf                a shape begins to pulsate
   pitchfork           a symmetry of a steady shape breaks (drift pitchfork: straight motion begins to turn)
   symmetry-breaking   left and right of a zigzag differ: it begins to rotate
@@ -121,10 +122,11 @@ Examples:
   motiform atlas my-equations.toml --axis a=0:1 --axis b=-1:1 --samples 8 --resume
   motiform figure tensor-fig4-atlas --width 86mm --out paper        its figure, one column wide
 
-One command in place of three: a scan that is finer where neighbours differ, branches along lines across the boundaries (`motiform continue`), and curves \
-of bifurcations through the plane (`motiform continue --curve`). Each boundary gets the name of the bifurcation on it. Where none is found, the atlas \
-says why: chaotic motion and blow-up are no branches and are found by sampling alone. Cells are those of a scan with the same axes, \
-samples and seed. More --samples find coexisting motions with small basins, more --lines name more of the boundaries.
+One command in place of three: a scan that is finer where neighbours differ, branches along lines across the boundaries \
+(`motiform continue`), and curves of bifurcations through the plane (`motiform continue --curve`). Each boundary gets the name \
+of the bifurcation on it. Where none is found, the atlas says why: chaotic motion and blow-up are no branches and are found by \
+sampling alone. Cells are those of a scan with the same axes, samples and seed. More --samples find coexisting motions with \
+small basins, more --lines name more of the boundaries.
 
 The output folder contains
   report.html          the map, its regions, its boundaries with their bifurcations, special points, what was followed
@@ -141,12 +143,12 @@ Examples:
   motiform equilibria tensor --preset fig4 --set kappa2=0.9 --set kappa3=0.1
   motiform equilibria cell --set length=12.6 --starts 50 --json
 
-Newton's method from the circle and from random shapes of several sizes; then by deflation, which looks for what is not known yet, \
-from sizes about those at which terms of the equations balance (a tenth of the smallest to ten times the largest), from \
-symmetric shapes and from shapes between known ones, until half as many searches as --starts for each unknown (1.5 as many for the cell) in turn \
-find nothing. Nothing proves that these are all.
-share: of the random starts that lead there; 'deflated' and 'mirrored' (the mirror image of another one) are those that no start led to. \
-unstable: number of growing directions; 0 is stable. Mirror images are listed apart.
+Newton's method from the circle and from random shapes of several sizes; then by deflation, which looks for what is not known \
+yet, from sizes about those at which terms of the equations balance (a tenth of the smallest to ten times the largest), from \
+symmetric shapes and from shapes between known ones, until half as many searches as --starts for each unknown (1.5 as many for \
+the cell) in turn find nothing. Nothing proves that these are all.
+share: of the random starts that lead there; 'deflated' and 'mirrored' (the mirror image of another one) are those that no \
+start led to. unstable: number of growing directions; 0 is stable. Mirror images are listed apart.
 
 More: docs/continuation.md.";
 
@@ -156,7 +158,8 @@ Examples:
   motiform section tensor --preset fig5b --at s12=0 --crossings either --t-end 2000 > crossings.csv
   motiform section tensor --preset fig5a --at y=1 --json
 
-Crossings are located to round-off. A table (CSV) goes to standard output; each crossing has the time t, the place x, y, all coordinates of the shape, and rising (1 or 0).
+Crossings are located to round-off. A table (CSV) goes to standard output; each crossing has the time t, the place x, y, all \
+coordinates of the shape, and rising (1 or 0).
 
 More: docs/recipes.md.";
 
@@ -165,10 +168,11 @@ Examples:
   motiform reproduce --quick
   motiform reproduce fig4 fig5 --out paper
 
-The output folder contains report.html (figures, parameters, and for each claim: the statement of the paper, our result, how it was \
-decided, and the reason for any difference), its figures (figure-3b.svg and .png for Fig. 3(b) of the paper, figure-3.1.svg for what is added \
-to Fig. 3, .csv with their numbers), and the underlying scans. The page is written again after each chapter. After Ctrl-C or a kill the same command \
-goes on with the finished chapters. Exit code 1: a claim failed; one that differs or is not judged is no failure.
+The output folder contains report.html (figures, parameters, and for each claim: the statement of the paper, our result, how it \
+was decided, and the reason for any difference), its figures (figure-3b.svg and .png for Fig. 3(b) of the paper, figure-3.1.svg \
+for what is added to Fig. 3, .csv with their numbers), and the underlying scans. The page is written again after each chapter. \
+After Ctrl-C or a kill the same command goes on with the finished chapters. Exit code 1: a claim failed; one that differs or is \
+not judged is no failure.
 
 More: docs/recipes.md.";
 
@@ -197,9 +201,9 @@ Examples:
   motiform lyapunov tensor --preset fig5b --samples 32
   motiform lyapunov tensor --preset fig4 --set kappa2=0.3 --set kappa3=0.1 --saddle 200
 
-Errors are half widths of 95 % confidence intervals. The exponents that must be zero (those of the flow direction and \
-the rotations) are a self-check. If an average is too short, no error is given and this is reported (exit code 1). A run that escapes has no \
-exponents: use --saddle for the exponent of the chaotic saddle.
+Errors are half widths of 95 % confidence intervals. The exponents that must be zero (those of the flow direction and the \
+rotations) are a self-check. If an average is too short, no error is given and this is reported (exit code 1). A run that \
+escapes has no exponents: use --saddle for the exponent of the chaotic saddle.
 
 More: docs/regimes.md.";
 
@@ -211,11 +215,10 @@ Examples:
   motiform explore my.toml          a study file, such as one with your own equations
   motiform explore --port 8080 --no-open
 
-The page shows a map of motions over two parameters (click on it), the moving body, its speed, spectrum, return map \
-and Lyapunov exponents, and a slider for every parameter. The server is for this machine only: it listens on \
-127.0.0.1, its address contains a secret, and a page can neither read nor write files. \
-Over ssh: ssh -L 7373:127.0.0.1:7373 HOST. The same page without a server, for any static host and as one \
-file: motiform.html of a release, or `cargo xtask web` in the sources.
+The page shows a map of motions over two parameters (click on it), the moving body, its speed, spectrum, return map and \
+Lyapunov exponents, and a slider for every parameter. The server is for this machine only: it listens on 127.0.0.1, its address \
+contains a secret, and a page can neither read nor write files. Over ssh: ssh -L 7373:127.0.0.1:7373 HOST. The same page \
+without a server, for any static host and as one file: motiform.html of a release, or `cargo xtask web` in the sources.
 
 More: docs/explorer.md.";
 

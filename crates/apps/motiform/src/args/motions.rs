@@ -26,7 +26,7 @@ pub(crate) struct ContinueOptions {
     /// Draw the curves over this scan of the same plane
     #[arg(long, value_name = "SCAN", requires = "curve")]
     pub(crate) over: Option<PathBuf>,
-    /// What the diagram shows against the parameter
+    /// Quantity that the diagram shows against the parameter
     #[arg(long, value_name = "NAME", value_enum, default_value_t = Observable::Speed)]
     pub(crate) observable: Observable,
     /// Zeros of a given start become random values within SIZE times its largest value (default: 1e-6), because an
@@ -84,7 +84,8 @@ pub(crate) struct EquilibriaOptions {
     #[command(flatten)]
     pub(crate) motion: MotionOptions,
     /// Number of random shapes Newton's method starts from, beside the circle
-    #[arg(long, value_name = "M", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=1_000_000), allow_hyphen_values = true)]
+    #[arg(long, value_name = "M", default_value_t = 200, allow_hyphen_values = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) starts: u32,
 }
 

@@ -7,8 +7,11 @@ use super::{
 use clap::Args;
 use std::path::PathBuf;
 
+const TRANSIENT: &str =
+    "Model time to leave out: integrated before recording; of datasets, rows before this time";
+
 #[derive(Args)]
-#[command(mut_arg("transient", |transient| transient.help("Model time to leave out: integrated before recording; of datasets, rows before this time")))]
+#[command(mut_arg("transient", |transient| transient.help(TRANSIENT)))]
 pub(crate) struct StatisticsOptions {
     /// A model or a preset (`motiform models` lists them), a study file ending in .toml, or folders written by `motiform simulate`, one
     /// body each

@@ -49,7 +49,7 @@ pub(crate) struct FigureOptions {
     /// One figure of panels (a), (b), ... with aligned axes: the first figure of each folder, in rows from the left
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = grid, requires = "out")]
     pub(crate) panels: Option<[usize; 2]>,
-    /// What a diagram of branches shows against the parameter
+    /// Quantity that a diagram of branches shows against the parameter
     #[arg(long, value_name = "NAME", value_enum)]
     pub(crate) observable: Option<Observable>,
     #[command(flatten)]

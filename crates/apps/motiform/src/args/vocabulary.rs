@@ -129,7 +129,8 @@ fn value(option: &Arg) -> String {
 /// The page with the table.
 fn page() -> String {
     let mut page = String::from(
-        "# Options\n\nEvery option of every command. A name means one thing, whatever the command; `motiform COMMAND --help` says what it does there.\n\n\
+        "# Options\n\nEvery option of every command. A name means one thing, whatever the command; `motiform COMMAND \
+         --help` says what it does there.\n\n\
          | option | value | meaning | commands |\n| --- | --- | --- | --- |\n",
     );
     let options = options();

@@ -184,7 +184,8 @@ impl Content {
                 | Kind::Report
                 | Kind::Figures,
             ) => {
-                let remedy = "figures of such a folder are not drawn again: give the command that wrote it the options of figures, with --force";
+                let remedy = "figures of such a folder are not drawn again: give the command that wrote it the options \
+                 of figures, with --force";
                 let value = path.display().to_string();
                 return Err(Error::Setting { key: "DIR", value, remedy }.into());
             }

@@ -162,7 +162,8 @@ fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
     let excluded = 100.0 * handedness.excluded;
     writeln!(
         text,
-        "symmetry       {symmetry}, p {equals}{p}; imaginary parts above {excluded:.0} % of the largest coefficient of their equation are excluded"
+        "symmetry       {symmetry}, p {equals}{p}; imaginary parts above {excluded:.0} % of the largest coefficient of \
+         their equation are excluded"
     )?;
     let model = fitted.model();
     for (place, coefficient) in model.coefficients.iter().enumerate() {

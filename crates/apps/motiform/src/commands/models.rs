@@ -53,7 +53,8 @@ fn list() -> anyhow::Result<String> {
     }
     writeln!(
         text,
-        "\n`motiform models MODEL` shows equations, parameters and presets. MODEL may be one of these presets, or a study file with your own equations."
+        "\n`motiform models MODEL` shows equations, parameters and presets. MODEL may be one of these presets, or a \
+         study file with your own equations."
     )?;
     Ok(text)
 }

@@ -27,7 +27,8 @@ pub(crate) fn fitted(
     let mut text = format!("population     {}\n", cells(population.cells));
     shares(&mut text, &population.regimes)?;
     if population.fitted < 2 {
-        text += "               no means of coefficients: they need two cells of one motion whose fits with all terms converged with bounded coefficients\n";
+        text += "               no means of coefficients: they need two cells of one motion whose fits with all terms \
+         converged with bounded coefficients\n";
         return Ok(text);
     }
     let law = population.law.unwrap_or_default();

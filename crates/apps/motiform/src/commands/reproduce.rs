@@ -101,7 +101,10 @@ fn json(report: &Report, page: &Path) -> anyhow::Result<String> {
     };
     let sections: Vec<_> = report
         .numbered()
-        .map(|(number, section)| json!({ "number": number, "title": section.title, "claims": section.claims.iter().map(claim).collect::<Vec<_>>() }))
+        .map(|(number, section)| {
+            let claims: Vec<_> = section.claims.iter().map(claim).collect();
+            json!({ "number": number, "title": section.title, "claims": claims })
+        })
         .collect();
     let (counts, checks) = (report.counts(), report.checks());
     Ok(serde_json::to_string(&json!({

@@ -44,7 +44,8 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     print(&text)?;
     if let Some((motion, growth)) = naming::unstable(&run.manifest)? {
         warn(&format!(
-            "the run ends on {motion} motion that is unstable (growth rate {growth:.2e}): its start has an exact symmetry, and a typical start \
+            "the run ends on {motion} motion that is unstable (growth rate {growth:.2e}): its start has an exact \
+             symmetry, and a typical start \
              leaves it; change a coordinate that is 0 in the start a little"
         ));
     }

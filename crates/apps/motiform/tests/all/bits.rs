@@ -14,7 +14,8 @@ const RECORDED: [(&str, &str); 15] = [
     ("simulate tensor --preset fig5b --t-end 50 --rtol 1e-12", "1e120a11c0baa448"),
     ("simulate tensor --preset fig5a --t-end 20 --stepper rk4 --step 1e-3", "a6dd78b1d5ac5804"),
     (
-        "simulate tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --transient 0 --initial v1=8 --initial v2=1 --initial s11=30 --initial u111=-20",
+        "simulate tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --transient 0 --initial v1=8 --initial v2=1 \
+         --initial s11=30 --initial u111=-20",
         "c4c3b3b11ea920d6",
     ),
     ("simulate tensor --preset fig2 --t-end 50 --noise 1e-6", "37188c27540dc3a2"),

@@ -1,4 +1,4 @@
-//! What would never end, or is no file, is refused at once and in words.
+//! Requests that would never end, or name no file, are refused at once and in words.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![cfg(target_os = "linux")]
@@ -117,7 +117,7 @@ fn a_limit_on_files_is_said() {
     assert!(folder.names().is_empty(), "{:?}", folder.names());
 }
 
-/// What only has the name of unfinished output, or an earlier version left, blocks nobody and stays.
+/// Files that only have the name of unfinished output, or that an earlier version left, block nobody and stay.
 #[test]
 fn a_leftover_of_the_same_process_number_blocks_nobody() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! What `motiform continue` states of its special points: errors that hold, and the kind of connection at an end.
+//! Statements of `motiform continue` about its special points: errors that hold, and the kind of connection at an end.
 
 use crate::common::{Folder, read_json};
 use serde_json::Value;
@@ -95,7 +95,8 @@ fn coefficients_do_not_depend_on_the_start_and_the_tolerance() {
     }
 }
 
-/// What begins at the special points of the zigzag and of circular motion: by the coefficient of the normal form, as published; and the
+/// Motions that begin at the special points of the zigzag and of circular motion: by the coefficient of the normal form, as published;
+/// and the
 /// saddle that the zigzag ends at.
 #[test]
 fn coefficients_and_saddles_are_stated_with_their_errors() {
@@ -165,7 +166,8 @@ fn a_saddle_node_on_a_circle_is_named_where_it_is() {
 #[test]
 fn orbits_of_the_cell_grow_as_the_normal_form_says() {
     let folder = Folder::new();
-    let arguments = "continue cell --set length=12.955 --motion circular --along length=12.955:12.98 --points 12 --branch-step 0.2 --no-figures --out here";
+    let arguments = "continue cell --set length=12.955 --motion circular --along length=12.955:12.98 --points 12 \
+     --branch-step 0.2 --no-figures --out here";
     folder.run(arguments).expect(0);
     let json = read_json(&folder.path("here/branches.json"));
     let samples = |branch: usize| -> Vec<Value> {

@@ -60,7 +60,8 @@ fn what_cannot_be_served_is_said() {
 fn a_browser_is_given_a_file_and_not_the_token() {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = Folder::new();
-    let opener = "#!/bin/sh\n# Only what is complete is there to be read.\necho \"$@\" > said.part; cp -p \"$1\" copy.html\nmv said.part said\n";
+    let opener = "#!/bin/sh\n# Only what is complete is there to be read.\necho \"$@\" > said.part; cp -p \"$1\" \
+     copy.html\nmv said.part said\n";
     folder.write("xdg-open", opener);
     std::fs::set_permissions(folder.path("xdg-open"), std::fs::Permissions::from_mode(0o755)).unwrap();
     std::fs::create_dir(folder.path("running")).unwrap();

@@ -88,7 +88,7 @@ fn branches() {
     is_kept(command, "--resume", &size("branches.json"), 3);
 }
 
-/// What is sampled along the parameter is kept every second.
+/// Samples along the parameter are kept every second.
 #[test]
 fn sweeps() {
     let command = "continue tensor --preset fig5a --along kappa2=0.7:1.6 --branches 1 --points 5 --sweep 160 --no-figures";
@@ -109,7 +109,8 @@ fn curves() {
 /// Cells are kept group by group, lines two by two.
 #[test]
 fn atlases() {
-    let command = "atlas tensor --preset fig4 --axis kappa2=0.8:1.5:33 --axis kappa3=0.2:0.6:17 --samples 2 --lines 4 --branches 2 --threads 2";
+    let command = "atlas tensor --preset fig4 --axis kappa2=0.8:1.5:33 --axis kappa3=0.2:0.6:17 --samples 2 --lines 4 \
+     --branches 2 --threads 2";
     is_kept(command, "--resume", &items, 3);
 }
 

@@ -30,7 +30,7 @@ fn whole(folder: &Folder, words: &str) {
     assert!(matches!(done.code, Some(0 | 1)), "{words}: {}", done.stderr);
 }
 
-/// How long a command takes when nobody disturbs it.
+/// Duration of a command that nobody disturbs.
 fn usual(folder: &Folder, words: &str) -> Duration {
     let begun = Instant::now();
     whole(folder, words);
@@ -48,7 +48,7 @@ pub(crate) fn kill(folder: &Folder, words: &str, within: Duration, random: &mut 
     running
 }
 
-/// What is not yet locked stays for a minute; nothing else may.
+/// A folder that is not yet locked stays for a minute; nothing else may.
 fn is_tidy(folder: &Folder, known: &[&str]) {
     let stray: Vec<String> = folder.names();
     let stray: Vec<&String> =

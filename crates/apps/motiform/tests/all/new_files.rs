@@ -3,7 +3,7 @@
 use crate::common::Folder;
 use std::fs;
 
-/// What `new` writes is a study that runs; a file that is there stays as it is.
+/// A file of `new` is a study that runs; a file that is there stays as it is.
 #[test]
 fn new_files_run_and_replace_nothing() {
     let folder = Folder::new();

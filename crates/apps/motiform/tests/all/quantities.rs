@@ -129,7 +129,10 @@ fn no_parameter_has_the_name_of_a_column() {
 
 /// docs/quantities.md: a table per subject.
 fn page() -> String {
-    let mut text = "# Quantities\n\nColumns of all tables, with their dimension and meaning. In one kind of table a name means one thing.\n".to_owned();
+    let mut text =
+        "# Quantities\n\nColumns of all tables, with their dimension and meaning. In one kind of table a \
+     name means one thing.\n"
+            .to_owned();
     for (title, about, all) in [
         ("Runs", "`trajectory` and `crossings`: a row is a state.", state::ALL),
         ("Motions", "Scans, cells of atlases, points of branches, sweeps: a row is a motion.", motion::ALL),

@@ -67,7 +67,7 @@ fn ties_hold_on_axes_and_along_branches() {
     }
 }
 
-/// What contradicts itself is refused, with the remedy.
+/// Ties that contradict themselves are refused, with the remedy.
 #[test]
 fn ties_that_contradict_are_refused() {
     let folder = Folder::new();

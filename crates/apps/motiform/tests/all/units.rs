@@ -12,7 +12,7 @@ struct System {
     name: &'static str,
     parameters: &'static str,
     rates: &'static [&'static str],
-    /// What is followed, and from which value of the parameter on.
+    /// The motion that is followed, and from which value of the parameter on.
     along: &'static str,
     start: &'static str,
     branches: usize,

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 const LEADING: usize = 2;
 const REST: usize = STAGES - LEADING;
 
-/// What one of the solutions may leave of its equations, as part of their terms: digits that a small pivot would cost.
+/// The residual that a solution may leave, as part of the terms of its equations: digits that a small pivot would cost.
 const LEFT: f64 = 1e-10;
 
 /// The equations `sum_j a'_ij W_j - h J_i W_i = R_i`, with the inverse `a'` of the matrix of the weights. Outside the diagonal their
@@ -26,7 +26,7 @@ pub(super) struct Blocks<'j> {
     dim: usize,
 }
 
-/// What is known after the elimination of the first two stages.
+/// The factors after the elimination of the first two stages.
 struct Leading {
     /// `B = S_00^-1` and `X = S_11^-1` of the pivots, and their products.
     b: DMatrix<f64>,

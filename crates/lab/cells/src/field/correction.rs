@@ -1,4 +1,4 @@
-//! What of the stage's motion is subtracted from the outlines.
+//! The part of the stage's motion that is subtracted from the outlines.
 
 use super::FieldOfView;
 use motiform_tracks::Tracks;

@@ -17,7 +17,7 @@ const LEVEL: f64 = 0.01;
 const MOST_STEPS: usize = 500;
 const ACCURACY: f64 = 1e-8;
 
-/// What a place is less the place that its neighbours in time interpolate: linearly, and by a cubic.
+/// Difference between a place and the one that its neighbours in time interpolate: linearly, and by a cubic.
 const STENCILS: [&[f64]; 2] = [&[-0.5, 1.0, -0.5], &[1.0 / 6.0, -2.0 / 3.0, 1.0, -2.0 / 3.0, 1.0 / 6.0]];
 
 /// A jitter of the images.
@@ -84,7 +84,7 @@ impl Jitter {
 /// The common part of a frame, and the inverse of its variance by the cells' own motion.
 type Common = Option<([f64; 2], f64)>;
 
-/// What cells have beside a smooth motion.
+/// Displacements of cells beside a smooth motion.
 struct Residuals {
     stencil: &'static [f64],
     /// Of each cell and frame.
@@ -162,7 +162,7 @@ impl Residuals {
         mean(self.common.iter().flatten().map(|(h, _)| 0.5 * (h[0] * h[0] + h[1] * h[1])))
     }
 
-    /// What of it the cells' own motion explains.
+    /// The part of it that the cells' own motion explains.
     fn noise(&self) -> f64 {
         mean(self.common.iter().flatten().map(|(_, weight)| 1.0 / weight))
     }

@@ -48,7 +48,7 @@ pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Vec<StageJump> {
         .collect()
 }
 
-/// What the displacements to this frame exceed those before and after by, over the cells that are seen.
+/// The excess of the displacements to this frame over those before and after, over the cells that are seen.
 fn excess(grid: &Grid, k: usize, stands_out: &dyn Fn(usize) -> bool) -> Option<StageJump> {
     let found: Vec<[f64; 2]> = (0..grid.cells())
         .filter_map(|cell| {

@@ -22,7 +22,7 @@ use motiform_tracks::Tracks;
 use motiform_tracks::modes::CellModes;
 use serde::Serialize;
 
-/// What cells of a field of view have in common.
+/// Motion that the cells of a field of view have in common.
 ///
 /// # Units   of the data
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
@@ -37,12 +37,12 @@ pub struct FieldOfView {
     pub drift: Option<CommonDrift>,
     /// Side of the pixels whose edges or middles the outlines follow; `None` for smooth outlines.
     pub pixel: Option<f64>,
-    /// What was subtracted from the outlines. The numbers above are those before.
+    /// The motion that was subtracted from the outlines. The numbers above are those before.
     pub corrected: Vec<Correction>,
 }
 
 impl FieldOfView {
-    /// What these cells do together.
+    /// Their common motion.
     ///
     /// # Checked by  tests/all/field.rs: walkers and rods on a stage of known drift, jumps, jitter and pixels, and without
     #[must_use]

@@ -9,7 +9,7 @@ use motiform_study::Dimension;
 const MOST_JUMPS: usize = 4;
 
 impl FieldOfView {
-    /// What was found, name by name: the same on pages and in text.
+    /// The findings, name by name: the same on pages and in text.
     #[must_use]
     pub fn in_words(&self, units: &Units) -> Vec<(&'static str, String)> {
         let mut rows = Vec::new();

@@ -1,4 +1,4 @@
-//! What leaves a fit without motion, place and symmetry.
+//! Doubts that leave a fit without motion, place and symmetry.
 
 use crate::regime::FittedRegime;
 use motiform_inference::{HANDED_RATE, Handedness, Stretch, Symmetry, Track, Warning};
@@ -18,7 +18,8 @@ pub(super) fn doubts(
     let handed = handedness.symmetry == Symmetry::Handed;
     if handedness.p_value < HANDED_RATE && !handed {
         doubts.push(format!(
-            "whether the cell is handed is not decided: its likelihood says so (p = {:.1e}), but its imaginary parts are within their robust errors (p = {:.1e}), or the fit did not converge",
+            "whether the cell is handed is not decided: its likelihood says so (p = {:.1e}), but its imaginary parts \
+             are within their robust errors (p = {:.1e}), or the fit did not converge",
             handedness.p_value, handedness.robust_p_value
         ));
     } else if handedness.is_doubted() && !handed {
@@ -28,15 +29,22 @@ pub(super) fn doubts(
         ));
     }
     if let Some(p) = beside_stage.filter(|p| *p >= HANDED_RATE) {
-        doubts.push(format!("it is handed, or the stage drifts: beside a velocity that does not turn with the cell, a mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"));
+        doubts.push(format!(
+            "it is handed, or the stage drifts: beside a velocity that does not turn with the cell, a \
+         mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"
+        ));
     }
     if let Some(p) = beside_stretch.filter(|p| *p >= HANDED_RATE) {
-        doubts.push(format!("it is handed, or the images are stretched: beside a strain of the path and an elongation that do not turn with the cell, a mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"));
+        doubts.push(format!(
+            "it is handed, or the images are stretched: beside a strain of the path and an elongation \
+         that do not turn with the cell, a mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"
+        ));
     }
     let suspected = |found: &Stretch| found.is_suspected(tracks.len()) && !found.is_clear(tracks.len());
     if let Some(found) = tracks.iter().filter_map(Stretch::of).find(suspected).filter(|_| handed) {
         doubts.push(format!(
-            "it is handed, or the images are stretched: beside what turns with the cell, outlines have a constant elongation of {:.1} % of the mean size of z2 (p = {:.1e} without a stretch)",
+            "it is handed, or the images are stretched: beside what turns with the cell, outlines have a constant \
+             elongation of {:.1} % of the mean size of z2 (p = {:.1e} without a stretch)",
             100.0 * found.share, found.p_value
         ));
     }

@@ -126,7 +126,8 @@ fn unplaced(
 ) -> Vec<String> {
     let mut reasons = doubts.to_vec();
     if regime.is_some_and(FittedRegime::is_carried) {
-        reasons.push("noise carries the displacement: without it the equations rest, and the paper's planes are about motion without noise".to_owned());
+        reasons.push("noise carries the displacement: without it the equations rest, and the paper's planes are about \
+         motion without noise".to_owned());
     }
     // a sampling that is too coarse is a doubt already
     let unstated = no_intervals(regime, warnings).filter(|_| doubts.is_empty() || regime.is_some());

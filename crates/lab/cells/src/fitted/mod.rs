@@ -26,15 +26,15 @@ pub struct Fitted {
     pub selection: Selection,
     /// Real against complex coefficients.
     pub handedness: Handedness,
-    /// What the motion determines, among the selected terms.
+    /// The combinations that the motion determines, among the selected terms.
     pub known: Identifiability,
-    /// What the motion determines, among all terms.
+    /// The combinations that the motion determines, among all terms.
     pub known_of_all: Identifiability,
     /// The same terms at other sampling intervals.
     pub drift: Option<Drift>,
     /// Another estimate of the model's coefficients, and what the model leaves unexplained.
     pub checks: Checks,
-    /// What makes the fit doubtful.
+    /// Reasons to doubt the fit.
     pub warnings: Vec<Warning>,
     /// Why there is neither motion nor place nor a symmetry: serious warnings, handedness that is not decided, blow-up, simulated cells
     /// that are unlike the observed one.
@@ -57,7 +57,8 @@ pub struct Fitted {
     /// The same beside a small strain of the path and a constant elongation of the outlines, as images have that are stretched.
     #[serde(default)]
     pub beside_stretch: Option<f64>,
-    /// Models from a random walk on, compared by frames that their fits did not see, or why they are not; `None` where this was not asked for.
+    /// Models from a random walk on, compared by frames that their fits did not see, or why they are not; `None` where this was not
+    /// asked for.
     #[serde(default)]
     pub ladder: Option<std::result::Result<Ladder, String>>,
     /// Of several cells together: errors of the model's coefficients from the differences between cells.
@@ -99,7 +100,7 @@ impl Fitted {
         self.doubts.is_empty() && self.regime.as_ref().is_some_and(FittedRegime::is_carried)
     }
 
-    /// What acts on the velocity of such a walk, in words: whether its shape takes part.
+    /// The terms that act on the velocity of such a walk, in words: whether its shape takes part.
     #[must_use]
     pub fn walk_in_words(&self) -> String {
         let pulled = self.model().coefficients.iter().filter(|c| c.term.equation == 0);

@@ -57,7 +57,7 @@ impl Repeats {
     }
 }
 
-/// What rotations leave unchanged: speed, |z2|, and z2 against the direction of motion, along and across (which the mirror reverses).
+/// Invariants of rotations: speed, |z2|, and z2 against the direction of motion, along and across (which the mirror reverses).
 fn invariants(series: &Series) -> Vec<Vec<f64>> {
     let (mut along, mut across, mut size) = (Vec::new(), Vec::new(), Vec::new());
     for (frame, heading) in series.frames[series.lag / 2..].iter().zip(&series.headings) {

@@ -1,4 +1,4 @@
-//! What people measure on tracked cells: mean-square displacement, persistence, autocorrelations of velocity and shape, with errors.
+//! Common statistics of tracked cells: mean-square displacement, persistence, autocorrelations of velocity and shape, with errors.
 
 use super::measures::Series;
 use motiform_inference::Observation;
@@ -34,7 +34,7 @@ pub struct Memory {
 /// # Units   of the data
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotionStatistics {
-    /// What intervals refer to: blocks of the record, or cells.
+    /// The units that intervals refer to: blocks of the record, or cells.
     pub errors: Errors,
     /// Mean-square displacement, the part of the measurement errors subtracted.
     pub displacement: Vec<AtLag>,

@@ -78,7 +78,7 @@ fn start(
 struct Units<'f>(&'f Scales);
 
 impl Units<'_> {
-    /// What a frame without errors shows of a state.
+    /// The observation of a state by a frame without errors.
     fn observed(&self, model: &dyn Model, state: &[f64]) -> Vec<f64> {
         let (shape, position) = state.split_at(model.dim());
         let mut seen = vec![0.0; 2 * self.0.amplitudes.len()];

@@ -18,7 +18,7 @@ const SIDE: usize = 12;
 /// Quantiles of distributions (%).
 const QUANTILES: [f64; 9] = [5.0, 10.0, 20.0, 35.0, 50.0, 65.0, 80.0, 90.0, 95.0];
 
-/// What a statistic runs over.
+/// The variable that a statistic runs over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
@@ -42,7 +42,7 @@ pub enum Kind {
     ThirdMode,
     /// Autocorrelation of z4, of models with z4.
     FourthMode,
-    /// Whether, and how long before or after, the body is elongated along (1) or across (-1) its motion.
+    /// Elongation along (1) or across (-1) the motion, at times before or after it.
     Elongation,
     /// Quantiles of the speed (length/time).
     Speed,
@@ -75,7 +75,7 @@ impl Kind {
         }
     }
 
-    /// What it runs over.
+    /// The variable that it runs over.
     #[must_use]
     pub fn axis(self) -> Axis {
         match self {

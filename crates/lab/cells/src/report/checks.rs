@@ -19,7 +19,9 @@ pub(crate) fn section(fitted: &Fitted, setting: &Setting<'_>) -> Result<Section,
     let pairs = channels.chunks(2).filter(|pair| !pair[0].autocorrelation.is_empty());
     Ok(Section {
         title: "Checks".to_owned(),
-        about: "If the model describes the cell, coefficients do not depend on the sampling interval, and innovations have variance 1 and no memory. The weak form shares nothing with the likelihood but the data: under process noise it is biased by 10 to 40 %, so only its signs and orders of magnitude count.".to_owned(),
+        about: "If the model describes the cell, coefficients do not depend on the sampling interval, and innovations \
+         have variance 1 and no memory. The weak form shares nothing with the likelihood but the data: under process \
+         noise it is biased by 10 to 40 %, so only its signs and orders of magnitude count.".to_owned(),
         tables: vec![intervals(fitted, &setting.units), whiteness(channels)],
         small_figures: pairs.map(|pair| memory(pair, n, setting)).collect::<Result<_, _>>()?,
         ..Section::default()
@@ -56,7 +58,8 @@ fn intervals(fitted: &Fitted, units: &Units) -> Table {
         row
     };
     Table {
-        caption: "The same coefficients from fewer frames and by another method; changes in standard deviations of such a change.".to_owned(),
+        caption: "The same coefficients from fewer frames and by another method; changes in standard deviations of \
+         such a change.".to_owned(),
         head,
         rows: fit.coefficients.iter().enumerate().map(row).collect(),
     }

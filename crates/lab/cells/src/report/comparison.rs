@@ -20,13 +20,15 @@ pub(crate) fn section(
     let lost = prediction.lost;
     if prediction.is_unstable() {
         let about = format!(
-            "{lost} of {} simulated cells leave all bounds: the fit, with its noise and its uncertainty, does not describe the cell. Nothing is compared.",
+            "{lost} of {} simulated cells leave all bounds: the fit, with its noise and its uncertainty, does not \
+             describe the cell. Nothing is compared.",
             prediction.cells + lost
         );
         return Ok(Section { title, about, ..Section::default() });
     }
     let mut about = format!(
-        "{} cells simulated by equations drawn from the estimate, with their noise, from where the observed one starts, seen at the same frames with errors of the same size. Of {} statistics {} agree, {} are doubtful and {} differ.",
+        "{} cells simulated by equations drawn from the estimate, with their noise, from where the observed one \
+         starts, seen at the same frames with errors of the same size. Of {} statistics {} agree, {} are doubtful and {} differ.",
         prediction.cells,
         prediction.comparisons.len(),
         prediction.count(Agreement::Agrees),

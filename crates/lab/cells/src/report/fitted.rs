@@ -21,7 +21,8 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
     let why = capital(&literal(&fitted.why()));
     let regime = fitted.motion_name();
     let about = format!(
-        "Motion of the fitted equations, without their noise: {regime}. {why}.\n\nThe equations are the study file {name}.toml in the folder of this page: every command of motiform takes it as a model."
+        "Motion of the fitted equations, without their noise: {regime}. {why}.\n\nThe equations are the study file \
+         {name}.toml in the folder of this page: every command of motiform takes it as a model."
     );
     let mut tables = vec![coefficients(fitted, units)];
     tables.extend(sets(fitted));
@@ -137,7 +138,8 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
     );
     Table {
         caption: format!(
-            "Coefficients in the units of the data; a term stands in the equation of the amplitude before the colon. {intervals}; the errors are those of the best set alone."
+            "Coefficients in the units of the data; a term stands in the equation of the amplitude before the colon. \
+             {intervals}; the errors are those of the best set alone."
         ),
         head: head.into_iter().map(str::to_owned).collect(),
         rows,
@@ -156,7 +158,8 @@ fn sets(fitted: &Fitted) -> Option<Table> {
     let rows: Vec<Vec<Cell>> =
         subsets.counts().into_iter().filter(|(_, count)| *count < all).map(row).collect();
     (!rows.is_empty()).then(|| Table {
-        caption: "Terms that some of the sets that are as good as the best have, and others do not: the data do not tell whether they are there.".to_owned(),
+        caption: "Terms that some of the sets that are as good as the best have, and others do not: the data do not \
+         tell whether they are there.".to_owned(),
         head: ["term", "sets of terms that are as good", "in the set above"].map(str::to_owned).to_vec(),
         rows,
     })
@@ -177,7 +180,9 @@ fn ladder(fitted: &Fitted) -> Option<Table> {
         Err(why) => (format!("Models are not compared: {}.", literal(why)), Vec::new()),
         Ok(found) => (
             format!(
-                "Models compared by {} frames that their fits did not see: {}. The record is cut into {} blocks, each left out of a fit in turn; the gain is log-likelihood per frame above the first model, the error that of the differences between blocks.",
+                "Models compared by {} frames that their fits did not see: {}. The record is cut into {} blocks, each \
+                 left out of a fit in turn; the gain is log-likelihood per frame above the first model, the error that \
+                 of the differences between blocks.",
                 found.frames,
                 literal(&found.sentence()),
                 found.blocks
@@ -222,7 +227,7 @@ fn bifurcations(fit: &CellFit) -> Option<Table> {
     })
 }
 
-/// What the motion fixes, where it does not fix everything.
+/// The combinations that the motion fixes, where it does not fix everything.
 fn determined(fitted: &Fitted) -> Option<Table> {
     let equations = &fitted.known_of_all.equations;
     let row = |of: &EquationKnowledge| {

@@ -19,7 +19,8 @@ pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section,
     let figures = displacement(numbers, setting)?.into_iter().collect();
     let frames = case.cell.modes.frames.len();
     let mut about = format!(
-        "From the centroids and polygons of the {seen} of {frames} frames whose outline is seen, whatever its radius. In brackets 95 % intervals."
+        "From the centroids and polygons of the {seen} of {frames} frames whose outline is seen, whatever its radius. \
+         In brackets 95 % intervals."
     );
     if numbers.pieces > 1 {
         about += &format!(
@@ -41,7 +42,8 @@ pub(crate) fn over_time(case: &Case<'_>, setting: &Setting<'_>) -> Result<Option
     if case.observation.numbers.seen < 2 {
         return Ok(None);
     }
-    let words = "Speed from each frame to the next, area and aspect ratio over time. Grey: frames that are missing, or whose outline does not count; there is no speed across a jump of the stage.";
+    let words = "Speed from each frame to the next, area and aspect ratio over time. Grey: frames that are missing, or \
+     whose outline does not count; there is no speed across a jump of the stage.";
     setting.figure(series(&case.cell.modes.frames, &setting.units), words).map(Some)
 }
 
@@ -106,6 +108,7 @@ fn displacement(numbers: &Numbers, setting: &Setting<'_>) -> Result<Option<Repor
     let Some(figure) = mean_square(&numbers.displacement, &setting.units).filter(|_| long) else {
         return Ok(None);
     };
-    let words = "Mean-square displacement over all pairs of frames that are seen, gaps or not; errors of the places are in it. The band ends at an eighth of the record.";
+    let words = "Mean-square displacement over all pairs of frames that are seen, gaps or not; errors of the places \
+     are in it. The band ends at an eighth of the record.";
     setting.figure(figure, words).map(Some)
 }

@@ -35,7 +35,8 @@ pub(crate) fn report(
     sections.extend(places(cases, setting)?);
     sections.extend(notes(sample));
     let about = format!(
-        "{}; lengths in {}, times in {}. A name is given where the data leave no other; otherwise a motion is 'undecided', and the page of the cell says what is missing.",
+        "{}; lengths in {}, times in {}. A name is given where the data leave no other; otherwise a motion is \
+         'undecided', and the page of the cell says what is missing.",
         sample.tracks.size(),
         units.length,
         units.time
@@ -149,7 +150,7 @@ fn places(cases: &[Case<'_>], setting: &Setting<'_>) -> Result<Option<Section>, 
     Ok((!section.figures.is_empty()).then_some(section))
 }
 
-/// What stage and camera add to all cells.
+/// Motion that stage and camera add to all cells.
 fn field(sample: &Sample, units: &Units) -> Option<Section> {
     let found = sample.field.in_words(units).into_iter();
     let table = Table {
@@ -164,7 +165,7 @@ fn field(sample: &Sample, units: &Units) -> Option<Section> {
     })
 }
 
-/// What was noticed while reading the files.
+/// Notes from reading the files.
 fn notes(sample: &Sample) -> Option<Section> {
     let rows: Vec<Vec<Cell>> = sample.notes().iter().map(|note| vec![Cell::text(literal(note))]).collect();
     let table =

@@ -33,7 +33,7 @@ use motiform_study::Error;
 use motiform_tracks::Cell;
 use std::collections::HashMap;
 
-/// What is known of a cell.
+/// All results for a cell.
 #[derive(Debug, Clone, Copy)]
 pub struct Case<'c> {
     /// Its frames.
@@ -60,7 +60,7 @@ impl<'c> Case<'c> {
 /// The page of the data set.
 const INDEX: &str = "report";
 
-/// What all pages of a data set share.
+/// Contents that all pages of a data set share.
 pub(crate) struct Setting<'p> {
     /// Units as they are written on pages.
     pub units: Units,
@@ -96,7 +96,7 @@ impl Setting<'_> {
     }
 }
 
-/// What takes a page: its name and content.
+/// Receiver of a page: takes its name and content.
 pub type Sink<'w> = dyn Fn(&str, &[u8]) -> Result<(), Error> + Sync + 'w;
 
 /// Draws one page per cell, with a picture of its path beside those of simulated cells, on `threads` threads, and the page of the data

@@ -54,7 +54,8 @@ pub(crate) fn section(
         setting.figure(
             path,
             format!(
-                "The path of the centre, from the ring on, with outlines at equal numbers of frames: dark first, bright last. They are drawn from R_0, *z*_2{}. Pieces of the path are not joined across frames that are missing.",
+                "The path of the centre, from the ring on, with outlines at equal numbers of frames: dark first, \
+                 bright last. They are drawn from R_0, *z*_2{}. Pieces of the path are not joined across frames that are missing.",
                 if case.modes() > 3 { ", *z*_3 and *z*_4" } else { " and *z*_3" }
             ),
         )?,

@@ -31,7 +31,8 @@ pub(crate) fn section(name: &str, fitted: &Fitted, setting: &Setting<'_>) -> Res
                 section.tables.push(table(place, plane_name));
                 if let Some(map) = map(&[(name, place, Some(fitted))], plane, setting.maps) {
                     let caption = format!(
-                        "The cell on the {plane_name}. Beneath: motions of the tensor model on the paper's slice; what is off the slice is in the table, so the motion beneath need not be that of the cell."
+                        "The cell on the {plane_name}. Beneath: motions of the tensor model on the paper's slice; what \
+                         is off the slice is in the table, so the motion beneath need not be that of the cell."
                     );
                     section.figures.push(setting.figure(map, caption)?);
                 }

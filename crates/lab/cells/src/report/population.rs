@@ -33,7 +33,8 @@ pub(crate) fn section(cases: &[Case<'_>], setting: &Setting<'_>) -> Result<Optio
     let mut figures = Vec::new();
     if let Some((count, statistics)) = population_statistics(&found) {
         about += &format!(
-            " Displacements and correlations are over {count} cell{} with enough frames at one sampling interval; with fewer than 8 their intervals are over blocks of the records.",
+            " Displacements and correlations are over {count} cell{} with enough frames at one sampling interval; with \
+             fewer than 8 their intervals are over blocks of the records.",
             if count == 1 { "" } else { "s" }
         );
         tables.push(motion::walk(&statistics, units));
@@ -80,7 +81,8 @@ fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Ta
     };
     let rows = found.coefficients.iter().map(|one| row(named(&one.term), &one.over));
     let caption = format!(
-        "Coefficients over the cells whose fit is {}, from the fits with all terms. Cells with other motions have other laws, and are in no mean.",
+        "Coefficients over the cells whose fit is {}, from the fits with all terms. Cells with other motions have \
+         other laws, and are in no mean.",
         found.law.unwrap_or("named")
     );
     table(&caption, rows.collect())

@@ -10,7 +10,7 @@ use motiform_figures::report::{Cell, ReportFigure, Table};
 use motiform_figures::{Chart, SpectrumCurve};
 use motiform_study::Error;
 
-/// What the record shows of them, and why it does not show the others.
+/// The motions that the record shows, and why it does not show the others.
 pub(crate) fn table(found: &Relatives, units: &Units) -> Table {
     let mut rows: Vec<(String, String)> = found
         .spectra

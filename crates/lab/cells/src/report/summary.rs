@@ -23,7 +23,7 @@ pub(crate) fn section(case: &Case<'_>) -> Section {
     Section { title: "Summary".to_owned(), about: sentence(case), parameters, ..Section::default() }
 }
 
-/// How the name from the samples and the name from the equations go together.
+/// Agreement of the name from the samples with the name from the equations.
 fn sentence(case: &Case<'_>) -> String {
     let observed = case.observation.motion.regime;
     let Some(fit) = case.fit else {
@@ -31,7 +31,8 @@ fn sentence(case: &Case<'_>) -> String {
     };
     match (observed, fitted_regime(case)) {
         _ if fitted_of(case).is_some_and(Fitted::is_walk) => {
-            "The fitted equations rest without their noise, and the cell moves: noise carries its displacement, a persistent random walk. Speed, persistence and diffusion are below.".to_owned()
+            "The fitted equations rest without their noise, and the cell moves: noise carries its displacement, a \
+             persistent random walk. Speed, persistence and diffusion are below.".to_owned()
         }
         _ if fit.fitted.is_err() => "No equations were fitted to this cell; the reason is below.".to_owned(),
         (Some(a), Some(b)) if a == b => {
@@ -40,10 +41,13 @@ fn sentence(case: &Case<'_>) -> String {
             )
         }
         (Some(a), Some(b)) => format!(
-            "The samples alone say {a}, the fitted equations without their noise {b}. They need not contradict each other: with noise, or in a transient, a cell can move in another way than the equations settle to. Compare the simulated cells below."
+            "The samples alone say {a}, the fitted equations without their noise {b}. They need not contradict each \
+             other: with noise, or in a transient, a cell can move in another way than the equations settle to. \
+             Compare the simulated cells below."
         ),
         (None, Some(b)) => format!(
-            "The samples alone do not decide the motion; the fitted equations, without their noise, do: {b}. The name rests on the fit; the checks and the simulated cells below show how far it holds."
+            "The samples alone do not decide the motion; the fitted equations, without their noise, do: {b}. The name \
+             rests on the fit; the checks and the simulated cells below show how far it holds."
         ),
         (Some(a), None) => format!(
             "The samples alone say {a}; the fitted equations do not decide their motion, for the reasons below."

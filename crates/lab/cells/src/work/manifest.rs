@@ -1,4 +1,4 @@
-//! What is computed in a folder of fits.
+//! The computation of a folder of fits.
 
 use crate::{CellTrack, Error, FitOptions, Result, Sample, TOGETHER};
 use motiform_study::Error as StudyError;
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::Path;
 
-/// What is computed in a folder.
+/// The computation of a folder.
 pub(crate) const MANIFEST: &str = "_fit.json";
 /// Raised when the numbers of a fit, or what is stored of it, change.
 const FORMAT: u32 = 6;
@@ -27,7 +27,7 @@ pub(super) struct Input {
 }
 
 impl Input {
-    /// What of the frames is another.
+    /// The part of the frames that differs.
     fn change(&self, asked: &Self) -> String {
         let differ = |there: f64, asked: f64| (there / asked - 1.0).abs() > 1e-9;
         if self.interval > 0.0 && differ(self.interval, asked.interval) {
@@ -85,12 +85,12 @@ impl Manifest {
         if self.settings.together { 1 } else { self.cells.len() }
     }
 
-    /// What a fit is named after.
+    /// The name of a fit.
     pub(super) fn name(&self, number: usize) -> &str {
         if self.settings.together { TOGETHER } else { &self.cells[number].name }
     }
 
-    /// What is asked for that differs from what is there.
+    /// The request that differs from what is there.
     pub(super) fn differences(&self, asked: &Self) -> Vec<String> {
         let mut found = Vec::new();
         if self.format != asked.format {

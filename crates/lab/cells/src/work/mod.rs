@@ -74,7 +74,7 @@ impl FitWork {
         Ok(Self { files, manifest, options, done })
     }
 
-    /// What a person should know, in sentences, each once: leftovers of killed runs that were removed, files that stay.
+    /// Notes for the user, in sentences, each once: leftovers of killed runs that were removed, files that stay.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         self.files.notes()

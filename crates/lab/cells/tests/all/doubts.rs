@@ -1,4 +1,4 @@
-//! What makes a fit doubtful leaves it without a motion and without a place.
+//! Doubts leave a fit without a motion and without a place.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

@@ -61,7 +61,7 @@ fn a_field_of_view_that_moves_is_found() {
     assert!(field(walkers(2)).drift.is_none());
 }
 
-/// What is subtracted leaves the paths of a still stage: the drift to its error, a jump to its error, of the jitter half of the
+/// Corrections leave the paths of a still stage: the drift to its error, a jump to its error, of the jitter half of the
 /// variance: the walkers' own turns hide the rest.
 #[test]
 fn corrections_leave_what_a_still_stage_shows() {

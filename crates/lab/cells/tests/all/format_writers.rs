@@ -74,7 +74,8 @@ pub(crate) fn trackmate(folder: &Path, outlines: &Outlines) -> Vec<PathBuf> {
     }
     _ = write!(
         text,
-        "</Track></AllTracks></Model><Settings><ImageData width=\"20000\" height=\"20000\" pixelwidth=\"{pixel}\" timeinterval=\"{interval}\"/></Settings></TrackMate>"
+        "</Track></AllTracks></Model><Settings><ImageData width=\"20000\" height=\"20000\" pixelwidth=\"{pixel}\" \
+         timeinterval=\"{interval}\"/></Settings></TrackMate>"
     );
     vec![put(folder, "a.xml", text)]
 }

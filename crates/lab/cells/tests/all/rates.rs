@@ -1,4 +1,4 @@
-//! How often the motion of a fitted cell is the true one: `cargo test --release -p motiform-cells -- --ignored --nocapture rates::`.
+//! Rates at which the motion of a fitted cell is the true one: `cargo test --release -p motiform-cells -- --ignored --nocapture rates::`.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -101,7 +101,8 @@ fn short_and_noisy_cells_have_no_wrong_name() {
                 (0..runs()).map(|seed| study(case, noise, (dt, frames), 500 + seed)).collect();
             let ([right, none, wrong], _) = named(&studies, (case.3, vertex_noise), case.2);
             println!(
-                "noise {noise}, vertices {vertex_noise}, sampling {dt}, {frames} frames, {:?}: {right} right, {none} undecided, {wrong} wrong",
+                "noise {noise}, vertices {vertex_noise}, sampling {dt}, {frames} frames, {:?}: {right} right, {none} \
+                 undecided, {wrong} wrong",
                 case.2
             );
         }

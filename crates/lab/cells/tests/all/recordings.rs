@@ -5,7 +5,7 @@ use motiform_tracks::synthetic::{Synthetic, blur};
 use motiform_tracks::{Cell, Outline, Tracks};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// How the shape of a walker goes with its motion.
+/// The relation of a walker's shape to its motion.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Shape {
     /// A circle.
@@ -114,7 +114,7 @@ pub(crate) fn tracks(cells: Vec<Vec<Outline>>) -> Tracks {
     }
 }
 
-/// What the microscope adds.
+/// Effects of the microscope.
 pub(crate) trait Seen {
     /// The stage drifts by this much in a unit of time.
     fn drifting(self, velocity: [f64; 2]) -> Self;

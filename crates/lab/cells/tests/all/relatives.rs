@@ -18,7 +18,7 @@ struct Body {
 
 const RADIUS: f64 = 1.0;
 
-/// What is seen of a body, with vertices that have noise of this part of the radius.
+/// Outlines of a body, with vertices that have noise of this part of the radius.
 fn seen(body: impl Fn(usize) -> Body, (dt, frames): (f64, usize), noise: f64) -> Relatives {
     let mut normal = Normal::new(4, 0);
     let outline = |frame: usize| {

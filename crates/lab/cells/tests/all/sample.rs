@@ -101,7 +101,9 @@ fn trackmate(cells: &[Vec<Outline>]) -> String {
         tracks += "</Track>\n";
     }
     format!(
-        "<?xml version=\"1.0\"?>\n<TrackMate version=\"7\">\n<Model spatialunits=\"micron\" timeunits=\"sec\">\n<AllSpots>\n{spots}</AllSpots>\n<AllTracks>\n{tracks}</AllTracks>\n</Model>\n<Settings><ImageData width=\"2500\" height=\"2500\" pixelwidth=\"0.2\" timeinterval=\"5.0\"/></Settings>\n</TrackMate>\n"
+        "<?xml version=\"1.0\"?>\n<TrackMate version=\"7\">\n<Model spatialunits=\"micron\" timeunits=\"sec\">\n\
+         <AllSpots>\n{spots}</AllSpots>\n<AllTracks>\n{tracks}</AllTracks>\n</Model>\n\
+         <Settings><ImageData width=\"2500\" height=\"2500\" pixelwidth=\"0.2\" timeinterval=\"5.0\"/></Settings>\n</TrackMate>\n"
     )
 }
 

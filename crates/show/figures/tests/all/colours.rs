@@ -7,7 +7,8 @@ use motiform_figures::palette::{
 };
 use motiform_figures::{Medium, REGIMES, Style};
 
-/// How an eye sees a colour: rows of a matrix that is applied to sRGB values. Source: Machado, Oliveira & Fernandes (2009), IEEE TVCG 15,
+/// Colours as an eye sees them: rows of a matrix that is applied to sRGB values. Source: Machado, Oliveira & Fernandes (2009), IEEE TVCG
+/// 15,
 /// 1291, severity 1.
 const EYES: [(&str, [[f64; 3]; 3], f64); 4] = [
     ("normal", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], 48.0),

@@ -12,7 +12,7 @@ pub const PROGRAM: &str = env!("CARGO_BIN_EXE_motiform");
 /// A folder of its own for each test, removed at the end.
 pub struct Folder(TempDir);
 
-/// How a run of the program ended.
+/// The end of a run of the program.
 pub struct Done {
     pub code: Option<i32>,
     pub stdout: String,

@@ -85,7 +85,7 @@ fn links_lead_somewhere() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What a source, a help text or a template calls a page of `docs/` is one.
+/// A page of `docs/` that a source, a help text or a template names is there.
 #[test]
 fn pages_that_are_mentioned_exist() {
     let mut wrong = Vec::new();

@@ -159,7 +159,8 @@ fn time(comment: &str) -> Option<f64> {
 
 #[test]
 fn blocks_and_times_are_seen() {
-    let text = "Put this into `a.toml`:\n\n```toml\nx = 1\n```\n\n    motiform check a.toml   # quick\n    motiform scan \\\n      a.toml   # all of it, 2 min\n\nText\n";
+    let text = "Put this into `a.toml`:\n\n```toml\nx = 1\n```\n\n    motiform check a.toml   # quick\n    motiform \
+     scan \\\n      a.toml   # all of it, 2 min\n\nText\n";
     let steps: Vec<Step> = blocks(text).iter().flat_map(|block| block.steps("a page")).collect();
     assert!(matches!(&steps[0], Step::File { name, text } if name == "a.toml" && text == "x = 1\n"));
     assert!(

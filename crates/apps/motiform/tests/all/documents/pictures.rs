@@ -27,7 +27,8 @@ fn pictures(page: &Page) -> Vec<Picture> {
     targets.map(picture).collect()
 }
 
-/// What differs from what the commands of the page wrote; written with `MOTIFORM_UPDATE`. A picture of a slow command waits for it.
+/// Pictures that differ from those that the commands of the page wrote; written with `MOTIFORM_UPDATE`. A picture of a slow command
+/// waits for it.
 pub(super) fn compare(page: &Page, session: &Session) -> Vec<String> {
     let mut faults = Vec::new();
     for Picture { shown, made } in pictures(page) {

@@ -45,7 +45,7 @@ impl Session {
         session
     }
 
-    /// What is wrong with a command, if anything. 1 is no fault: some result is not as asked for, such as a motion that is undecided.
+    /// The fault of a command, if it has one. 1 is no fault: some result is not as asked for, such as a motion that is undecided.
     fn command(&self, line: &str) -> Option<String> {
         if line.starts_with("motiform explore") {
             return self.explore(line);

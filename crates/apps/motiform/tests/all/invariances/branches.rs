@@ -16,7 +16,7 @@ struct Subject {
     along: &'static str,
     /// Where lists are compared: every range contains it.
     window: [f64; 2],
-    /// How far a range may go beyond it on either side.
+    /// Distance by which a range may go beyond it on either side.
     beyond: [f64; 2],
     /// Where the start may be.
     starts: &'static [[f64; 2]],
@@ -86,7 +86,8 @@ fn texts(folder: &Folder) {
     };
     let head = |modes: &str, parameters: &str| {
         format!(
-            "[model.amplitudes]\nmodes = {modes}\nsymmetry = \"none\"\n[model.amplitudes.parameters]\n{parameters}\n[model.amplitudes.equations]\n"
+            "[model.amplitudes]\nmodes = {modes}\nsymmetry = \"none\"\n\
+             [model.amplitudes.parameters]\n{parameters}\n[model.amplitudes.equations]\n"
         )
     };
     let canard = real("x-x^3/3-y+I + i*(0.08*(x+0.7-0.8*y))");

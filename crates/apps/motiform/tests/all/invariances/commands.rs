@@ -4,7 +4,7 @@ use super::judge::Judged;
 use super::request::{Answer, Request};
 use crate::common::Folder;
 
-/// What other commands say of a motion that `classify` has named.
+/// Answers of other commands about a motion that `classify` has named.
 pub(crate) fn compare(folder: &Folder, settled: &Request, base: &Answer) -> Vec<(&'static str, Judged)> {
     let mut all = vec![("simulate", simulate(folder, settled, base))];
     match base.0["attractor"].as_str() {

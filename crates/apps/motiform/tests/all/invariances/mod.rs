@@ -136,7 +136,8 @@ fn a_different_name_or_number_is_a_contradiction() {
     let answer = |text: &str| Answer(serde_json::from_str(text).expect("it is JSON"));
     let one = |text: &str| {
         let base = answer(
-            r#"{"regime":"zigzag","attractor":"periodic","speed":{"mean":0.9,"min":0.8,"max":1.0},"period":45.0,"exponents":[{"value":-0.1,"error":1e-6}]}"#,
+            r#"{"regime":"zigzag","attractor":"periodic","speed":{"mean":0.9,"min":0.8,"max":1.0},
+            "period":45.0,"exponents":[{"value":-0.1,"error":1e-6}]}"#,
         );
         judge::same(&base, &answer(text), 1.0, 1.0)
     };

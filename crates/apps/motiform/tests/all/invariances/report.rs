@@ -19,7 +19,11 @@ pub(crate) fn report(cases: &[Case]) -> String {
         all[place(&case.judged)] += 1;
     }
     let mut text = String::from(
-        "# What answers do not depend on\n\nEach motion is asked for twice: as it is, and after a change that cannot matter. The names must be the same and the numbers within their\nstated errors. `cargo xtask invariances` computes this page; a sample runs in every push. The motions: the tensor model at 22 places of\nits two planes, the cell at 16 lengths, 28 systems of random equations with 2 to 8 modes.\n\n| change | what moves | same | undecided | contradictions |\n| --- | --- | ---: | ---: | ---: |\n",
+        "# What answers do not depend on\n\nEach motion is asked for twice: as it is, and after a change that cannot \
+         matter. The names must be the same and the numbers within their\nstated errors. `cargo xtask invariances` \
+         computes this page; a sample runs in every push. The motions: the tensor model at 22 places of\nits two \
+         planes, the cell at 16 lengths, 28 systems of random equations with 2 to 8 modes.\n\n| change | what moves | \
+         same | undecided | contradictions |\n| --- | --- | ---: | ---: | ---: |\n",
     );
     for ((change, kind), [same, undecided, wrong]) in counts {
         let _ = writeln!(text, "| {change} | {kind} | {same} | {undecided} | {wrong} |");
@@ -37,7 +41,7 @@ pub(crate) fn report(cases: &[Case]) -> String {
     text
 }
 
-/// How often each name was given to a subject.
+/// Number of times that each name was given to a subject.
 fn names(cases: &[Case]) -> String {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for case in cases.iter().filter(|case| case.change == super::FIRST) {

@@ -18,7 +18,7 @@ pub(crate) struct Request {
     pub(crate) length: f64,
 }
 
-/// What a command printed.
+/// Output of a command.
 #[derive(Clone, Debug)]
 pub(crate) struct Answer(pub(crate) Value);
 

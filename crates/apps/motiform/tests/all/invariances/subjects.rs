@@ -2,7 +2,7 @@
 
 use super::texts::Text;
 
-/// What moves.
+/// A moving body of the tests.
 #[derive(Clone, Debug)]
 pub(crate) enum System {
     BuiltIn(&'static str),
@@ -19,7 +19,7 @@ pub(crate) struct Subject {
 }
 
 impl Subject {
-    /// What it is, in the report.
+    /// Its name in the report.
     pub(crate) fn kind(&self) -> &'static str {
         match self.system {
             System::BuiltIn("cell") => "cell",

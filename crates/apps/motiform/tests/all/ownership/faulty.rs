@@ -31,7 +31,7 @@ struct Case<'w> {
     failed: &'w Failed,
 }
 
-/// What went wrong: one failure does not end the others.
+/// List of failures: one failure does not end the others.
 #[derive(Default)]
 struct Failed(Mutex<Vec<String>>);
 
@@ -43,7 +43,7 @@ impl Failed {
     }
 }
 
-/// What a case came to.
+/// The outcome of a case.
 #[derive(Default)]
 struct Count {
     calls: usize,
@@ -134,7 +134,7 @@ impl<'w> Case<'w> {
         states.values().filter(of_work).nth(half).map(copy)
     }
 
-    /// What kills before every n-th call leave.
+    /// Files that kills before every n-th call leave.
     fn states(&self, first: usize, step: usize, cpu: usize) -> BTreeMap<usize, Folder> {
         let (folder, into) = (copy(&self.before), Folder::new());
         let mut command = faulty(&folder, &self.words(), "states", first);
@@ -152,7 +152,7 @@ impl<'w> Case<'w> {
         into.names().into_iter().map(state).collect()
     }
 
-    /// What is of others is there, and the next run makes the result.
+    /// Files of others are there, and the next run makes the result.
     fn goes_on(&self, state: &Folder, after: &str, count: &mut Count) {
         count.faults += 1;
         self.is_kept(state, after);

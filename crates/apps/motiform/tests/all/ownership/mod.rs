@@ -1,4 +1,4 @@
-//! What motiform did not write stays, under every option of every command that writes. The commands are those of the program's own
+//! Files that motiform did not write stay, under every option of every command that writes. The commands are those of the program's own
 //! list: a new one must be given its place here.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
@@ -51,7 +51,8 @@ pub(crate) const WRITERS: [Writer; 13] = [
         options: BOTH,
     },
     Writer {
-        words: "atlas tensor --preset fig1 --axis kappa2=0.02:0.06:5 --axis gamma=0.02:0.1:5 --samples 2 --budget 300 --lines 1 --branches 2 --threads 1",
+        words: "atlas tensor --preset fig1 --axis kappa2=0.02:0.06:5 --axis gamma=0.02:0.1:5 --samples 2 --budget 300 \
+         --lines 1 --branches 2 --threads 1",
         options: BOTH,
     },
     Writer {

@@ -1,4 +1,4 @@
-//! What every option leaves alone.
+//! Files that every option leaves alone.
 
 use super::{BOTH, OTHERS, WRITERS, is_kept, litter, refused, tree};
 use crate::common::Folder;

@@ -1,4 +1,4 @@
-//! What the classifier of simulated motions looks at (docs/regimes.md), taken from the samples of a record: spectra with their peaks,
+//! The evidence of the classifier of simulated motions (docs/regimes.md), taken from the samples of a record: spectra with their peaks,
 //! rests, legs and turns, rotation, the 0-1 test. Definitions: docs/cells.md, section 'Observed motion'.
 
 mod legs;
@@ -31,7 +31,7 @@ pub enum Finding<T> {
 }
 
 impl<T> Finding<T> {
-    /// What was found.
+    /// The findings.
     #[must_use]
     pub fn found(&self) -> Option<&T> {
         match self {

@@ -1,4 +1,4 @@
-//! How far the heading and the shape turn.
+//! Angles by which the heading and the shape turn.
 
 use super::super::measures::Series;
 use motiform_analysis::symmetry::wrap;

@@ -1,4 +1,4 @@
-//! What is done to a record, and what is wrong with it afterwards.
+//! Changes of a record, and what is wrong with it afterwards.
 
 use super::laws::Law;
 use crate::recordings::{Seen, tracks};
@@ -103,7 +103,7 @@ impl Change {
         Some(self.seen(bodies, law.radius, dt, seed))
     }
 
-    /// What a microscope shows of bodies.
+    /// The outlines of bodies that a microscope shows.
     pub(super) fn seen(self, mut bodies: Vec<Synthetic>, radius: f64, dt: f64, seed: u64) -> Tracks {
         let speed = speed(&bodies) / dt;
         if let Self::Channel(width) = self {

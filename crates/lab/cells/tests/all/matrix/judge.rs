@@ -1,4 +1,4 @@
-//! What is said of a cell, against what is true.
+//! Statements about a cell, against what is true.
 
 use super::laws::Law;
 use motiform_cells::{CellFit, Fitted, PERSISTENT_WALK};
@@ -13,7 +13,7 @@ pub(super) struct Tally {
     pub(super) cells: usize,
     pub(super) right: usize,
     pub(super) undecided: usize,
-    /// What is said and is not so.
+    /// Statements that are wrong.
     pub(super) wrong: Vec<String>,
     /// Printed intervals of coefficients, those that hold the truth and all: of the terms that are listed, of those of the law, and of
     /// the listed ones of cells that are in doubt (which are among the first).

@@ -17,7 +17,7 @@ pub(super) struct Term {
 /// A law and how it is seen.
 #[derive(Clone)]
 pub(super) struct Law {
-    /// What the motion is called without noise; `None` where it has no name that a fit could give (handed laws).
+    /// Name of the motion without noise; `None` where it has no name that a fit could give (handed laws).
     pub(super) motion: Option<&'static str>,
     pub(super) terms: Vec<Term>,
     /// Radius of the circle that is deformed.

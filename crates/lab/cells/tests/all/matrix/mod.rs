@@ -241,7 +241,8 @@ fn print(words: &str, tally: &Tally) {
     let Tally { cells, right, undecided, cells_wrong, held, placed, wrong } = tally;
     let held = held.map(|[held, all]| format!("{held}/{all}")).join(" ");
     println!(
-        "{words:32} {cells:5} cells {right:5} right {undecided:5} undecided {cells_wrong:4} wrong; intervals of listed and of true terms and of cells in doubt {held}, places {}/{}",
+        "{words:32} {cells:5} cells {right:5} right {undecided:5} undecided {cells_wrong:4} wrong; intervals of listed \
+         and of true terms and of cells in doubt {held}, places {}/{}",
         placed[0], placed[1]
     );
     if words != "all" {
