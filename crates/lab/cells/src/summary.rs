@@ -213,7 +213,7 @@ fn counts(found: &FittedRegime) -> String {
     format!("{}{driven}", counts.join(", "))
 }
 
-fn ladder(found: &std::result::Result<Ladder, String>) -> Value {
+fn ladder(found: &Result<Ladder, String>) -> Value {
     match found {
         Err(why) => json!({ "not_computed": why }),
         Ok(found) => {

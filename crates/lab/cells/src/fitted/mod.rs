@@ -60,7 +60,7 @@ pub struct Fitted {
     /// Models from a random walk on, compared by frames that their fits did not see, or why they are not; `None` where this was not
     /// asked for.
     #[serde(default)]
-    pub ladder: Option<std::result::Result<Ladder, String>>,
+    pub ladder: Option<Result<Ladder, String>>,
     /// Of several cells together: errors of the model's coefficients from the differences between cells.
     pub between: Option<BetweenCells>,
 }
