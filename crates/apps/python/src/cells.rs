@@ -130,12 +130,12 @@ impl Sample {
         &self,
         py: Python<'py>,
         names: Vec<String>,
-        settings: (u32, usize, usize, u64, usize, usize),
+        settings: (u32, usize, usize, u64, usize, bool, usize),
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Fits<'py>> {
         let cells = self.chosen(&names)?;
-        let (order, modes, draws, seed, simulations, threads) = settings;
-        let options = FitOptions { order, modes, draws, seed, simulations, ..FitOptions::default() };
+        let (order, modes, draws, seed, simulations, ladder, threads) = settings;
+        let options = FitOptions { order, modes, draws, seed, simulations, ladder, ..FitOptions::default() };
         let (found, raised) =
             Caller::beside(py, progress, |watch| fit_cells(&cells, &options, threads.max(1), watch));
         let fits: Vec<CellFit> = match (found, raised.as_ref()) {

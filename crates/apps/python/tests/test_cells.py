@@ -193,6 +193,15 @@ def test_one_cell_alone_has_the_same_fit() -> None:
         cells["two"].place("fig6")
 
 
+def test_models_are_compared_by_frames_that_their_fits_did_not_see() -> None:
+    cell = motiform.cells.from_arrays({"one": simulated("fig5b")[:300]})[0]
+    fit = cell.fit(draws=4, simulations=0, ladder=True, progress=False)
+    walk, selected = fit.ladder.iloc[0], fit.ladder.set_index("model").loc["terms that the data ask for"]
+    assert walk["gain_per_frame"] == 0 and not walk["as_good"] and walk["coefficients"] == 3
+    assert selected["gain_per_frame"] > 1 and selected["behind"] < 0.1 * walk["behind"]
+    assert cell.fit(draws=4, simulations=0, progress=False).ladder.empty
+
+
 def test_plots() -> None:
     cell = motiform.cells.from_arrays({"one": simulated("fig5b")[:50]})[0]
     strip, path, _ = cell.plot(outlines=5).axes

@@ -183,6 +183,10 @@ class CellFit:
     simulated: pd.DataFrame
     """Cells simulated by the fit beside the observed one: ``statistic``, ``verdict`` (agrees, doubtful, differs), ``p_value``. Empty without a fit, without
     simulations, and where ``unstable``."""
+    ladder: pd.DataFrame
+    """Models compared by frames that their fits did not see, from a persistent random walk on: ``model``, ``coefficients``, ``gain_per_frame`` (log-likelihood
+    above that of the first), ``behind`` and ``error`` (log-likelihood below the best), ``as_good``. Empty unless asked for (``ladder=True``), and of records
+    that are too short."""
     unstable: bool
     """Whether too many simulated cells leave all bounds: then the fit does not describe the cell."""
     model: Amplitudes | None
@@ -219,6 +223,7 @@ class CellFit:
         return f"<fit of cell {self.cell}: {self.regime}, {len(self.coefficients)} coefficients, {self.frames} frames>"
 
 
+_RUNGS = ("model", "coefficients", "gain_per_frame", "behind", "error", "as_good")
 _COMPARED = ("statistic", "verdict", "p_value")
 
 
@@ -258,6 +263,10 @@ def fit_of(
         simulated=pd.DataFrame(
             [[one[name] for name in _COMPARED] for one in raw.get("simulated", {}).get("statistics", ())],
             columns=list(_COMPARED),
+        ),
+        ladder=pd.DataFrame(
+            [[rung[name] for name in _RUNGS] for rung in raw.get("ladder", {}).get("models", ())],
+            columns=list(_RUNGS),
         ),
         unstable=raw.get("simulated", {}).get("unstable", False),
         model=None if model is None else model.replace(noise=0.0, noise_velocity=0.0),

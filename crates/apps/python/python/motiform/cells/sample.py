@@ -77,6 +77,7 @@ class Cells(Sequence["Cell"]):
         draws: int = 40,
         seed: int = 1,
         simulations: int = 199,
+        ladder: bool = False,
         threads: int | None = None,
         progress: Progress = None,
     ) -> Found[CellFit]:
@@ -94,10 +95,12 @@ class Cells(Sequence["Cell"]):
             Seed of the draws and of the simulated cells.
         simulations
             Cells simulated by each fit, to be compared with the observed one (``CellFit.simulated``); 0 for none.
+        ladder
+            Also compare models, from a persistent random walk on, by frames that their fits did not see (``CellFit.ladder``).
 
         Ctrl-C raises :class:`motiform.Interrupted` with the fits that are done.
         """
-        settings = (order, modes, draws, seed, simulations, threads or os.cpu_count() or 1)
+        settings = (order, modes, draws, seed, simulations, ladder, threads or os.cpu_count() or 1)
         return self._fit(self.names, settings, progress)
 
     def _observe(self, names: list[str], progress: Progress) -> Found[Observation]:
@@ -111,7 +114,7 @@ class Cells(Sequence["Cell"]):
         return found
 
     def _fit(
-        self, names: list[str], settings: tuple[int, int, int, int, int, int], progress: Progress
+        self, names: list[str], settings: tuple[int, int, int, int, int, bool, int], progress: Progress
     ) -> Found[CellFit]:
         with Bar(progress, len(names), "cells") as bar:
             text, table, models, raised = self._native.fit(names, settings, bar.callable())
@@ -215,10 +218,11 @@ class Cell:
         draws: int = 40,
         seed: int = 1,
         simulations: int = 199,
+        ladder: bool = False,
         progress: Progress = None,
     ) -> CellFit:
         """The equations that describe it; :meth:`Cells.fit` explains the settings."""
-        settings = (order, modes, draws, seed, simulations, 1)
+        settings = (order, modes, draws, seed, simulations, ladder, 1)
         found = self._cells._fit([self.name], settings, progress)[self.name]
         self._last = found
         return found
