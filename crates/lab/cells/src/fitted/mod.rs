@@ -129,10 +129,18 @@ impl Fitted {
         self.known.identifiable
     }
 
-    /// Why the intervals of the coefficients are not stated: [`FittedRegime::no_intervals`], or a bias by the sampling.
+    /// Why the intervals of the coefficients are not stated: [`FittedRegime::no_intervals`], a bias by the sampling, a model that is in
+    /// doubt, or coefficients that the motion does not determine. Of the last two the motion, which says whether intervals hold, is not
+    /// known.
     #[must_use]
     pub fn no_intervals(&self) -> Option<&'static str> {
-        doubts::no_intervals(self.regime.as_ref(), &self.warnings)
+        let reason = doubts::no_intervals(self.regime.as_ref(), &self.warnings);
+        let doubted = || {
+            (!self.doubts.is_empty()).then_some("the fit is doubtful, and intervals would rest on its model")
+        };
+        let free =
+            || (!self.is_identifiable()).then_some("the motion does not determine all coefficients of the model");
+        reason.or_else(doubted).or_else(free)
     }
 
     /// A coefficient over all tied sets.
