@@ -138,8 +138,9 @@ impl Fitted {
         let doubted = || {
             (!self.doubts.is_empty()).then_some("the fit is doubtful, and intervals would rest on its model")
         };
-        let free =
-            || (!self.is_identifiable()).then_some("the motion does not determine all coefficients of the model");
+        let free = || {
+            (!self.is_identifiable()).then_some("the motion does not determine all coefficients of the model")
+        };
         reason.or_else(doubted).or_else(free)
     }
 

@@ -1,5 +1,6 @@
 //! Where a branch begins.
 
+use super::aside::aside;
 use super::family::{Bodies, lasting};
 use super::result::{Followed, Leg, Sample};
 use super::settle::Start;
@@ -203,7 +204,8 @@ impl Origin {
                 let body = bodies.model(parameter(leg))?;
                 let met = met(body.as_ref(), leg, &settings, watch)
                     .ok_or_else(|| nothing("motion of more symmetry", leg))?;
-                both(bodies, parameter(leg), &met, watch)
+                let (parameter, met) = aside(bodies, (parameter(leg), met), &settings, watch);
+                both(bodies, parameter, &met, watch)
             }
             Self::Shrinks { branch, leg } => {
                 let leg = &branches[branch].legs[leg];
@@ -211,7 +213,9 @@ impl Origin {
                 let shape = leg.samples.last().map_or(&[][..], |sample| sample.point.motion.shape());
                 let found = RelativeEquilibrium::find(body.as_ref(), shape)
                     .ok_or_else(|| nothing("steady motion", leg))?;
-                both(bodies, parameter(leg), &Start::Equilibrium(found), watch)
+                let start = (parameter(leg), Start::Equilibrium(found));
+                let (parameter, start) = aside(bodies, start, &settings, watch);
+                both(bodies, parameter, &start, watch)
             }
         };
         legs.map(|legs| vec![legs])

@@ -1,0 +1,74 @@
+//! A start beside a special point.
+
+use super::family::Bodies;
+use super::settle::Start;
+use motiform_analysis::linear::{add, norm};
+use motiform_analysis::{Isotropy, PeriodicOrbit, RelativeEquilibrium};
+use motiform_continuation::Settings;
+use motiform_dynamics::{Equivariant, Watch};
+
+/// Distances from the special point, as parts of the range.
+const ASIDE: [f64; 3] = [2e-3, 2e-4, 2e-5];
+
+/// Largest change of a shape, or of the time of an orbit, as a part of it, for which the motion beside the point is the same one.
+const SAME: f64 = 0.2;
+
+/// The same motion at a value of the parameter beside that of a special point.
+///
+/// At the point itself a critical level is 0, so that neither side of a branch that begins there shows a change: the point would be missing
+/// on it. Beside it, one of both sides passes the point. Where no such motion is found beside it, the start itself.
+pub(super) fn aside(
+    bodies: &Bodies<'_>,
+    (parameter, start): (f64, Start),
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> (f64, Start) {
+    let (low, high) = settings.range;
+    let inwards = if parameter > 0.5 * (low + high) { -1.0 } else { 1.0 };
+    for part in ASIDE {
+        for side in [inwards, -inwards] {
+            let there = parameter + side * part * (high - low);
+            let inside = low <= there && there <= high;
+            if let Some(found) = moved(bodies, (there, &start), settings, watch).filter(|_| inside) {
+                return (there, found);
+            }
+        }
+    }
+    (parameter, start)
+}
+
+fn moved(
+    bodies: &Bodies<'_>,
+    (there, start): (f64, &Start),
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Option<Start> {
+    let body = bodies.model(there).ok()?;
+    match start {
+        Start::Equilibrium(old) => {
+            let new = RelativeEquilibrium::find(body.as_ref(), &old.shape)?;
+            is_same(body.as_ref(), &old.shape, &new.shape).then_some(Start::Equilibrium(new))
+        }
+        Start::Orbit(old) => {
+            let wanted = (old.time, old.mirrored);
+            let new = PeriodicOrbit::near(body.as_ref(), &old.shape, wanted, &settings.flow, watch)?;
+            let lasts = (new.time - old.time).abs() <= SAME * old.time && new.mirrored == old.mirrored;
+            (lasts && is_near(&old.shape, &new.shape)).then_some(Start::Orbit(new))
+        }
+    }
+}
+
+/// Returns `true` for two shapes of the same symmetry that are close to each other.
+fn is_same(body: &dyn Equivariant, old: &[f64], new: &[f64]) -> bool {
+    let symmetry = |shape: &[f64]| {
+        let Isotropy { folds, circle, mirror } = Isotropy::of(body, shape, Isotropy::SAME);
+        (folds, circle, mirror.is_some())
+    };
+    symmetry(old) == symmetry(new) && is_near(old, new)
+}
+
+fn is_near(old: &[f64], new: &[f64]) -> bool {
+    let mut change = new.to_vec();
+    add(&mut change, -1.0, old);
+    norm(&change) <= SAME * norm(old)
+}
