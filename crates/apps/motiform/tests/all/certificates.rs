@@ -95,9 +95,59 @@ fn coefficients_do_not_depend_on_the_start_and_the_tolerance() {
     }
 }
 
+/// Straight motion of two modes, `z2 = z1^2` at k = 1/2, begins to turn at g = 1/2. Its circles have `4 omega^2 = g - 1/2` and the
+/// deviation `xi^2 = omega^2/2` normal to the group, and straight motion grows at the rate `g - 1/2`: the coefficient is -8, from
+/// straight motion and from circles. (A part of the critical vector along the group, which depends on the start, was in its norm.)
+#[test]
+fn the_coefficient_of_a_drift_pitchfork_does_not_depend_on_the_branch() {
+    let folder = Folder::new();
+    folder.write(
+        "two.toml",
+        "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.parameters]\ng = 1.0\nk = 0.5\n[model.amplitudes.equations]\n\
+         z1 = \"(g - |z1|^2)*z1 - conj(z1)*z2\"\nz2 = \"-k*z2 + 0.5*z1^2\"\n",
+    );
+    for start in ["--set g=1 --motion circular", "--set g=0.3 --motion straight"] {
+        let json = follow(&folder, &format!("two.toml {start} --along g=-.5:3"));
+        let all = entries(&json);
+        let there = |entry: &&&Value| (entry["g"].as_f64().expect("a number") - 0.5).abs() < 1e-6;
+        let found: Vec<&&Value> = all.iter().filter(there).collect();
+        assert_eq!(found.len(), 2, "{start}: on both branches: {found:?}");
+        for entry in found {
+            let [value, error] =
+                ["coefficient", "coefficient_error"].map(|key| entry[key].as_f64().expect("a number"));
+            assert!((value + 8.0).abs() <= error.max(1e-9) && error < 1e-4, "{start}: {entry}");
+        }
+    }
+}
+
+/// A motionless ellipse starts to move where its critical rate is 0 to the last bit. It is found from the straight motion that ends
+/// there: the point is on both branches, from every start.
+#[test]
+fn a_point_where_a_branch_was_found_is_on_it() {
+    let folder = Folder::new();
+    folder.write(
+        "three.toml",
+        "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.parameters]\ng = 1.0\nk = 0.5\nb = 0.5\nc = 0.4\n\
+         [model.amplitudes.equations]\nz1 = \"(g - |z1|^2)*z1 + conj(z1)*z2\"\n\
+         z2 = \"(k-|z2|^2)*z2 - b*z1^2 - c*|z1|^2*z2\"\n",
+    );
+    for start in ["--set k=0.5", "--set k=2 --seed 3"] {
+        let json = follow(&folder, &format!("three.toml {start} --along k=-1:3"));
+        let with = |motion: &str| {
+            let branches = json["branches"].as_array().expect("branches");
+            let of = branches.iter().filter(|branch| branch["motion"] == motion);
+            let special = of.flat_map(|branch| branch["special"].as_array().expect("a list"));
+            let there = |entry: &&Value| (entry["k"].as_f64().expect("a number") - 1.0).abs() < 1e-6;
+            special.filter(there).map(|entry| entry["kind"].clone()).collect::<Vec<_>>()
+        };
+        for motion in ["straight", "motionless"] {
+            assert_eq!(with(motion), ["pitchfork"], "{start}: {motion}");
+        }
+    }
+}
+
 /// Motions that begin at the special points of the zigzag and of circular motion: by the coefficient of the normal form, as published;
-/// and the
-/// saddle that the zigzag ends at.
+/// and the saddle that the zigzag ends at.
 #[test]
 fn coefficients_and_saddles_are_stated_with_their_errors() {
     let folder = Folder::new();

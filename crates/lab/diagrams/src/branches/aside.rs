@@ -70,5 +70,5 @@ fn is_same(body: &dyn Equivariant, old: &[f64], new: &[f64]) -> bool {
 fn is_near(old: &[f64], new: &[f64]) -> bool {
     let mut change = new.to_vec();
     add(&mut change, -1.0, old);
-    norm(&change) <= SAME * norm(old)
+    norm(&change) <= (SAME * norm(old)).max(f64::EPSILON)
 }
