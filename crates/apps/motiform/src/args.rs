@@ -133,6 +133,9 @@ pub(crate) enum Command {
 pub(crate) struct ModelsOptions {
     /// Show all details of this model: tensor, cell, or a study file with your own equations
     pub(crate) model: Option<String>,
+    /// Show the values of this preset, too; `motiform models NAME` does so for the name of a preset
+    #[arg(long, value_name = "NAME", requires = "model", conflicts_with = "json")]
+    pub(crate) preset: Option<String>,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

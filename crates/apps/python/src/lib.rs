@@ -60,7 +60,7 @@ mod _motiform {
     #[pymodule_export]
     use super::scan_plan::ScanPlan;
     #[pymodule_export]
-    use super::statistics::{statistics, statistics_of};
+    use super::statistics::{samples_apart, statistics, statistics_of};
     #[pymodule_export]
     use super::study::Study;
     #[pymodule_export]

@@ -38,6 +38,12 @@ pub(crate) fn statistics<'py>(
     }
 }
 
+/// Time between samples of so many bodies that run for `t_end`, where it is not given.
+#[pyfunction]
+pub(crate) fn samples_apart(study: &Study, t_end: f64, bodies: u64) -> f64 {
+    motiform_lab::statistics::samples_apart(&study.0.run, t_end, bodies)
+}
+
 /// Statistics of the bodies in dataset folders.
 #[pyfunction]
 pub(crate) fn statistics_of(

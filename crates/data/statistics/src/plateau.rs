@@ -94,7 +94,7 @@ impl Curves {
         let not_decayed = || {
             let longest = four_digits(longest as f64 * self.dt);
             format!(
-                "not reached: the correlation does not decay within the longest lag {longest}; record longer"
+                "not reached: the integral of the correlation still changes at the longest lag {longest}; record longer"
             )
         };
         let least = self.least().ok_or_else(not_decayed)?.max(memory).min(longest);

@@ -13,8 +13,9 @@ use super::palette::{Colour, GREY, INK};
 use super::plane::Plane;
 use super::svg::Svg;
 
-/// The reach of the axis towards unstable motions, in ranges of what is seen.
+/// The reach of the axis towards unstable motions, in ranges of what is seen, where all of them would take more than [`SQUEEZED`] ranges.
 const BEYOND: f64 = 2.0;
+const SQUEEZED: f64 = 6.0;
 
 /// A part of a branch over which neither motion nor stability changes.
 #[derive(Debug, Clone, PartialEq)]
@@ -163,6 +164,9 @@ impl BranchDiagram {
     fn values(&self, kind: AxisKind) -> Option<Range> {
         let all = self.places(kind, false)?;
         let Some(seen) = self.places(kind, true).filter(|seen| seen.span() > 0.0) else { return Some(all) };
+        if all.span() <= SQUEEZED * seen.span() {
+            return Some(all);
+        }
         let far = BEYOND * seen.span();
         Some(Range { min: all.min.max(seen.min - far), max: all.max.min(seen.max + far) })
     }

@@ -31,6 +31,8 @@ pub enum Glyph {
     Cross,
     /// An upright cross.
     Plus,
+    /// Two triangles that touch: an hourglass on its side.
+    Bowtie,
     /// A question mark.
     Question,
 }
@@ -54,6 +56,7 @@ impl Glyph {
             Self::Square => svg.polyline(&corners(at, 1.27 * radius, 4, 0.25 * PI), true, &solid),
             Self::Diamond => svg.polyline(&corners(at, 1.32 * radius, 4, 0.0), true, &solid),
             Self::Zigzag => svg.polyline(&zigzag(at, radius), false, &line),
+            Self::Bowtie => svg.polyline(&bowtie(at, 1.15 * radius), true, &solid),
             Self::Star => svg.lines(&arms(at, 1.2 * radius, 3, FRAC_PI_2), &line),
             Self::Cross => svg.lines(&arms(at, 1.2 * radius, 2, 0.25 * PI), &line),
             Self::Plus => svg.lines(&arms(at, 1.2 * radius, 2, 0.0), &line),
@@ -87,15 +90,24 @@ fn zigzag([x, y]: Point, radius: f64) -> [Point; 4] {
     [(-1.5, 0.8), (-0.5, -0.8), (0.5, 0.8), (1.5, -0.8)].map(|(u, v)| [x + u * radius, y + v * radius])
 }
 
+fn bowtie([x, y]: Point, radius: f64) -> [Point; 4] {
+    [(-1.0, -0.8), (1.0, 0.8), (1.0, -0.8), (-1.0, 0.8)].map(|(u, v)| [x + u * radius, y + v * radius])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn markers_are_centred_and_about_as_large_as_a_disc() {
-        for glyph in
-            SERIES.into_iter().chain([Glyph::Zigzag, Glyph::Star, Glyph::Cross, Glyph::Plus, Glyph::Question])
-        {
+        for glyph in SERIES.into_iter().chain([
+            Glyph::Zigzag,
+            Glyph::Bowtie,
+            Glyph::Star,
+            Glyph::Cross,
+            Glyph::Plus,
+            Glyph::Question,
+        ]) {
             let mut svg = Svg::new(60.0, 60.0);
             glyph.draw(&mut svg, [30.0, 30.0], 10.0, Colour(0, 114, 178));
             let picture = super::super::raster::pixmap(&svg.finish(), 1.0).expect("a picture");

@@ -28,7 +28,7 @@ pub(super) fn branch(known: &Known, number: usize) -> Option<BranchTold> {
         period: read(&|sample| sample.reading.period.unwrap_or(0.0), DIGITS.0),
         unstable: samples.iter().map(|sample| sample.point.unstable).collect(),
         stable: samples.windows(2).map(|pair| is_stable(pair[0], pair[1])).collect(),
-        ends: followed.legs.iter().map(|leg| leg.end.to_string()).collect(),
+        ends: followed.legs.iter().map(|leg| leg.ending()).collect(),
     })
 }
 

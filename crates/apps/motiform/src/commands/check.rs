@@ -29,7 +29,7 @@ pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
     Ok(End::Done)
 }
 
-fn summary(plan: &RunPlan, ties: &Ties) -> anyhow::Result<String> {
+pub(crate) fn summary(plan: &RunPlan, ties: &Ties) -> anyhow::Result<String> {
     let c = &plan.computation;
     let mut text = format!("{}: {}\nmodel       {}\n", plan.name, plain(&plan.title()), c.model);
     let set: Vec<String> = c

@@ -192,7 +192,11 @@ fn branch(
     let form = form.map_or(String::new(), |form| format!(" ({})", form.name()));
     let course = followed.course().map_or(String::new(), |course| format!(" {}", course.words()));
     writeln!(text, "branch {number:<3} {motion}{course}{form}, {} points", followed.samples().count())?;
-    for [from, to] in stretches(&folder.found, followed) {
+    let stable = stretches(&folder.found, followed);
+    if stable.is_empty() {
+        writeln!(text, "           stable nowhere")?;
+    }
+    for [from, to] in stable {
         let [from, to] = [from, to].map(|end| bound(followed, end));
         writeln!(text, "           stable from {from} to {to}")?;
     }
@@ -200,7 +204,7 @@ fn branch(
         writeln!(text, "           {}", line(&special, units))?;
     }
     for leg in &followed.legs {
-        writeln!(text, "           ends: {}", leg.end)?;
+        writeln!(text, "           ends: {}", leg.ending())?;
     }
     Ok(())
 }

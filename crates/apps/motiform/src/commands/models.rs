@@ -1,12 +1,13 @@
 //! `motiform models`.
 
 use crate::args::ModelsOptions;
+use crate::commands::check::summary;
 use crate::commands::subject::find_preset;
 use crate::output::{End, print};
 use motiform_dynamics::model::Coordinate;
 use motiform_models::amplitudes::{Definition, Equations, NAME, tensor_form, terms};
 use motiform_models::{MODELS, ModelInfo};
-use motiform_study::{Study, presets};
+use motiform_study::{RunPlan, Study, presets};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -17,7 +18,11 @@ pub(crate) fn run(options: &ModelsOptions) -> anyhow::Result<End> {
         None => list()?,
         Some(name) => {
             let info = info(name)?;
-            if options.json { pretty(&whole(info)?)? } else { page(info)? }
+            if options.json {
+                pretty(&whole(info)?)?
+            } else {
+                format!("{}{}", page(info)?, values(info, options.preset.as_deref().unwrap_or(name))?)
+            }
         }
     };
     print(text.trim_end())?;
@@ -90,6 +95,20 @@ fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
         writeln!(text, "  {name:<7} {}{free}", study.about)?;
     }
     Ok(text)
+}
+
+/// The values of a preset; empty for another name, unless it is asked for as that of a preset of the model.
+fn values(info: &'static ModelInfo, name: &str) -> anyhow::Result<String> {
+    let study = match find_preset(name) {
+        Some(preset) => presets::find_any(preset.name, preset.model)?,
+        None if ModelInfo::find(name).is_ok() || name.ends_with(".toml") => return Ok(String::new()),
+        None => presets::find(info, name)?,
+    };
+    let plan = summary(&RunPlan::new(&study)?, &study.ties)?;
+    Ok(format!(
+        "\nThe preset {name}\n{}\n",
+        plan.lines().map(|line| format!("  {line}\n")).collect::<String>()
+    ))
 }
 
 /// The terms of equations given as text, and the tensor model that they are.

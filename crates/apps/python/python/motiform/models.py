@@ -176,12 +176,13 @@ class Model(Analysed):
 
         Body k is :meth:`simulate` with the seed ``seed + k``: another random start, and other noise. Those that do not complete are
         left out. `radii` are those of discs that bodies leave; `threshold` is that of the residence times: a quantity (``"speed"``, a mode), or
-        one with a value. An interruption raises :class:`Interrupted` with the statistics of the bodies that are finished.
+        one with a value. Without `dt_out` samples are as far apart as in the model's own run, and further where all bodies would have more than
+        two million. An interruption raises :class:`Interrupted` with the statistics of the bodies that are finished.
 
         More: docs/statistics.md.
         """
         if t_end is not None and dt_out is None:
-            dt_out = 0.0  # that of a preset is for its own time
+            dt_out = _motiform.samples_apart(self._study, t_end, bodies)
         given = {
             "t_end": t_end, "transient": transient, "dt_out": dt_out, "random": random, "seed": seed,
             "noise": noise, "noise_velocity": noise_velocity,

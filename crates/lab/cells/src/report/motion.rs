@@ -22,7 +22,8 @@ pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section,
         Some(statistics) => figures(statistics, setting)?,
         None => Vec::new(),
     };
-    let mut tables: Vec<Table> = found.statistics.iter().map(|statistics| walk(statistics, units)).collect();
+    let mut tables: Vec<Table> =
+        found.statistics.iter().map(|statistics| memories(statistics, units)).collect();
     if let Some(found) = &found.relatives {
         tables.push(relatives::table(found, units));
         figures.extend(relatives::figure(found, setting)?);
@@ -62,12 +63,12 @@ fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
         }
         all.push(("sampling interval".to_owned(), format!("{} {time}", plain(case.cell.track.interval()))));
         all.push((
-            cell::SPEED.symbol.to_owned(),
+            format!("{} of the centre", cell::SPEED.symbol),
             format!("{} {}", plain(m.speed), units.unit(Dimension::SPEED)),
         ));
         all.push(("scatter of the speed".to_owned(), format!("{:.0} %", 100.0 * m.speed_scatter)));
         all.push((
-            cell::TURNING_RATE.symbol.to_owned(),
+            format!("{} of the centre", cell::TURNING_RATE.symbol),
             format!("{} {}", with_error(m.turning, m.turning_error), units.unit(Dimension::TURNING)),
         ));
         all.push(("directness".to_owned(), plain(m.directness)));
@@ -75,24 +76,15 @@ fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
     all
 }
 
-/// Persistence, diffusion and correlation times, of a cell or a population.
-pub(crate) fn walk(statistics: &MotionStatistics, units: &Units) -> Table {
-    let time = &units.time;
-    let mut all = vec![
-        ("persistence time".to_owned(), answer(&statistics.walk.persistence, time)),
-        (
-            "diffusion coefficient".to_owned(),
-            answer(&statistics.walk.diffusion, &units.unit(Dimension::DIFFUSION)),
-        ),
-    ];
-    for memory in &statistics.memories {
-        let name = format!("correlation time of {}", symbol(&memory.quantity));
-        all.push((name, answer(&memory.time, time)));
-    }
+/// Correlation times, of a cell or a population. (Persistence and diffusion are among the numbers without a model.)
+pub(crate) fn memories(statistics: &MotionStatistics, units: &Units) -> Table {
+    let name = |memory: &Memory| format!("correlation time of {}", symbol(&memory.quantity));
+    let row = |memory: &Memory| (name(memory), answer(&memory.time, &units.time));
+    let all = statistics.memories.iter().map(row);
     Table {
         caption: "How long velocity and shape persist; in brackets 95 % intervals.".to_owned(),
         head: ["quantity", "value"].map(str::to_owned).to_vec(),
-        rows: all.into_iter().map(|(name, value)| vec![Cell::text(name), Cell::text(value)]).collect(),
+        rows: all.map(|(name, value)| vec![Cell::text(name), Cell::text(value)]).collect(),
     }
 }
 

@@ -37,7 +37,7 @@ pub(crate) fn section(cases: &[Case<'_>], setting: &Setting<'_>) -> Result<Optio
              fewer than 8 their intervals are over blocks of the records.",
             if count == 1 { "" } else { "s" }
         );
-        tables.push(motion::walk(&statistics, units));
+        tables.push(motion::memories(&statistics, units));
         figures = motion::figures(&statistics, setting)?;
     }
     tables.retain(|table| !table.rows.is_empty());

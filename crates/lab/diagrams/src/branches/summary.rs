@@ -6,6 +6,7 @@ use super::stretches::stretches;
 use motiform_analysis::RelativeEquilibrium;
 use motiform_continuation::{
     Broken, Certificate, Coefficient, Connection, End, Joins, NormalForm, Passed, PeriodLaw, Point, Special,
+    nine,
 };
 use motiform_study::BranchPlan;
 use serde::Serialize;
@@ -94,7 +95,7 @@ pub fn summary(plan: &BranchPlan, found: &Branches) -> Value {
 fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Followed)) -> Value {
     let name = &plan.computation.along.name;
     let (motion, form) = followed.motion();
-    let ends: Vec<String> = followed.legs.iter().map(ending).collect();
+    let ends: Vec<String> = followed.legs.iter().map(Leg::ending).collect();
     let special: Vec<Value> = found.special(number).iter().map(|entry| entry.value(name)).collect();
     let mut object = json!({ "motion": motion });
     let mut put = |key: &str, value: Value| object[key] = value;
@@ -113,9 +114,15 @@ fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Follo
     object
 }
 
-/// The end of a leg, in words.
-fn ending(leg: &Leg) -> String {
-    leg.end.to_string()
+impl Leg {
+    /// Its end, in words.
+    #[must_use]
+    pub fn ending(&self) -> String {
+        match (&self.end, self.samples.last()) {
+            (End::RangeLeft, Some(last)) => format!("{} at {}", self.end, nine(last.point.parameter)),
+            _ => self.end.to_string(),
+        }
+    }
 }
 
 impl Branches {

@@ -42,7 +42,8 @@ pub fn named_in(info: &ModelInfo, values: &Named, (varied, ties): (&[&str], &Tie
         .collect();
     let given = set.len() + specs.iter().filter(|spec| varied.contains(&spec.name)).count();
     let others = if given < specs.len() { format!("; all other parameters{SPACE}0") } else { String::new() };
-    format!("{} model{}: {}{others}.", capital(info.name), units.caption(), set.join(", "))
+    let values = if set.is_empty() { String::new() } else { format!(": {}", set.join(", ")) };
+    format!("{} model{}{values}{others}.", capital(info.name), units.caption())
 }
 
 /// The part of a run that is not seen: its noise, its transient, and its end if it did not complete.

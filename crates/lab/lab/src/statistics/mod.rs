@@ -8,6 +8,7 @@ mod error;
 mod folder;
 mod kept;
 mod record;
+mod sampling;
 mod summary;
 mod tables;
 
@@ -17,5 +18,6 @@ pub use draw::draw;
 pub use error::{Error, Result};
 pub use folder::{open, write};
 pub use record::{Measurement, mode_names};
+pub use sampling::samples_apart;
 pub use summary::{sentences, summary};
 pub use tables::{Named, tables};

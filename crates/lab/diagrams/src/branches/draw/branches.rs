@@ -308,7 +308,7 @@ fn marks(followed: &Followed, ordinate: Ordinate) -> Vec<BranchMark> {
             all.push(BranchMark { label: label.to_owned(), glyph, at: [sample.point.parameter, y] });
         }
         if let (Some(at), End::Homoclinic(end)) = (connection(leg, ordinate), &leg.end) {
-            let glyph = if end.name() == "homoclinic" { Glyph::Cross } else { Glyph::Zigzag };
+            let glyph = if end.name() == "homoclinic" { Glyph::Cross } else { Glyph::Bowtie };
             all.push(BranchMark { label: end.name().to_owned(), glyph, at });
         }
     }

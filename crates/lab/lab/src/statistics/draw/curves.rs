@@ -116,7 +116,11 @@ fn stairs(histogram: &Histogram, unit: f64) -> Vec<BandPoint> {
 /// The distribution of the speed.
 pub(super) fn speeds(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let Some(speeds) = &measurement.statistics.speeds else { return Ok(None) };
-    let worth = format!("{} samples, worth {:.0} independent ones.", speeds.samples, speeds.independent);
+    let worth = if speeds.independent < speeds.samples as f64 {
+        format!("{} samples, worth {:.0} independent ones.", speeds.samples, speeds.independent)
+    } else {
+        format!("{} samples.", speeds.samples)
+    };
     let figure = Chart {
         title: title(measurement, "distribution of the speed"),
         caption: caption(measurement, units, "bands", &[&worth])?,

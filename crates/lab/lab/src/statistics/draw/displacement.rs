@@ -80,17 +80,19 @@ fn lines(measurement: &Measurement, points: &[BandPoint], units: &Shown) -> Vec<
         let label = "persistent random walk".to_owned();
         lines.push(line(label, LineStyle::Solid, (first, last), &|t| furth(square, time, t)));
     }
+    let end = (BEYOND * time).clamp(first, last);
     if walk.speed.known().is_some() {
-        let end = (BEYOND * time).min(last);
         lines.push(line("ballistic: *S*^2*τ*^2".to_owned(), LineStyle::Dashed, (first, end), &|t| {
             square * t * t
         }));
     } else if walk.diffusion.known().is_none() {
         // no persistent random walk, but its start is as straight
-        let (label, end) = ("ballistic: ⟨|***v***|^2⟩*τ*^2", (BEYOND * time).clamp(first, last));
+        let label = "ballistic: ⟨|***v***|^2⟩*τ*^2";
         lines.push(line(label.to_owned(), LineStyle::Dashed, (first, end), &|t| speed * speed * t * t));
     }
     lines.extend(diffusive(measurement, (first, last), units));
+    // what ends before the first lag is no line
+    lines.retain(|line| line.points.first() != line.points.last());
     if let Some(persistence) = walk.persistence.known() {
         let ends = points.iter().filter(|p| p.y > 0.0).map(|p| p.y);
         let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));

@@ -1,0 +1,42 @@
+//! The distance of the samples of bodies, where it is not given.
+
+use motiform_study::RunSettings;
+
+/// Samples of a run whose distance is not given.
+const OF_A_RUN: f64 = 2000.0;
+
+/// Samples of all bodies together, at most.
+const OF_ALL: f64 = 2e6;
+
+/// Time between the samples of so many bodies that run for `t_end`, where the study has times of its own: those of its run, however long
+/// the bodies are followed, unless all of them together have more than two million samples; then the next of 1, 2 and 5 times a power of
+/// ten that leaves no more. Longer runs so have more samples, not coarser ones.
+///
+/// # Units   model time
+#[must_use]
+pub fn samples_apart(own: &RunSettings, t_end: f64, bodies: u64) -> f64 {
+    let usual = if own.dt_out > 0.0 { own.dt_out } else { own.t_end / OF_A_RUN };
+    let fewest = bodies as f64 * t_end / OF_ALL;
+    if usual >= fewest || !fewest.is_finite() { usual } else { round_up(fewest) }
+}
+
+/// The next of 1, 2 and 5 times a power of ten.
+fn round_up(x: f64) -> f64 {
+    let power = libm::pow(10.0, libm::floor(libm::log10(x)));
+    let least = x * (1.0 - 1e-9);
+    [1.0, 2.0, 5.0].map(|step| step * power).into_iter().find(|y| *y >= least).unwrap_or(10.0 * power)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn longer_runs_have_more_samples_until_there_are_too_many() {
+        let own = RunSettings { dt_out: 0.05, t_end: 60.0, ..RunSettings::default() };
+        assert_eq!([60.0, 2000.0].map(|t_end| samples_apart(&own, t_end, 50)), [0.05; 2]);
+        assert_eq!(samples_apart(&own, 10_000.0, 64), 0.5); // 20,000 samples of each
+        assert_eq!(samples_apart(&RunSettings { dt_out: 0.0, ..own }, 100.0, 1), 0.03);
+        assert_eq!([0.1, 0.11, 0.3, 0.6].map(round_up), [0.1, 0.2, 0.5, 1.0]);
+    }
+}
