@@ -17,7 +17,7 @@ use crate::field::{Field, Values};
 use crate::filter::Frame;
 use crate::{Library, Result, Scales, Track, observation};
 use motiform_dynamics::Complex;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::{Deserialize, Serialize};
 
 /// A window's half-width in natural units of time.
@@ -123,12 +123,12 @@ impl Normal {
         }
         let scaled = DMatrix::from_fn(n, n, |i, j| self.matrix[(i, j)] / (scale[i] * scale[j]));
         let right = DVector::from_fn(n, |i, _| self.right[i] / scale[i]);
-        let svd = scaled.svd(true, true);
-        let (largest, least) = (svd.singular_values.max(), svd.singular_values.min());
-        if least < 1e-12 * largest {
+        let eigen = SymmetricEigen::new(scaled);
+        if eigen.eigenvalues.min() < 1e-12 * eigen.eigenvalues.max() {
             return None;
         }
-        let solution = svd.solve(&right, 0.0).ok()?;
+        let along = (eigen.eigenvectors.transpose() * right).component_div(&eigen.eigenvalues);
+        let solution = eigen.eigenvectors * along;
         Some((0..n).map(|i| solution[i] / scale[i]).collect())
     }
 }

@@ -4,6 +4,7 @@
 //! decomposed, so that what is small is measured against its own row.
 
 use crate::linear::ComplexPair;
+use crate::singular::svd;
 use nalgebra::{ColPivQR, DMatrix, DVector, Dyn};
 
 /// The unit roundoff of `f64`, twice.
@@ -44,7 +45,7 @@ pub(crate) fn spread(mut matrix: DMatrix<f64>, bounds: &[f64]) -> Option<Vec<f64
         return None;
     }
     matrix.row_iter_mut().zip(&scales).for_each(|(mut row, scale)| row *= *scale);
-    let svd = matrix.try_svd(true, true, EPS, 1000)?;
+    let svd = svd(matrix)?;
     let least = SINGULAR * svd.singular_values.amax();
     let inverse = svd.pseudo_inverse(least).ok()?;
     let spread = |row: usize| {

@@ -30,6 +30,7 @@ mod returns;
 mod same_set;
 mod series_mean;
 mod share;
+pub mod singular;
 mod spectrum;
 mod steady;
 pub mod symmetry;

@@ -1,5 +1,6 @@
 //! The little linear algebra that analyses need; sums in a fixed order, so that results depend on no machine.
 
+use super::singular::svd;
 use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
 /// A complex number `(re, im)`.
@@ -66,7 +67,7 @@ pub fn basis(columns: &[&[f64]], least: f64) -> Vec<Vec<f64>> {
 /// The smallest `x` that minimises `|sum_j columns_j x_j - rhs|`, by singular values above `1e-10` of the largest.
 /// `None` where a number is not finite.
 pub fn least_squares(columns: &[Vec<f64>], rhs: &[f64]) -> Option<Vec<f64>> {
-    let svd = singular_values(columns, rhs)?;
+    let svd = svd(finite(columns, rhs)?)?;
     let least = 1e-10 * largest(&svd);
     let x = svd.solve(&DVector::from_column_slice(rhs), least).ok()?;
     Some(x.iter().copied().collect())
@@ -89,14 +90,9 @@ pub fn solve(columns: &[Vec<f64>], rhs: &[f64], least: f64) -> Option<Vec<f64>> 
 /// singular vectors of the smallest singular values. `None` where a number is not finite.
 pub fn null_space(columns: &[Vec<f64>], count: usize) -> Option<Vec<Vec<f64>>> {
     let matrix = finite(columns, &vec![0.0; columns.len()])?;
-    let svd = matrix.try_svd(false, true, f64::EPSILON, 1000)?;
-    let rows = svd.v_t?;
+    let rows = svd(matrix)?.v_t?;
     let first = rows.nrows().saturating_sub(count);
     Some((first..rows.nrows()).map(|i| rows.row(i).iter().copied().collect()).collect())
-}
-
-fn singular_values(columns: &[Vec<f64>], rhs: &[f64]) -> Option<SVD<f64, Dyn, Dyn>> {
-    finite(columns, rhs)?.try_svd(true, true, f64::EPSILON, 1000)
 }
 
 /// The matrix of these columns; `None` where one of its numbers, or one of `rhs`, is not finite.

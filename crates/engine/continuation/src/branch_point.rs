@@ -1,6 +1,7 @@
 //! The point where two branches cross, as the solution of equations that are regular there.
 
 use super::problem::{Equations, Failure, Linear};
+use motiform_analysis::singular::svd;
 use motiform_dynamics::Watch;
 use nalgebra::{DMatrix, DVector};
 
@@ -24,7 +25,7 @@ pub(super) fn branch_point<P: Equations>(problem: &P, x: &[f64], watch: &dyn Wat
     let local = problem.local(x, watch).ok()?;
     let start = scaled(problem.linear(&local), &units);
     let rows = start.nrows();
-    let svd = start.try_svd(true, false, f64::EPSILON, 10_000)?;
+    let svd = svd(start)?;
     let (least, _) = svd.singular_values.argmin();
     let mut psi: DVector<f64> = svd.u?.column(least).into_owned();
     let (mut x, mut b) = (x.to_vec(), 0.0);

@@ -3,6 +3,7 @@
 use super::elimination::newton_step;
 use super::point::Obstruction;
 use super::problem::{Equations, Failure, Linear};
+use motiform_analysis::singular::svd;
 use motiform_dynamics::Watch;
 
 /// Steps that Newton's method may take.
@@ -76,7 +77,7 @@ pub(super) fn seen(linear: &Linear, weights: &[f64]) -> Vec<(f64, Vec<f64>)> {
     for (j, weight) in weights.iter().enumerate() {
         square.column_mut(j).scale_mut(1.0 / weight.sqrt());
     }
-    let Some(svd) = square.try_svd(false, true, f64::EPSILON, 10_000) else { return Vec::new() };
+    let Some(svd) = svd(square) else { return Vec::new() };
     let Some(rows) = svd.v_t else { return Vec::new() };
     let unscaled = |i: usize| rows.row(i).iter().zip(weights).map(|(v, w)| v / w.sqrt()).collect();
     let mut all: Vec<(f64, Vec<f64>)> = (0..dim).map(|i| (svd.singular_values[i], unscaled(i))).collect();

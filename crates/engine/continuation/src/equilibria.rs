@@ -16,6 +16,7 @@ use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::Units;
 use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
 use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict};
+use motiform_analysis::singular::svd;
 use motiform_dynamics::order::ascending;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
@@ -299,8 +300,7 @@ impl Equilibria<'_> {
         let basis = bases.get(class)?;
         let columns = restrict(basis, |v| apply(&local.matrix, v));
         let dim = columns.len();
-        let svd =
-            DMatrix::from_fn(dim, dim, |i, j| columns[j][i]).try_svd(false, true, f64::EPSILON, 1000)?;
+        let svd = svd(DMatrix::from_fn(dim, dim, |i, j| columns[j][i]))?;
         let (place, _) = svd.singular_values.argmin();
         let mut out = vec![0.0; self.dim];
         for (direction, &part) in basis.iter().zip(svd.v_t?.row(place).iter()) {

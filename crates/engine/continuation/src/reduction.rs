@@ -2,6 +2,7 @@
 
 use super::normal_form::{Coefficient, NormalForm, Order, Undetermined};
 use motiform_analysis::linear::{add, apply, dot, solve};
+use motiform_analysis::singular::svd;
 use motiform_dynamics::order::ascending;
 use nalgebra::DMatrix;
 
@@ -134,7 +135,7 @@ fn parts(matrix: &DMatrix<f64>) -> Result<(Vec<Part>, Vec<Part>), Undetermined> 
     let scales = scales(matrix);
     let mut scaled = matrix.clone();
     scaled.iter_mut().enumerate().for_each(|(k, value)| *value *= scales[k % scales.len()]);
-    let svd = scaled.try_svd(true, true, f64::EPSILON, 10_000).ok_or(Undetermined::Obstructed)?;
+    let svd = svd(scaled).ok_or(Undetermined::Obstructed)?;
     let (Some(u), Some(rows)) = (svd.u, svd.v_t) else { return Err(Undetermined::Obstructed) };
     let part = |(k, &size): (usize, &f64)| Part {
         size,

@@ -3,6 +3,7 @@
 use super::correct::{crossing, scaled};
 use super::problem::Problem;
 use motiform_analysis::linear::{add, dot};
+use motiform_analysis::singular::svd;
 
 /// Distance of the second differences, in the units of the unknowns.
 const STEP: f64 = 1e-3;
@@ -71,7 +72,7 @@ impl Plane {
         let linear = problem.linear(&local);
         let null = crossing(linear, weights);
         let [a, b] = &null[..] else { return None };
-        let svd = linear.matrix.clone().try_svd(true, false, f64::EPSILON, 10_000)?;
+        let svd = svd(linear.matrix.clone())?;
         let (least, _) = svd.singular_values.argmin();
         let psi: Vec<f64> = svd.u?.column(least).iter().copied().collect();
         let here = dot(&psi, &linear.residual);

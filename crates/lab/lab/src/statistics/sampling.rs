@@ -1,6 +1,6 @@
 //! The distance of the samples of bodies, where it is not given.
 
-use motiform_study::RunSettings;
+use motiform_study::study::RunSettings;
 
 /// Samples of a run whose distance is not given.
 const OF_A_RUN: f64 = 2000.0;
