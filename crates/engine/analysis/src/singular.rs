@@ -28,6 +28,7 @@ pub fn svd(matrix: DMatrix<f64>) -> Option<SVD<f64, Dyn, Dyn>> {
     first.or_else(|| (1..TRIES).find_map(|k| reflected(&matrix, k).filter(|found| holds(&matrix, found))))
 }
 
+#[expect(clippy::disallowed_methods, reason = "its result is compared with the matrix")]
 fn once(matrix: DMatrix<f64>) -> Option<SVD<f64, Dyn, Dyn>> {
     let most = STEPS * matrix.nrows().max(matrix.ncols()).max(1);
     matrix.try_svd(true, true, f64::EPSILON, most)
