@@ -5,6 +5,7 @@ use super::brackets::{BESIDE, Bracket, Test, brackets};
 use super::branch_point::branch_point;
 use super::certificate::{Certificate, Passing, TestFunction};
 use super::correct::{TIGHT, crossing, product, scaled, seen};
+use super::levels::Level;
 use super::normal_form::{NormalForm, asked};
 use super::place::Place;
 use super::point::Obstruction;
@@ -66,7 +67,7 @@ fn add<P: Problem>(
         Ok(at) => at,
         Err(Failure::Stopped) => return Err(Stopped),
         Err(Failure::Obstructed(_)) => {
-            let seen = kind(problem, step.new, bracket.test).name();
+            let seen = kind(problem, step, step.new, bracket.test).name();
             if !changes.missed.contains(&seen) {
                 changes.missed.push(seen); // both of a complex pair are one change
             }
@@ -76,7 +77,7 @@ fn add<P: Problem>(
     let crossing =
         nearly_crosses(problem, &at, bracket.test).then(|| at_crossing(problem, step, &at, watch)).flatten();
     let at = crossing.unwrap_or(at);
-    let special = kind(problem, &at, bracket.test);
+    let special = kind(problem, step, &at, bracket.test);
     let crosses = special == Special::BranchPoint && !is_alone(problem, &at);
     let mut at = if crosses { solved(problem, step, at, watch) } else { at };
     if crosses && !matches!(bracket.test, Test::Slope) {
@@ -149,8 +150,14 @@ fn certified<P: Problem>(
     let s = at.arclength - step.old.arclength;
     let apart = if s < 0.5 * step.length { BESIDE } else { -BESIDE };
     let near = between(problem, step, s + apart * step.length, watch).ok()?;
+    let value = |place: &Place<P::Local>| match test {
+        Test::Slope => test.of(place),
+        Test::Level(class, rank) => {
+            critical(step, place, (class, rank)).map_or(f64::NAN, |level| level.growth)
+        }
+    };
     let passing =
-        |place: &Place<P::Local>| Passing { s: place.arclength, value: test.of(place), slope: place.slope() };
+        |place: &Place<P::Local>| Passing { s: place.arclength, value: value(place), slope: place.slope() };
     let (kind, noise) = match test {
         Test::Slope => (TestFunction::Slope, problem.accuracy()),
         Test::Level(..) => (TestFunction::Growth, problem.noise(&at.levels)),
@@ -190,12 +197,25 @@ fn name_folds<P: Problem>(problem: &P, found: &mut [(Place<P::Local>, Special)])
     }
 }
 
-fn kind<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> Special {
+/// The critical level at a place. On a circle, which has no neutral direction, there are more levels than beside it, with other ranks: there
+/// it is the least one.
+fn critical<L>(step: &Step<'_, L>, at: &Place<L>, (class, rank): (usize, usize)) -> Option<Level> {
+    let levels = at.levels.get(class)?;
+    if step.new.levels.get(class).is_some_and(|usual| usual.len() == levels.len()) {
+        return levels.get(rank).copied();
+    }
+    levels.iter().copied().min_by(|a, b| a.growth.abs().total_cmp(&b.growth.abs()))
+}
+
+fn kind<P: Problem>(problem: &P, step: &Step<'_, P::Local>, at: &Place<P::Local>, test: Test) -> Special {
     match test {
         // where two branches cross there are two directions; the one that turns back is not at a fold
         Test::Slope if crosses(problem, at) => Special::BranchPoint,
         Test::Slope => Special::Fold,
-        Test::Level(class, rank) => problem.classify(&at.x, at.levels[class][rank], class),
+        Test::Level(class, rank) => {
+            let level = critical(step, at, (class, rank)).unwrap_or(at.levels[class][rank]);
+            problem.classify(&at.x, level, class)
+        }
     }
 }
 
