@@ -19,6 +19,8 @@ const NEAR: usize = 2;
 const LED: f64 = 4.0;
 /// Radius of the ring at a point, in pixels.
 const RING: f64 = 4.2;
+/// Points with one number that are closer than this have it once, in pixels.
+const TOGETHER: f64 = 20.0;
 
 /// The surroundings of labels, which they must not hide.
 #[derive(Debug, Clone)]
@@ -78,15 +80,18 @@ impl Placed {
 /// The labels of points, and which of them are numbers.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Callouts {
+    /// All points, also those without a label of their own.
+    points: Vec<Point>,
     labels: Vec<Placed>,
     /// The texts that the numbers stand for, from 1 on.
     pub(crate) key: Vec<String>,
 }
 
 impl Callouts {
-    /// Places the labels (markup) of points, and says `around` what they take: those with one text that does not fit have one number.
+    /// Places the labels (markup) of points, and says `around` what they take: those with one text that does not fit have one number, and
+    /// have it once where they are close to each other.
     pub(crate) fn new(points: &[(Point, &str)], around: &mut Around<'_>) -> Self {
-        let mut all = Self::default();
+        let mut all = Self { points: points.iter().map(|one| one.0).collect(), ..Self::default() };
         let mut narrow = Vec::new();
         for (point, text) in points {
             let words = Label::parse(text);
@@ -102,6 +107,10 @@ impl Callouts {
                 all.key.push(text.to_owned());
             }
             let words = Label::parse(&number.to_string());
+            let near = |[x, y]: Point| libm::hypot(x - point[0], y - point[1]) < TOGETHER;
+            if all.labels.iter().any(|label| label.words == words && near(label.point)) {
+                continue;
+            }
             if let Some(found) = around.place(point, size(&words), &GAPS, true) {
                 all.put(point, words, found, around);
             }
@@ -128,7 +137,7 @@ impl Callouts {
             let at = [place.x + 2.0, place.y + 0.5 * place.h + 0.36 * SIZE];
             svg.text(at, SIZE, Anchor::Start, words);
         }
-        for Placed { point: [x, y], .. } in &self.labels {
+        for [x, y] in &self.points {
             Glyph::Ring.draw(svg, [x + dx, y + dy], RING, INK);
         }
     }
@@ -195,6 +204,15 @@ mod tests {
             assert!(boxes[..i].iter().all(|other| apart(one, other)), "{one:?} overlaps");
             assert!(crowd.iter().all(|(at, _)| apart(one, &taken(*at))), "{one:?} hides a point");
         }
+    }
+
+    #[test]
+    fn points_of_one_number_that_are_close_have_it_once() {
+        let crowd: Vec<_> =
+            (0..6).map(|i| ([150.0 + 3.0 * f64::from(i), 100.0], "Bogdanov-Takens")).collect();
+        let found = places(&crowd, &[vec![[0.0, 85.0], [300.0, 85.0]], vec![[0.0, 115.0], [300.0, 115.0]]]);
+        let numbers = found.labels.iter().filter(|label| label.words == Label::parse("1")).count();
+        assert_eq!((found.points.len(), numbers), (6, 1), "{found:?}");
     }
 
     #[test]
