@@ -158,12 +158,21 @@ fn certified<P: Problem>(
     };
     let passing =
         |place: &Place<P::Local>| Passing { s: place.arclength, value: value(place), slope: place.slope() };
+    let here = match test {
+        // where branches cross the equations do not tell the tangent of this one: its slope is the mean of those on both sides
+        Test::Slope if crosses(problem, at) => {
+            let far = between(problem, step, s - apart * step.length, watch).ok()?;
+            let slope = 0.5 * (near.slope() + far.slope());
+            Passing { s: at.arclength, value: slope, slope }
+        }
+        _ => passing(at),
+    };
     let (kind, noise) = match test {
         Test::Slope => (TestFunction::Slope, problem.accuracy()),
         Test::Level(..) => (TestFunction::Growth, problem.noise(&at.levels)),
     };
     let width = problem.weights(&at.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
-    Some(Certificate::of(kind, passing(at), passing(&near), noise, problem.accuracy().max(TIGHT) * width))
+    Some(Certificate::of(kind, here, passing(&near), noise, problem.accuracy().max(TIGHT) * width))
 }
 
 /// The leading coefficient of the normal form at a special point.

@@ -4,7 +4,7 @@ use super::super::claims::check;
 use super::super::context::Context;
 use super::lengths::study;
 use motiform_diagrams::draw::{Ordinate, branch_diagram};
-use motiform_diagrams::{Branches, SpecialEntry, stretches};
+use motiform_diagrams::{Branches, Followed, SpecialEntry, stretches};
 use motiform_figures::report::{Claim, ReportFigure};
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
 use motiform_study::{Error, Stride, Towards};
@@ -89,10 +89,13 @@ impl Atlas {
         all
     }
 
-    /// Special points of all branches, each once, by length.
+    /// Special points of the branches of steady motions, each once, by length.
     fn special(&self) -> Vec<SpecialEntry> {
-        let mut all: Vec<SpecialEntry> =
-            (0..self.found.branches.len()).flat_map(|number| self.found.special(number)).collect();
+        let is_steady = |followed: &Followed| {
+            followed.samples().next().is_some_and(|sample| sample.point.motion.orbit().is_none())
+        };
+        let steady = self.found.branches.iter().enumerate().filter(|(_, followed)| is_steady(followed));
+        let mut all: Vec<SpecialEntry> = steady.flat_map(|(number, _)| self.found.special(number)).collect();
         all.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
         all.dedup_by(|a, b| a.kind == b.kind && (a.parameter - b.parameter).abs() < 1e-6);
         all
@@ -122,6 +125,7 @@ impl Atlas {
     }
 
     /// The shape of a cell of length `n L` that consists of `n` equal parts is the shape of the length `L` `n` times, with the same rates.
+    /// (Of its orbits only those are followed that begin where a stable motion loses its stability.)
     fn multiples(&self, context: &Context<'_>) -> Claim {
         let mut all = Vec::new();
         for entry in self.special().into_iter().filter(|entry| entry.parameter < 0.5 * self.end) {
@@ -134,7 +138,7 @@ impl Atlas {
         }
         let worst = all.iter().copied().fold(0.0, f64::max);
         let claim = check(
-            "A cell of *n* equal parts behaves as one part does: what happens at the length *L* happens at *nL* too.",
+            "A cell of *n* equal parts behaves as one part does: what happens to a steady motion at the length *L* happens at *nL* too.",
             format!(
                 "for each of {} multiples of special points within the range there is one of the same kind, {worst:.0e} away at most",
                 all.len()
