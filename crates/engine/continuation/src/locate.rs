@@ -206,7 +206,8 @@ fn name_folds<P: Problem>(problem: &P, found: &mut [(Place<P::Local>, Special)])
     }
 }
 
-/// The critical level at a place. On a circle, which has no neutral direction, there are more levels than beside it, with other ranks: there
+/// The critical level at a place. On a circle, which has no neutral direction, there are more levels than beside it, with other ranks:
+/// there
 /// it is the least one.
 fn critical<L>(step: &Step<'_, L>, at: &Place<L>, (class, rank): (usize, usize)) -> Option<Level> {
     let levels = at.levels.get(class)?;
