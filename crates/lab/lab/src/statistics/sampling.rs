@@ -10,14 +10,21 @@ const OF_ALL: f64 = 2e6;
 
 /// Time between the samples of so many bodies that run for `t_end`, where the study has times of its own: those of its run, however long
 /// the bodies are followed, unless all of them together have more than two million samples; then the next of 1, 2 and 5 times a power of
-/// ten that leaves no more. Longer runs so have more samples, not coarser ones.
+/// ten that leaves no more. A run has 2000 samples at least. Longer runs so have more samples, not coarser ones.
 ///
 /// # Units   model time
 #[must_use]
 pub fn samples_apart(own: &RunSettings, t_end: f64, bodies: u64) -> f64 {
     let usual = if own.dt_out > 0.0 { own.dt_out } else { own.t_end / OF_A_RUN };
     let fewest = bodies as f64 * t_end / OF_ALL;
-    if usual >= fewest || !fewest.is_finite() { usual } else { round_up(fewest) }
+    let longest = t_end / OF_A_RUN;
+    if usual.max(fewest) >= longest || !fewest.is_finite() {
+        longest
+    } else if usual >= fewest {
+        usual
+    } else {
+        round_up(fewest).min(longest)
+    }
 }
 
 /// The next of 1, 2 and 5 times a power of ten.
@@ -36,7 +43,9 @@ mod tests {
         let own = RunSettings { dt_out: 0.05, t_end: 60.0, ..RunSettings::default() };
         assert_eq!([60.0, 2000.0].map(|t_end| samples_apart(&own, t_end, 50)), [0.05; 2]);
         assert_eq!(samples_apart(&own, 10_000.0, 64), 0.5); // 20,000 samples of each
-        assert_eq!(samples_apart(&RunSettings { dt_out: 0.0, ..own }, 100.0, 1), 0.03);
+        assert_eq!(samples_apart(&RunSettings { dt_out: 0.0, ..own.clone() }, 100.0, 1), 0.03);
+        // 2000 samples of each at least, of a short run and of many bodies
+        assert_eq!([(10.0, 1), (1000.0, 1_000_000)].map(|(t, n)| samples_apart(&own, t, n)), [0.005, 0.5]);
         assert_eq!([0.1, 0.11, 0.3, 0.6].map(round_up), [0.1, 0.2, 0.5, 1.0]);
     }
 }
