@@ -21,7 +21,7 @@ pub(crate) fn run(options: &ModelsOptions) -> anyhow::Result<End> {
             if options.json {
                 pretty(&whole(info)?)?
             } else {
-                format!("{}{}", page(info)?, values(info, options.preset.as_deref().unwrap_or(name))?)
+                format!("{}{}", page(info)?, values(info, name, options.preset.as_deref())?)
             }
         }
     };
@@ -97,18 +97,16 @@ fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
     Ok(text)
 }
 
-/// The values of a preset; empty for another name, unless it is asked for as that of a preset of the model.
-fn values(info: &'static ModelInfo, name: &str) -> anyhow::Result<String> {
-    let study = match find_preset(name) {
-        Some(preset) => presets::find_any(preset.name, preset.model)?,
-        None if ModelInfo::find(name).is_ok() || name.ends_with(".toml") => return Ok(String::new()),
-        None => presets::find(info, name)?,
+/// The values of this preset of the model, or of the preset that was asked for by its name; empty where neither is given.
+fn values(info: &'static ModelInfo, subject: &str, preset: Option<&str>) -> anyhow::Result<String> {
+    let (name, study) = match (preset, find_preset(subject)) {
+        (Some(name), _) => (name, presets::find(info, name)?),
+        (None, Some(known)) => (subject, presets::find_any(known.name, known.model)?),
+        (None, None) => return Ok(String::new()),
     };
     let plan = summary(&RunPlan::new(&study)?, &study.ties)?;
-    Ok(format!(
-        "\nThe preset {name}\n{}\n",
-        plan.lines().map(|line| format!("  {line}\n")).collect::<String>()
-    ))
+    let lines = plan.lines().map(|line| format!("  {line}\n"));
+    Ok(format!("\nThe preset {name}\n{}\n", lines.collect::<String>()))
 }
 
 /// The terms of equations given as text, and the tensor model that they are.

@@ -34,7 +34,12 @@ fn doctor_says_what_is_there() {
 fn models_takes_a_preset_and_figure_says_what_it_cannot_draw() {
     let folder = Folder::new();
     let of_preset = folder.run("models fig5a").expect(0).stdout;
-    assert_eq!(of_preset, folder.run("models tensor").expect(0).stdout);
+    let of_model = folder.run("models tensor").expect(0).stdout;
+    let values =
+        of_preset.strip_prefix(of_model.trim_end()).expect("the model's page, and the preset's values");
+    assert!(values.contains("The preset fig5a") && values.contains("kappa2=0.9"), "{values}");
+    assert_eq!(of_preset, folder.run("models tensor --preset fig5a").expect(0).stdout);
+    assert!(folder.run("models cell --preset fig5a").expect(2).stderr.contains("fig6a"));
     folder.run("statistics tensor --preset fig5a --bodies 8 --t-end 20 --transient 0 --noise 0.1 --out many");
     let done = folder.run("figure many").expect(2);
     assert!(done.stderr.contains("many") && done.stderr.contains("not drawn again"), "{}", done.stderr);
