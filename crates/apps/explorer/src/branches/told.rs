@@ -4,7 +4,7 @@ use super::Known;
 use crate::body::short;
 use crate::protocol::{BranchTold, SpecialPoint, Specials};
 use motiform_analysis::regime::Form;
-use motiform_diagrams::{Followed, Origin, Sample, SpecialEntry, is_stable};
+use motiform_diagrams::{Followed, Leg, Origin, Sample, SpecialEntry, is_stable};
 
 /// Enough digits for a picture, and for a value of the parameter.
 const DIGITS: (usize, usize) = (6, 10);
@@ -28,7 +28,7 @@ pub(super) fn branch(known: &Known, number: usize) -> Option<BranchTold> {
         period: read(&|sample| sample.reading.period.unwrap_or(0.0), DIGITS.0),
         unstable: samples.iter().map(|sample| sample.point.unstable).collect(),
         stable: samples.windows(2).map(|pair| is_stable(pair[0], pair[1])).collect(),
-        ends: followed.legs.iter().map(|leg| leg.ending()).collect(),
+        ends: followed.legs.iter().map(Leg::ending).collect(),
     })
 }
 
