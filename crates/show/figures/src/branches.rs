@@ -15,7 +15,7 @@ use super::svg::Svg;
 
 /// The reach of the axis towards unstable motions, in ranges of what is seen, where all of them would take more than [`SQUEEZED`] ranges.
 const BEYOND: f64 = 2.0;
-const SQUEEZED: f64 = 6.0;
+const SQUEEZED: f64 = 4.0;
 
 /// A part of a branch over which neither motion nor stability changes.
 #[derive(Debug, Clone, PartialEq)]
