@@ -241,7 +241,7 @@ export interface MapStart {
   lines: Line[];
 }
 
-/** How far a map is: cells, and cells per second. */
+/** Progress of a map: cells, and cells per second. */
 export interface Progress {
   is: "progress";
   epoch: number;
@@ -301,7 +301,7 @@ export interface Specials {
   points: SpecialPoint[];
 }
 
-/** How far the branches are, 0 to 1, and the one under way. */
+/** Progress of the branches, 0 to 1, and the one under way. */
 export interface Following {
   is: "following";
   epoch: number;
