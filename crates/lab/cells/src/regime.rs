@@ -5,7 +5,9 @@ use crate::settled::{settles, time_left};
 use crate::{Result, start};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::{StopOnly, Watch};
-use motiform_inference::{Fit, MOST_MODES, Selection, Subset, Track, draws, equations, refit_with};
+use motiform_inference::{
+    Fit, MOST_MODES, Selection, Subset, Track, draws, equations, fastest_rate, refit_with,
+};
 use motiform_lab::analyse;
 use motiform_models::amplitudes::info;
 use motiform_study::{RunPlan, Study};
@@ -22,6 +24,8 @@ const MOST_STEPS: u64 = 1_000_000;
 const MOST_SHARES: usize = 20;
 /// Fewest e-foldings of a linear rate in a record.
 const LEAST_FOLDINGS: f64 = 3.0;
+/// Largest sampling interval times fastest rate at which coefficients of a cell that noise moves have intervals.
+const CARRIED_COARSELY: f64 = 1.0;
 /// Most sets of terms that have draws.
 const MOST_SETS: usize = 20;
 
@@ -47,6 +51,10 @@ pub struct FittedRegime {
     /// `true` if a linear rate of the best model is so slow that the record holds less than three of its e-foldings.
     #[serde(default)]
     pub slow: bool,
+    /// `true` if the best model rests without noise, and frames are further apart than its fastest rate takes: between frames the
+    /// distribution of the states then has parts that the filter, which is linear in deviations, leaves out.
+    #[serde(default)]
+    pub coarse: bool,
     /// The part of the motion that the equations make without their noise; `None` with few draws, or where these blow up.
     #[serde(default)]
     pub driven: Option<Driven>,
@@ -76,6 +84,12 @@ impl FittedRegime {
             return Some(
                 "a linear rate of the equations is below three e-foldings in the record: it is too short to tell \
                  linear from nonlinear terms",
+            );
+        }
+        if self.coarse {
+            return Some(
+                "noise moves the cell, and the sampling interval times the fastest rate is above 1: what the filter leaves out \
+                 between frames biases the coefficients",
             );
         }
         matches!(self.best, Regime::Straight | Regime::Circular).then_some(
@@ -141,6 +155,7 @@ pub fn regime_of(
         start,
         carried,
         slow: is_slow(&selection.fit, 2.0 * left),
+        coarse: best == Regime::Motionless && moves && is_coarse(tracks, &selection.fit),
         driven: Driven::of(shares),
     })
 }
@@ -158,6 +173,12 @@ fn is_slow(fit: &Fit, time: f64) -> bool {
     let linear = |name: &str| (1..=MOST_MODES).any(|n| name == format!("z{n}: z{n}"));
     let mut all = fit.coefficients.iter().zip(&fit.natural.coefficients);
     all.any(|(c, rate)| linear(&c.name) && rate.abs() * time < LEAST_FOLDINGS)
+}
+
+/// `true` if frames are further apart than the fastest rate takes.
+fn is_coarse(tracks: &[Track], fit: &Fit) -> bool {
+    let interval = tracks.iter().map(Track::interval).fold(0.0, f64::max);
+    fastest_rate(tracks, fit) * interval > CARRIED_COARSELY
 }
 
 /// The models of the sets that the data do not tell apart, with their shares of the weight.
