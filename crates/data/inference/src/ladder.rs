@@ -149,13 +149,13 @@ impl Ladder {
 /// each frame to the next, with all that was estimated, terms included, from the other blocks. So a model gains nothing by terms that fit
 /// noise, whatever their number.
 ///
-/// `whole` is a fit of all terms to all frames, from whose estimates the searches begin. Blocks are cells at other times: the differences
+/// `whole` is a fit of all terms to all frames, from whose estimates the searches begin. The differences
 /// between models have standard errors from their scatter over blocks, `sqrt(B) sd`.
 ///
 /// Source: Stone (1974), J. R. Stat. Soc. B 36, 111; blocks of records: Burman, Chow and Nolan (1994), Biometrika 81, 351.
 ///
 /// # Errors    of the input; [`Error::TooShort`] for tracks whose blocks are too short to be fitted; [`Error::Interrupted`]
-/// # Checked by  `tests/all/ladder.rs`: walks, a zigzag, a handed circle
+/// # Checked by  `tests/all/ladder.rs`: walks, chaos of three modes, handed chaos, short records
 pub fn ladder(tracks: &[Track], whole: &Fit, watch: &dyn Watch) -> Result<Ladder> {
     observation::check(tracks, whole.library.modes)?;
     let least = BLOCKS * LEAST_FRAMES;

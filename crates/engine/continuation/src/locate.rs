@@ -206,9 +206,8 @@ fn name_folds<P: Problem>(problem: &P, found: &mut [(Place<P::Local>, Special)])
     }
 }
 
-/// The critical level at a place. On a circle, which has no neutral direction, there are more levels than beside it, with other ranks:
-/// there
-/// it is the least one.
+/// The critical level at a place. A circle has no neutral direction, so it has one level more than the shapes near it, and other ranks:
+/// there the level closest to 0 is taken.
 fn critical<L>(step: &Step<'_, L>, at: &Place<L>, (class, rank): (usize, usize)) -> Option<Level> {
     let levels = at.levels.get(class)?;
     if step.new.levels.get(class).is_some_and(|usual| usual.len() == levels.len()) {

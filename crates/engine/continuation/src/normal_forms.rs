@@ -8,7 +8,6 @@ use super::orbits::Orbits;
 use super::problem::Equations;
 use super::reduction::{Size, System, leading};
 use super::shooting::segment;
-use motiform_analysis::equilibrium::neutral_direction;
 use motiform_analysis::linear::{add, apply, basis, dot, norm};
 use motiform_dynamics::{Equivariant, VectorField};
 
@@ -29,9 +28,7 @@ const PLACES: usize = 64;
 pub(super) fn of_equilibrium(problem: &Equilibria<'_>, x: &[f64], order: Order) -> NormalForm {
     let Some(free) = problem.free(x) else { return NormalForm::Undetermined(Undetermined::Obstructed) };
     let (dim, shape) = (free.dim, &x[..free.dim]);
-    let Ok(body) = free.bodies.at(x) else { return NormalForm::Undetermined(Undetermined::Obstructed) };
-    let alike = Classes::of(body.as_ref(), &[shape]).circle;
-    let along_group = neutral_direction(body.as_ref(), shape);
+    let alike = free.bodies.at(x).is_ok_and(|body| Classes::of(body.as_ref(), &[shape]).circle);
     let size = norm(shape);
     let (length, scale) = (free.units.length, free.units.length * free.units.rate);
     let at_rest = (AT_REST.0 * length, AT_REST.1);
@@ -43,13 +40,7 @@ pub(super) fn of_equilibrium(problem: &Equilibria<'_>, x: &[f64], order: Order) 
             },
             rows: dim,
             x,
-            size: &|v| {
-                let mut rest = v[..dim].to_vec();
-                along_group
-                    .iter()
-                    .for_each(|direction| add(&mut rest, -dot(direction, &v[..dim]), direction));
-                Some((norm(&rest), 0.0))
-            },
+            size: &|v| Some((norm(&v[..dim]), 0.0)),
             pairing: &|p, q| (dot(&p[..dim], &q[..dim]), PAIRED * norm(&p[..dim]) * norm(&q[..dim])),
             alike,
             unit,

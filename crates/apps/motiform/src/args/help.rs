@@ -122,7 +122,7 @@ Examples:
   motiform atlas my-equations.toml --axis a=0:1 --axis b=-1:1 --samples 8 --resume
   motiform figure tensor-fig4-atlas --width 86mm --out paper        its figure, one column wide
 
-One command in place of three: a scan that is finer where neighbours differ, branches along lines across the boundaries \
+This command combines three: a scan that is finer where adjacent points differ, branches along lines across the boundaries \
 (`motiform continue`), and curves of bifurcations through the plane (`motiform continue --curve`). Each boundary gets the name \
 of the bifurcation on it. Where none is found, the atlas says why: chaotic motion and blow-up are no branches and are found by \
 sampling alone. Cells are those of a scan with the same axes, samples and seed. More --samples find coexisting motions with \

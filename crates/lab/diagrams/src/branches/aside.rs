@@ -16,7 +16,7 @@ const SAME: f64 = 0.2;
 /// The same motion at a value of the parameter beside that of a special point.
 ///
 /// At the point itself a critical level is 0, so that neither side of a branch that begins there shows a change: the point would be missing
-/// on it. Beside it, one of both sides passes the point. Where no such motion is found beside it, the start itself.
+/// on it. From a start near the point, one of the two sides passes it. If no such motion is found near it, the start itself is returned.
 pub(super) fn aside(
     bodies: &Bodies<'_>,
     (parameter, start): (f64, Start),
