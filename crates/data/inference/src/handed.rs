@@ -2,8 +2,8 @@
 
 use crate::chi_square::chi_square_tail;
 use crate::filter::{NO_CENTRE_NOISE, Theta};
-use crate::fit::refit;
-use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation};
+use crate::fit::{reached, refit};
+use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation, whiteness};
 use motiform_dynamics::Watch;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -12,6 +12,9 @@ use serde::{Deserialize, Serialize};
 pub const HANDED_RATE: f64 = 1e-4;
 /// Rate at which the test may be left undecided by chance: from here to [`HANDED_RATE`] neither is said.
 pub const DOUBTED_RATE: f64 = 0.01;
+
+/// Significance of innovations that are not white from which on a fit describes the cell too badly to tell left from right.
+pub const COLOURED: f64 = 1e-6;
 
 /// Size of an imaginary part, relative to the largest coefficient of its equation (natural units), that the
 /// intervals of a mirror-symmetric cell exclude.
@@ -103,12 +106,18 @@ pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Hand
     coefficients.resize(2 * degrees, 0.0);
     let start = Theta { coefficients, logs: fit.natural.logs };
     let near = refit(tracks, &settings, &fit.scales, &start, watch)?;
-    if !fit.converged() {
+    let coloured = whiteness(fit).iter().any(|channel| channel.p_value < COLOURED);
+    if coloured || !fit.converged() {
         return Ok(compare(fit, near, degrees)); // decides nothing, and a second search would not either
     }
     let logs = [0.0, libm::log(0.4), libm::log(0.4), NO_CENTRE_NOISE];
     let zero = Theta { coefficients: vec![0.0; 2 * degrees], logs };
-    let far = refit(tracks, &settings, &fit.scales, &zero, watch)?;
+    // from far away, to the end only where first steps lead higher: their model then promises less than 1
+    let (far, height) = reached(tracks, &settings, &fit.scales, (&zero, 1.0), watch)?;
+    if height.is_some_and(|height| height <= near.log_likelihood) {
+        return Ok(compare(fit, near, degrees));
+    }
+    let far = refit(tracks, &settings, &fit.scales, &far, watch)?;
     let handed = if far.log_likelihood > near.log_likelihood { far } else { near };
     Ok(compare(fit, handed, degrees))
 }

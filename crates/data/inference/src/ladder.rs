@@ -3,7 +3,7 @@
 use crate::filter::{Problem, Theta, Want, evaluate};
 use crate::fit::{problem, refit};
 use crate::observation::{LEAST_FRAMES, Track};
-use crate::{Error, Fit, Result, Settings, Term, observation, refit_with, subsets};
+use crate::{Error, Fit, Result, Settings, Term, observation, refit_with, subsets, with_stage};
 use motiform_dynamics::Watch;
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ pub const BLOCKS: usize = 5;
 /// A model of the ladder. In all of them each mode of the shape relaxes at a rate of its own and has noise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Model {
+pub enum LadderModel {
     /// The velocity relaxes and is renewed by noise: rest, or a persistent random walk; nothing acts on anything else.
     PassiveWalk,
     /// The same, and the shape acts on the velocity to second order.
@@ -30,9 +30,11 @@ pub enum Model {
     Selected,
     /// The same with complex coefficients.
     Handed,
+    /// The terms that the frames of the fit ask for, and a velocity of the stage for each track.
+    Drifting,
 }
 
-impl Model {
+impl LadderModel {
     /// The model in words.
     #[must_use]
     pub const fn words(self) -> &'static str {
@@ -44,7 +46,8 @@ impl Model {
             Self::ThreeModes => "all terms of z1 to z3",
             Self::FourModes => "all terms of z1 to z4",
             Self::Selected => "terms that the data ask for",
-            Self::Handed => "the same, handed",
+            Self::Handed => "terms that the data ask for, handed",
+            Self::Drifting => "terms that the data ask for, and a drift of the stage",
         }
     }
 
@@ -52,7 +55,7 @@ impl Model {
     fn all(modes: usize) -> Vec<Self> {
         let mut all = vec![Self::PassiveWalk, Self::PolarWalk, Self::Speed, Self::TwoModes];
         all.extend([Self::ThreeModes, Self::FourModes].into_iter().take(modes.saturating_sub(2)));
-        all.extend([Self::Selected, Self::Handed]);
+        all.extend([Self::Selected, Self::Handed, Self::Drifting]);
         all
     }
 
@@ -63,7 +66,7 @@ impl Model {
         let relaxes = term.order() == 1;
         relaxes
             || match self {
-                Self::PassiveWalk | Self::Selected | Self::Handed => false,
+                Self::PassiveWalk | Self::Selected | Self::Handed | Self::Drifting => false,
                 Self::PolarWalk => of_velocity && term.order() == 2,
                 Self::Speed => of_velocity && term.degree(0) == 3,
                 Self::TwoModes => among(2),
@@ -77,8 +80,8 @@ impl Model {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
     /// The model.
-    pub model: Model,
-    /// Coefficients; of selected terms the median over the fits.
+    pub model: LadderModel,
+    /// Coefficients, velocities of the stage among them; of selected terms the median over the fits.
     pub coefficients: usize,
     /// Log-likelihood per frame above that of the first model; `None` where a filter diverges on frames that its fit did not see.
     pub gain: Option<f64>,
@@ -155,20 +158,22 @@ impl Ladder {
 /// Source: Stone (1974), J. R. Stat. Soc. B 36, 111; blocks of records: Burman, Chow and Nolan (1994), Biometrika 81, 351.
 ///
 /// # Errors    of the input; [`Error::TooShort`] for tracks whose blocks are too short to be fitted; [`Error::Interrupted`]
-/// # Checked by  `tests/all/ladder.rs`: walks, chaos of three modes, handed chaos, short records
+/// # Checked by  `tests/all/ladder.rs`: walks, chaos of three modes, handed chaos, a drift of the stage, short records
 pub fn ladder(tracks: &[Track], whole: &Fit, watch: &dyn Watch) -> Result<Ladder> {
     observation::check(tracks, whole.library.modes)?;
     let least = BLOCKS * LEAST_FRAMES;
     if let Some((cell, track)) = tracks.iter().enumerate().find(|(_, track)| track.0.len() < least) {
         return Err(Error::TooShort { cell, frames: track.0.len(), least });
     }
-    let models = Model::all(whole.library.modes);
+    let models = LadderModel::all(whole.library.modes);
     let mut found: Vec<Vec<Block>> = vec![Vec::new(); models.len()];
     for number in 0..BLOCKS {
-        let (seen, left_out) = parted(tracks, number);
-        let all = refit_with(&seen, whole, &every(whole), watch)?;
+        let parts = Parts::of(tracks, number);
+        let all = refit_with(&parts.seen, whole, &every(whole), watch)?;
+        let best = subsets(&all).best().map(|set| set.kept.clone()).unwrap_or_default();
+        let selected = refit_with(&parts.seen, &all, &best, watch)?;
         for (model, blocks) in models.iter().zip(&mut found) {
-            blocks.push(Block::of(&left_out, &fitted(*model, &seen, &all, watch)?));
+            blocks.push(parts.judged(*model, [&all, &selected], watch)?);
         }
     }
     Ok(compared(&models, &found))
@@ -193,47 +198,81 @@ impl Block {
     }
 }
 
-/// All tracks without their block of this number, and these blocks. Pieces that are too short for a fit are in neither.
-fn parted(tracks: &[Track], number: usize) -> (Vec<Track>, Vec<Track>) {
-    let (mut seen, mut left_out) = (Vec::new(), Vec::new());
-    for Track(frames) in tracks {
-        let [from, to] = [number, number + 1].map(|k| k * frames.len() / BLOCKS);
-        let pieces = [&frames[..from], &frames[to..]].map(|piece| Track(piece.to_vec()));
-        seen.extend(pieces.into_iter().filter(|piece| piece.0.len() >= LEAST_FRAMES));
-        left_out.push(Track(frames[from..to].to_vec()));
+/// Tracks without one of their blocks, and these blocks.
+struct Parts {
+    /// Pieces that are fitted; those that are too short for a fit are left out.
+    seen: Vec<Track>,
+    /// The track of each piece.
+    of: Vec<usize>,
+    /// The block of each track.
+    left_out: Vec<Track>,
+}
+
+impl Parts {
+    fn of(tracks: &[Track], number: usize) -> Self {
+        let mut parts = Self { seen: Vec::new(), of: Vec::new(), left_out: Vec::new() };
+        for (track, Track(frames)) in tracks.iter().enumerate() {
+            let [from, to] = [number, number + 1].map(|k| k * frames.len() / BLOCKS);
+            for piece in
+                [&frames[..from], &frames[to..]].into_iter().filter(|piece| piece.len() >= LEAST_FRAMES)
+            {
+                parts.seen.push(Track(piece.to_vec()));
+                parts.of.push(track);
+            }
+            parts.left_out.push(Track(frames[from..to].to_vec()));
+        }
+        parts
     }
-    (seen, left_out)
+
+    /// The prediction of the blocks by a model that is fitted to the rest; `all` and `selected` are the fits of all terms, and of those
+    /// that the rest asks for.
+    fn judged(&self, model: LadderModel, [all, selected]: [&Fit; 2], watch: &dyn Watch) -> Result<Block> {
+        match model {
+            LadderModel::Selected => Ok(Block::of(&self.left_out, selected)),
+            LadderModel::Handed => {
+                let settings =
+                    Settings { library: selected.library.clone(), handed: true, starts: Vec::new() };
+                let Theta { mut coefficients, logs } = selected.theta();
+                coefficients.resize(2 * coefficients.len(), 0.0);
+                let start = Theta { coefficients, logs };
+                Ok(Block::of(&self.left_out, &refit(&self.seen, &settings, &selected.scales, &start, watch)?))
+            }
+            LadderModel::Drifting => self.drifting(selected, watch),
+            _ => {
+                let has = |&i: &usize| model.has(&all.coefficients[i].term);
+                let kept: Vec<usize> = every(all).into_iter().filter(has).collect();
+                Ok(Block::of(&self.left_out, &refit_with(&self.seen, all, &kept, watch)?))
+            }
+        }
+    }
+
+    /// With the velocity of the stage that the rest of each track has: the mean over its pieces, by their frames.
+    fn drifting(&self, selected: &Fit, watch: &dyn Watch) -> Result<Block> {
+        let found = with_stage(&self.seen, selected, watch)?;
+        let pieces = || self.of.iter().zip(&self.seen).zip(&found.velocities);
+        let still = |(number, track): (usize, &Track)| {
+            let own = || pieces().filter(|((of, _), _)| **of == number);
+            let frames = own().map(|((_, piece), _)| piece.0.len()).sum::<usize>().max(1) as f64;
+            let mean =
+                |k: usize| own().map(|((_, piece), v)| piece.0.len() as f64 * v[k]).sum::<f64>() / frames;
+            track.without_velocity([mean(0), mean(1)])
+        };
+        let left_out: Vec<Track> = self.left_out.iter().enumerate().map(still).collect();
+        let block = Block::of(&left_out, &found.fit);
+        Ok(Block { coefficients: block.coefficients + 2 * left_out.len(), ..block })
+    }
 }
 
 fn every(fit: &Fit) -> Vec<usize> {
     (0..fit.coefficients.len()).collect()
 }
 
-/// The fit of a model to these frames, of which `all` is the fit of all terms.
-fn fitted(model: Model, seen: &[Track], all: &Fit, watch: &dyn Watch) -> Result<Fit> {
-    let best = || subsets(all).best().map(|set| set.kept.clone()).unwrap_or_default();
-    match model {
-        Model::Selected => refit_with(seen, all, &best(), watch),
-        Model::Handed => {
-            let real = refit_with(seen, all, &best(), watch)?;
-            let settings = Settings { library: real.library.clone(), handed: true, starts: Vec::new() };
-            let Theta { mut coefficients, logs } = real.theta();
-            coefficients.resize(2 * coefficients.len(), 0.0);
-            refit(seen, &settings, &real.scales, &Theta { coefficients, logs }, watch)
-        }
-        _ => {
-            let has = |&i: &usize| model.has(&all.coefficients[i].term);
-            refit_with(seen, all, &every(all).into_iter().filter(has).collect::<Vec<_>>(), watch)
-        }
-    }
-}
-
-fn compared(models: &[Model], found: &[Vec<Block>]) -> Ladder {
+fn compared(models: &[LadderModel], found: &[Vec<Block>]) -> Ladder {
     let sum = |blocks: &[Block]| blocks.iter().map(|block| block.value).sum::<f64>();
     let frames: usize = found[0].iter().map(|block| block.frames).sum();
     let first = sum(&found[0]);
     let best = found.iter().max_by(|a, b| sum(a).total_cmp(&sum(b))).unwrap_or(&found[0]);
-    let rung = |(model, blocks): (&Model, &Vec<Block>)| {
+    let rung = |(model, blocks): (&LadderModel, &Vec<Block>)| {
         let total = sum(blocks);
         let known = |value: f64| value.is_finite().then_some(value);
         let mut coefficients: Vec<usize> = blocks.iter().map(|block| block.coefficients).collect();

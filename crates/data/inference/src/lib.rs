@@ -41,11 +41,11 @@ pub use fit::{
     Coefficient, Ending, Estimate, Fit, Likelihood, Natural, Noise, Parameters, Settings, fit, fit_from,
     likelihood,
 };
-pub use handed::{DOUBTED_RATE, HANDED_RATE, Handedness, SEEN, Symmetry, handedness};
+pub use handed::{COLOURED, DOUBTED_RATE, HANDED_RATE, Handedness, SEEN, Symmetry, handedness};
 pub use identifiability::{
     Combination, EquationKnowledge, FIXED, FREE, Identifiability, Knowledge, identifiability,
 };
-pub use ladder::{BLOCKS, Ladder, Model, Rung, ladder};
+pub use ladder::{BLOCKS, Ladder, LadderModel, Rung, ladder};
 pub use library::{Library, MOST_MODES, Term};
 pub use names::paper;
 pub use null::{WALK_RATE, walk_p_value};
@@ -53,7 +53,9 @@ pub use observation::{LEAST_FRAMES, Observation, Track};
 pub use place::{Coordinate, Place, Placement, Plane, coordinates, place, place_among};
 pub use scales::Scales;
 pub use stage::{Beside, StageVelocity, WithStage, handed_beside, stage_velocities, with_stage};
-pub use subsets::{Averaged, Selection, Subset, Subsets, TIE, averaged, refit_with, select, subsets};
+pub use subsets::{
+    Averaged, Selection, Subset, Subsets, TIE, averaged, refit_tied, refit_with, select, subsets,
+};
 pub use walk::{Bounded, Fix, PersistentWalk, persistent_walk, walk_likelihood};
 pub use warnings::{
     COARSE, Channel, Drift, DriftPoint, Stretch, Warning, drift, fastest_rate, warnings, whiteness,

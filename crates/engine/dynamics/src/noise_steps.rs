@@ -8,9 +8,10 @@ use crate::noise::{Diffusion, Noise, Normal};
 struct Kick {
     eta: f64,
     rate: f64,
-    /// Standard deviations of K (and K'), and of `e^{lambda h} K + K'`.
+    /// Standard deviations of K (and K'), and of `e^{lambda h} K + K'`; the variance of the noise over a step by the latter.
     kick: f64,
     whole: f64,
+    past: f64,
     /// `e^{lambda h}`.
     growth: f64,
     /// The present K, the present X(h), and the deviate of the bridge.
@@ -29,8 +30,10 @@ impl Kick {
     fn new(eta: f64, rate: f64, h: f64) -> Self {
         let growth = libm::exp(rate * h);
         let kick = if rate == 0.0 { 0.5 * h } else { 0.5 * libm::tanh(rate * h) / rate };
-        let (kick, whole) = (eta * kick.sqrt(), variance(eta, rate, h).sqrt());
-        Self { eta, rate, kick, whole, growth, early: 0.0, total: 0.0, bridge: 0.0 }
+        let variance = variance(eta, rate, h);
+        let (kick, whole) = (eta * kick.sqrt(), variance.sqrt());
+        let past = if whole > 0.0 { variance / whole } else { 0.0 };
+        Self { eta, rate, kick, whole, past, growth, early: 0.0, total: 0.0, bridge: 0.0 }
     }
 
     /// The kicks of a new step.
@@ -45,6 +48,10 @@ impl Kick {
     fn beside_the_flow(&self, t: f64, h: f64) -> f64 {
         if self.whole == 0.0 {
             return 0.0;
+        }
+        if t == h {
+            // what follows, without its exponentials: nothing of the bridge is left
+            return self.past * (self.total / self.whole) - self.growth * self.early;
         }
         let (past, rest) = (variance(self.eta, self.rate, t), variance(self.eta, self.rate, h - t));
         let mean = libm::exp(self.rate * (h - t)) * past / self.whole * (self.total / self.whole);

@@ -1,14 +1,12 @@
 //! The share of a cell's motion that its equations make without their noise.
 
-use crate::natural::{model, noise};
+use crate::natural::{STEP, model, noise};
 use motiform_dynamics::order::ascending;
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Orbit, StepControl};
 use motiform_inference::Fit;
 use serde::{Deserialize, Serialize};
 
-/// Step of the noise, in natural times.
-pub(crate) const STEP: f64 = 0.125;
 /// Time that is looked at, in natural times; the first half is left to transients.
 const TIME: f64 = 100.0;
 /// A speed larger than this, in natural units, has left all bounds.

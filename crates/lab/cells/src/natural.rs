@@ -4,6 +4,9 @@ use motiform_dynamics::{Model, Noise};
 use motiform_inference::{Fit, equations};
 use motiform_models::amplitudes::info;
 
+/// Longest step of the noise, in natural times.
+pub(crate) const STEP: f64 = 0.125;
+
 /// The equations with these coefficients in natural units. The names of the model are kept once per set of terms: its values are given
 /// apart.
 pub(crate) fn model(fit: &Fit, coefficients: &[f64]) -> Option<Box<dyn Model>> {

@@ -17,6 +17,7 @@ pub use statistics::{Axis, Kind, Statistic};
 use motiform_dynamics::Watch;
 use motiform_inference::{Fit, Track, draws};
 use serde::{Deserialize, Serialize};
+use simulated::Simulator;
 
 /// Simulated cells that are kept for drawing.
 const SHOWN: usize = 3;
@@ -114,12 +115,12 @@ pub fn predict(track: &Track, fit: &Fit, companions: Companions, watch: &dyn Wat
     let asked = statistics::Asked::of(&observed, track);
     let mut found = Vec::new();
     let (mut shown, mut lost) = (Vec::new(), 0);
+    let simulator = Simulator::new(fit, (track, &observed), companions.seed);
     for (number, drawn) in draws(fit, companions.count, companions.seed).into_iter().enumerate() {
         if watch.stopped() {
             return None;
         }
-        let seen = (track, &observed);
-        match simulated::simulated(fit, &drawn, seen, (companions.seed, number as u64 + 1)) {
+        match simulator.record(&drawn, number as u64 + 1) {
             Some(record) => {
                 found.push(asked.all(&record));
                 if shown.len() < SHOWN {

@@ -1,33 +1,27 @@
 //! The motion of the models that the data allow.
 
+mod allowed;
+
 use crate::driven::{Driven, driven_share};
 use crate::settled::{settles, time_left};
 use crate::{Result, start};
+use allowed::{drawn, ends, sets};
 use motiform_analysis::regime::Regime;
-use motiform_dynamics::{StopOnly, Watch};
-use motiform_inference::{
-    Fit, MOST_MODES, Selection, Subset, Track, draws, equations, fastest_rate, refit_with,
-};
-use motiform_lab::analyse;
+use motiform_dynamics::Watch;
+use motiform_inference::{Fit, Library, MOST_MODES, Selection, Track, equations, fastest_rate};
 use motiform_models::amplitudes::info;
-use motiform_study::{RunPlan, Study};
+use motiform_study::Study;
 use serde::{Deserialize, Serialize};
 
 /// A motion is named if this share of the models has it.
 pub const LEAST_SHARE: f64 = 0.9;
 
-/// Sets of terms with less weight than this, relative to the best, have no draws.
-const LEAST_WEIGHT: f64 = 0.05;
-/// Most steps of the integration for one model: some draws are so stiff that their motion would take minutes. They count as undetermined.
-const MOST_STEPS: u64 = 1_000_000;
 /// Models of which the share of their motion without noise is computed, at most.
 const MOST_SHARES: usize = 20;
 /// Fewest e-foldings of a linear rate in a record.
 const LEAST_FOLDINGS: f64 = 3.0;
 /// Largest sampling interval times fastest rate at which coefficients of a cell that noise moves have intervals.
 const CARRIED_COARSELY: f64 = 1.0;
-/// Most sets of terms that have draws.
-const MOST_SETS: usize = 20;
 
 /// The motions of draws from the estimate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -115,25 +109,22 @@ pub fn regime_of(
     watch: &dyn Watch,
 ) -> Result<FittedRegime> {
     let start = start::observed(tracks, &selection.fit.scales).unwrap_or_default();
-    let best = classify(&selection.fit, (&selection.fit.natural.coefficients, &start), watch)?;
     let left = time_left(tracks, &selection.fit);
+    let sets = sets(tracks, whole, selection, watch)?;
+    let drawn = drawn(&sets, count, seed);
+    let (best, ends) = ends((whole, &sets), &drawn, &start, watch)?;
     let mut counts: Vec<(Regime, usize)> = Vec::new();
     let mut shares = Vec::new();
-    for (number, (fit, share)) in sets(tracks, whole, selection, watch)?.into_iter().enumerate() {
-        let here = ((share * count as f64).round() as usize).max(1);
-        for (place, drawn) in draws(&fit, here, seed.wrapping_add(number as u64)).into_iter().enumerate() {
-            let units = fit.coefficients.iter().map(|c| fit.scales.coefficient(&c.term));
-            let values: Vec<f64> = drawn.iter().zip(units).map(|(value, unit)| value / unit).collect();
-            let regime =
-                shown(classify(&fit, (&values, &start), watch)?, || settles(&fit, (&values, &start), left));
-            // every second or later one, so that all sets have their part
-            if place % count.div_ceil(MOST_SHARES).max(1) == 0 {
-                shares.extend(driven_share(&fit, (&values, &start), seed.wrapping_add(shares.len() as u64)));
-            }
-            match counts.iter_mut().find(|entry| entry.0 == regime) {
-                Some(entry) => entry.1 += 1,
-                None => counts.push((regime, 1)),
-            }
+    for (one, end) in drawn.iter().zip(ends) {
+        let at = (one.values.as_slice(), start.as_slice());
+        let regime = shown(end, || settles(one.fit, at, left));
+        // every second or later one, so that all sets have their part
+        if one.place % count.div_ceil(MOST_SHARES).max(1) == 0 {
+            shares.extend(driven_share(one.fit, at, seed.wrapping_add(shares.len() as u64)));
+        }
+        match counts.iter_mut().find(|entry| entry.0 == regime) {
+            Some(entry) => entry.1 += 1,
+            None => counts.push((regime, 1)),
         }
     }
     counts.sort_by_key(|entry| std::cmp::Reverse(entry.1));
@@ -181,34 +172,17 @@ fn is_coarse(tracks: &[Track], fit: &Fit) -> bool {
     fastest_rate(tracks, fit) * interval > CARRIED_COARSELY
 }
 
-/// The models of the sets that the data do not tell apart, with their shares of the weight.
-fn sets(tracks: &[Track], whole: &Fit, selection: &Selection, watch: &dyn Watch) -> Result<Vec<(Fit, f64)>> {
-    let weight = |set: &Subset| libm::exp(-0.5 * set.excess);
-    let ties: Vec<&Subset> =
-        selection.subsets.ties.iter().filter(|set| weight(set) >= LEAST_WEIGHT).take(MOST_SETS).collect();
-    if whole.handed != selection.fit.handed || ties.len() < 2 {
-        return Ok(vec![(selection.fit.clone(), 1.0)]);
-    }
-    let all: f64 = ties.iter().map(|set| weight(set)).sum();
-    let fit = |(number, set): (usize, &&Subset)| {
-        let first = number == 0;
-        if first { Ok(selection.fit.clone()) } else { refit_with(tracks, whole, &set.kept, watch) }
-    };
-    let with_share = |one: (usize, &&Subset)| Ok((fit(one)?, weight(one.1) / all));
-    ties.iter().enumerate().map(with_share).collect()
-}
-
 /// A study of the equations with these coefficients in natural units, in which every number is of order 1. The names of a model are
 /// kept as long as the process: they are those of the set of terms, and the values are given apart. It begins at these coordinates of
 /// the model.
 pub(crate) fn natural_study(
-    fit: &Fit,
+    (library, handed): (&Library, bool),
     (values, start): (&[f64], &[f64]),
 ) -> std::result::Result<Study, motiform_study::Error> {
-    let names = info(&equations(&fit.library, fit.handed, &[]))
+    let names = info(&equations(library, handed, &[]))
         .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() })?;
     let mut study = Study::of_model(names);
-    for parameter in equations(&fit.library, fit.handed, values).parameters {
+    for parameter in equations(library, handed, values).parameters {
         study.set(&parameter.name, parameter.default)?;
     }
     begin(&mut study, start.iter().copied())?;
@@ -226,13 +200,4 @@ pub(crate) fn begin(
         study.set_initial(name, value)?;
     }
     Ok(())
-}
-
-fn classify(fit: &Fit, at: (&[f64], &[f64]), watch: &dyn Watch) -> Result<Regime> {
-    let mut study = natural_study(fit, at)?;
-    study.run.max_steps = MOST_STEPS;
-    let plan = RunPlan::new(&study)?;
-    let verdict =
-        analyse::classify(&plan, 0.0, &StopOnly(watch))?.ok_or(motiform_study::Error::Interrupted)?;
-    Ok(verdict.regime)
 }

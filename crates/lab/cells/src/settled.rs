@@ -1,7 +1,7 @@
 //! Steady motions that a record is long enough to show.
 
-use crate::driven::{STEP, states, without};
-use crate::natural::{model, noise};
+use crate::driven::{states, without};
+use crate::natural::{STEP, model, noise};
 use motiform_dynamics::Normal;
 use motiform_inference::{Fit, Track};
 

@@ -13,6 +13,7 @@ pub mod given;
 pub mod lifetimes;
 pub mod live;
 pub mod long;
+pub mod many;
 pub mod naming;
 pub mod noisy;
 pub mod pool;

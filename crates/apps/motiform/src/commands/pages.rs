@@ -2,7 +2,7 @@
 
 use crate::output::warn;
 use crate::progress::Progress;
-use motiform_cells::report::{Case, Maps, Sink, pages, planes};
+use motiform_cells::report::{Case, Sink, pages};
 use motiform_cells::{CellFit, CellTrack, Observation, Sample};
 use motiform_dynamics::Watch;
 use motiform_lab::draw::FigureFormat;
@@ -32,8 +32,7 @@ pub(crate) fn draw(
     if watch.stopped() {
         return Ok(false);
     }
-    let made = Maps::compute(&planes(fits), threads, &watch)
-        .and_then(|maps| pages(sample, (&cases, common), (&maps, format), (threads, &watch), write));
+    let made = pages(sample, (&cases, common), (threads, format), &watch, write);
     watch.finish();
     match made {
         Ok(true) => Ok(true),

@@ -1,7 +1,8 @@
 //! All derivatives, in blocks of as many parameters as a vector register has lanes.
 
-use super::base::{Correction, Stage, State};
+use super::base::{Stage, State};
 use super::correct::{self, marks_of};
+use super::correction::Correction;
 use super::evaluate::Want;
 use super::problem::{NOISES, Problem};
 use super::seen;

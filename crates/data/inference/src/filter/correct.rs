@@ -9,7 +9,7 @@
 //! expected information of two parameters: e . e' + tr(G G')/2
 //! ```
 
-use super::base::Correction;
+use super::correction::Correction;
 use super::seen;
 use super::tangent::Tangent;
 use motiform_dynamics::Bundle;

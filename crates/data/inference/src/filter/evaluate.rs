@@ -1,8 +1,9 @@
 //! The likelihood of all frames, and what it says about the parameters.
 
 use super::LONGEST_STEP;
-use super::base::{self, Correction, ErrorsOfFrames, Law, Seen, Stage, State};
+use super::base::{self, ErrorsOfFrames, Law, Seen, Stage, State};
 use super::blocks::Blocks;
+use super::correction::{self, Correction};
 use super::problem::{Frame, Problem, Theta};
 use super::sums::Sums;
 use motiform_dynamics::simd::{self, LaneKernel, run_lanes};
@@ -163,7 +164,8 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
                     self.vaguest = (state.p[i][i], frames[pair + 1].t);
                 }
             }
-            let Some(correction) = base::correct(&mut state, &Seen::of(&frames[pair + 1]), self.noise) else {
+            let Some(correction) = correction::correct(&mut state, &Seen::of(&frames[pair + 1]), self.noise)
+            else {
                 return false;
             };
             self.take(&correction);

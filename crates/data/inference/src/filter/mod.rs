@@ -25,6 +25,7 @@
 mod base;
 mod blocks;
 mod correct;
+mod correction;
 mod evaluate;
 mod problem;
 mod sums;

@@ -114,28 +114,28 @@ fn products<B: Bundle, const SHAPE: usize, const STATE: usize, const DEPTH: u8>(
 ) -> Products<B, SHAPE, STATE> {
     let mut products = [[B::splat(0.0); STATE]; SHAPE];
     for i in 0..SHAPE {
+        let mut row = [B::splat(0.0); STATE]; // in registers
         for k in 0..SHAPE {
             let a = B::splat(stage.values.jacobian[i][k]);
             for j in 0..STATE {
-                products[i][j] += a * at.between(k + 2, j);
+                row[j] += a * at.between(k + 2, j);
             }
             if DEPTH == depth::ALL {
                 let dm = at.m[k + 2];
                 for j in 0..STATE {
-                    products[i][j] += dm * B::splat(stage.curved[i][k][j]);
+                    row[j] += dm * B::splat(stage.curved[i][k][j]);
                 }
             }
         }
-    }
-    if DEPTH == depth::ALL {
-        for i in forcing.rows[0]..forcing.rows[1] {
+        if DEPTH == depth::ALL && (forcing.rows[0]..forcing.rows[1]).contains(&i) {
             for k in 0..SHAPE {
                 let da = B::load(&forcing.values[(SHAPE + i * SHAPE + k) * B::LANES..]);
                 for j in 0..STATE {
-                    products[i][j] += da * B::splat(stage.p[k + 2][j]);
+                    row[j] += da * B::splat(stage.p[k + 2][j]);
                 }
             }
         }
+        products[i] = row;
     }
     products
 }

@@ -23,7 +23,7 @@ use nalgebra::{DMatrix, DVector};
 /// Predicted gain of log-likelihood below which a fit has converged: 0.02 standard errors.
 const CONVERGED: f64 = 2e-4;
 /// Most evaluations.
-const MOST: usize = 200;
+pub(crate) const MOST: usize = 200;
 /// Most steps of the integration in all of them, or so many for each frame if that is more. Cells that follow
 /// the equations need 2 to 100 for each frame and real ones up to 1700; equations that blow up between
 /// frames, which have no maximum, take 16 times the steps of others.
@@ -85,6 +85,9 @@ struct Climb<'a> {
     steps: usize,
     /// Natural unit of time.
     time: f64,
+    /// Predicted gain of log-likelihood below which it ends, and the most evaluations.
+    enough: f64,
+    most: usize,
 }
 
 fn difference(to: &Theta, from: &Theta) -> DVector<f64> {
@@ -132,7 +135,7 @@ impl Climb<'_> {
     /// information alone.
     fn arrived(&self, model: &Model, free: &[usize]) -> bool {
         let expected = Correction(DMatrix::zeros(self.at.gradient.len(), self.at.gradient.len()));
-        let promise = |model: Option<f64>| model.is_some_and(|gain| gain < CONVERGED);
+        let promise = |model: Option<f64>| model.is_some_and(|gain| gain < self.enough);
         promise(model.promise()) && promise(expected.model(&self.at, free).and_then(|model| model.promise()))
     }
 
@@ -153,8 +156,8 @@ impl Climb<'_> {
             if watch.stopped() {
                 return stopped("interrupted");
             }
-            if self.evaluations >= MOST {
-                return stopped(&self.why(&format!("{MOST} evaluations were not enough")));
+            if self.evaluations >= self.most {
+                return stopped(&self.why(&format!("{} evaluations were not enough", self.most)));
             }
             if self.steps >= self.most_steps() {
                 return stopped(&self.why(&format!("{} steps of the filter were not enough", self.steps)));
@@ -203,6 +206,17 @@ impl Climb<'_> {
 
 /// To the maximum with exact derivatives; `time` is the natural unit of time.
 pub(crate) fn polish(problem: &Problem, theta: &Theta, time: f64, watch: &dyn Watch) -> Point {
+    polish_within(problem, theta, time, (CONVERGED, MOST), watch)
+}
+
+/// As [`polish`], until the model promises a gain of log-likelihood below `enough`, by at most `most` evaluations.
+pub(crate) fn polish_within(
+    problem: &Problem,
+    theta: &Theta,
+    time: f64,
+    (enough, most): (f64, usize),
+    watch: &dyn Watch,
+) -> Point {
     let n = problem.len();
     let mut climb = Climb {
         problem,
@@ -213,6 +227,8 @@ pub(crate) fn polish(problem: &Problem, theta: &Theta, time: f64, watch: &dyn Wa
         evaluations: 1,
         steps: 0,
         time,
+        enough,
+        most,
     };
     let ending = climb.run(watch);
     Point { theta: climb.theta, evaluation: climb.at, ending }

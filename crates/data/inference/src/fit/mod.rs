@@ -14,14 +14,17 @@ pub use result::{Coefficient, Estimate, Fit, Natural, Noise};
 
 use crate::filter::{NO_CENTRE_NOISE, Problem, Theta};
 use crate::{Error, Library, Result, Scales, Track};
-use ascend::polish;
+pub(crate) use ascend::MOST;
+use ascend::{polish, polish_within};
 use motiform_dynamics::Watch;
-use optimise::{Point, climb, roughly};
+use optimise::{Point, climb, prior, roughly};
 use serde::{Deserialize, Serialize};
 pub(crate) use setup::{check_library, problem};
 
 /// From this many frames on, starts are compared on a half of them.
 const LONG: usize = 400;
+/// Most first steps of a search whose end may not be needed.
+const MOST_ROUGH: usize = 16;
 
 /// The settings of a fit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -93,6 +96,42 @@ pub(crate) fn refit(
         rough = roughly(&problem, &zero(&problem, 0.4), watch);
     }
     finished(&problem, settings, scales, &polish(&problem, &rough.theta, scales.time, watch), watch)
+}
+
+/// As [`refit`], by exact steps alone, at most `most`, and only until they promise less than `enough` log-likelihood: used where the
+/// start is that of a neighbour whose estimates are near.
+pub(crate) fn refit_within(
+    tracks: &[Track],
+    settings: &Settings,
+    scales: &Scales,
+    start: &Theta,
+    (enough, most): (f64, usize),
+    watch: &dyn Watch,
+) -> Result<Fit> {
+    let problem = problem(tracks, settings, scales);
+    let point = polish_within(&problem, start, scales.time, (enough, most), watch);
+    if !point.evaluation.value.is_finite() {
+        return refit(tracks, settings, scales, start, watch);
+    }
+    finished(&problem, settings, scales, &point, watch)
+}
+
+/// First steps from given natural values, until they promise less than `enough` log-likelihood: where they end, and the log-likelihood
+/// there, if they end by themselves.
+pub(crate) fn reached(
+    tracks: &[Track],
+    settings: &Settings,
+    scales: &Scales,
+    (start, enough): (&Theta, f64),
+    watch: &dyn Watch,
+) -> Result<(Theta, Option<f64>)> {
+    let problem = problem(tracks, settings, scales);
+    let Point { theta, evaluation, ending } = climb(&problem, start, (enough, MOST_ROUGH), watch);
+    if watch.stopped() {
+        return Err(Error::Interrupted);
+    }
+    let value = evaluation.value + prior(&theta) + problem.frames() as f64 * scales.log_density();
+    Ok((theta, matches!(ending, Ending::Converged { .. }).then_some(value)))
 }
 
 /// The fit at this point, unless the watch stopped the search before.

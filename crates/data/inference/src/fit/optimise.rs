@@ -138,10 +138,12 @@ pub(crate) fn climb(
     let want = Want::Rough;
     let mut evaluation = objective(problem, theta, want);
     let (mut theta, mut damping, mut evaluations) = (theta.clone(), 1e-3, 1);
+    let mut ending = Ending::Stopped { reason: "after first steps".to_owned() };
     while evaluation.value.is_finite() && evaluations < most && damping < GIVEN_UP && !watch.stopped() {
         let held = held(&theta, &evaluation.gradient);
         let Some((step, gain)) = step(&evaluation, &held, damping) else { break };
         if gain < enough {
+            ending = Ending::Converged { evaluations };
             break;
         }
         let (next, trial) = advance(problem, want, (&theta, &evaluation), &step);
@@ -153,7 +155,7 @@ pub(crate) fn climb(
             damping = (10.0 * damping).max(1e-3);
         }
     }
-    Point { theta, evaluation, ending: Ending::Stopped { reason: "after first steps".to_owned() } }
+    Point { theta, evaluation, ending }
 }
 
 /// First steps from a start.

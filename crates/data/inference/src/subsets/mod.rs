@@ -14,7 +14,7 @@ mod mixture;
 mod search;
 
 use crate::filter::Theta;
-use crate::fit::refit;
+use crate::fit::{MOST, refit, refit_within};
 use crate::{Fit, Library, Result, Settings, Track, observation};
 pub use average::{Averaged, averaged};
 pub(crate) use conditional::Conditional;
@@ -29,6 +29,8 @@ pub const TIE: f64 = 6.0;
 const MOST_COMBINED: usize = 30;
 /// Most joint sets that are reported.
 const MOST_TIES: usize = 1000;
+/// Promised gain of log-likelihood at which the fit of a tied set ends.
+const NEAR: f64 = 0.05;
 
 /// A set of coefficients.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -192,11 +194,29 @@ pub fn select(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Selectio
 ///
 /// # Errors    [`crate::Error::Interrupted`] where the watch stops it
 pub fn refit_with(tracks: &[Track], fit: &Fit, kept: &[usize], watch: &dyn Watch) -> Result<Fit> {
+    match reduced(fit, kept) {
+        Some((settings, start)) => refit(tracks, &settings, &fit.scales, &start, watch),
+        None => Ok(fit.clone()),
+    }
+}
+
+/// As [`refit_with`], for sets that the data do not tell from the best one: to 0.3 standard errors, less than the data know of them.
+///
+/// # Errors    as [`refit_with`]
+pub fn refit_tied(tracks: &[Track], fit: &Fit, kept: &[usize], watch: &dyn Watch) -> Result<Fit> {
+    match reduced(fit, kept) {
+        Some((settings, start)) => refit_within(tracks, &settings, &fit.scales, &start, (NEAR, MOST), watch),
+        None => Ok(fit.clone()),
+    }
+}
+
+/// The settings of a fit of these coefficients alone, and where the others leave them when set to 0; `None` without any coefficient.
+pub(crate) fn reduced(fit: &Fit, kept: &[usize]) -> Option<(Settings, Theta)> {
     let terms = fit.library.terms.len();
     let stays = |term: usize| kept.iter().any(|&i| i % terms == term);
     let stays: Vec<bool> = (0..terms).map(stays).collect();
     if !stays.contains(&true) {
-        return Ok(fit.clone());
+        return None;
     }
     let mut rest = Conditional::new(&fit.natural.coefficients, fit.covariance());
     for i in (0..fit.coefficients.len()).filter(|&i| !stays[i % terms]) {
@@ -208,5 +228,5 @@ pub fn refit_with(tracks: &[Track], fit: &Fit, kept: &[usize], watch: &dyn Watch
     let library =
         Library { modes: fit.library.modes, terms: kept_terms.map(|(term, _)| term.clone()).collect() };
     let settings = Settings { library, handed: fit.handed, starts: Vec::new() };
-    refit(tracks, &settings, &fit.scales, &Theta { coefficients, logs: fit.natural.logs }, watch)
+    Some((settings, Theta { coefficients, logs: fit.natural.logs }))
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{Equations, Experiment, full};
 use motiform_dynamics::Complex;
-use motiform_inference::{Error, Ladder, Model, Rung, Settings, Track, fit, ladder};
+use motiform_inference::{Error, Ladder, LadderModel, Rung, Settings, Track, fit, ladder};
 
 fn of(tracks: &[Track]) -> Ladder {
     let whole = fit(tracks, &Settings::default(), &()).expect("a fit");
@@ -18,7 +18,7 @@ fn experiment(equations: Equations, eta: f64, frames: usize, seed: u64) -> Exper
     Experiment { frames, ..Experiment::new(equations, eta, seed) }
 }
 
-fn is_as_good(found: &Ladder, model: Model) -> bool {
+fn is_as_good(found: &Ladder, model: LadderModel) -> bool {
     found.rungs.iter().find(|rung| rung.model == model).is_some_and(Rung::is_as_good)
 }
 
@@ -29,8 +29,8 @@ fn a_walk_needs_no_more_than_a_walk() {
     let walk = vec![term(1, -0.1, &[1]), term(2, -0.5, &[2]), term(3, -0.7, &[3])];
     for seed in 910..913 {
         let found = of(&[experiment(walk.clone(), 0.2, 300, seed).track()]);
-        assert_eq!(found.simplest().map(|rung| rung.model), Some(Model::PassiveWalk));
-        let all = found.rungs.iter().find(|rung| rung.model == Model::ThreeModes).expect("a rung");
+        assert_eq!(found.simplest().map(|rung| rung.model), Some(LadderModel::PassiveWalk));
+        let all = found.rungs.iter().find(|rung| rung.model == LadderModel::ThreeModes).expect("a rung");
         assert!(all.gain.is_some_and(|gain| gain < 0.0), "{all:?}");
         assert_eq!((found.blocks, found.rungs[0].gain), (5, Some(0.0)));
     }
@@ -49,12 +49,13 @@ fn a_motion_of_three_modes_needs_them() {
             "{one:?} {other:?}"
         );
     }
-    assert_eq!(found.simplest().map(|rung| rung.model), Some(Model::Selected));
-    for model in [Model::PassiveWalk, Model::PolarWalk, Model::Speed, Model::TwoModes] {
+    assert_eq!(found.simplest().map(|rung| rung.model), Some(LadderModel::Selected));
+    for model in [LadderModel::PassiveWalk, LadderModel::PolarWalk, LadderModel::Speed, LadderModel::TwoModes]
+    {
         assert!(!is_as_good(&found, model), "{model:?}");
     }
     // their number over the fits is that of the law
-    let selected = found.rungs.iter().find(|rung| rung.model == Model::Selected).expect("a rung");
+    let selected = found.rungs.iter().find(|rung| rung.model == LadderModel::Selected).expect("a rung");
     assert!((8..=11).contains(&selected.coefficients), "{selected:?}");
 }
 
@@ -64,8 +65,19 @@ fn a_handed_motion_needs_complex_coefficients() {
     let mut handed = experiment(full(0.5, 0.1), 0.02, 400, 5);
     handed.equations[0].1 = Complex::new(1.0, 0.15);
     let found = of(&[handed.track()]);
-    assert_eq!(found.best().map(|rung| rung.model), Some(Model::Handed));
-    assert!(!is_as_good(&found, Model::Selected) && !is_as_good(&found, Model::ThreeModes));
+    assert_eq!(found.best().map(|rung| rung.model), Some(LadderModel::Handed));
+    assert!(!is_as_good(&found, LadderModel::Selected) && !is_as_good(&found, LadderModel::ThreeModes));
+}
+
+/// The same chaos on a stage that drifts by a tenth of the speed: laws that turn with the cell predict worse; without a drift they do not.
+#[test]
+fn a_stage_that_drifts_is_told_from_the_cell() {
+    let track = experiment(full(0.5, 0.1), 0.02, 400, 31).track();
+    let still = of(std::slice::from_ref(&track));
+    assert!(is_as_good(&still, LadderModel::Selected));
+    let found = of(&[track.without_velocity([-0.08, 0.04])]);
+    assert_eq!(found.best().map(|rung| rung.model), Some(LadderModel::Drifting));
+    assert!(!is_as_good(&found, LadderModel::Selected) && !is_as_good(&found, LadderModel::ThreeModes));
 }
 
 /// Two modes of a record that is seen: the ladder has no third one. Records that are too short to be cut are refused.
@@ -77,8 +89,11 @@ fn the_ladder_has_the_modes_of_the_fit_and_records_of_forty_frames() {
     let tracks = [track];
     let whole = fit(&tracks, &settings, &()).expect("a fit");
     let found = ladder(&tracks, &whole, &()).expect("a ladder");
-    let models: Vec<Model> = found.rungs.iter().map(|rung| rung.model).collect();
-    assert!(models.contains(&Model::TwoModes) && !models.contains(&Model::ThreeModes), "{models:?}");
+    let models: Vec<LadderModel> = found.rungs.iter().map(|rung| rung.model).collect();
+    assert!(
+        models.contains(&LadderModel::TwoModes) && !models.contains(&LadderModel::ThreeModes),
+        "{models:?}"
+    );
     let short = [Track(tracks[0].0[..39].to_vec())];
     assert!(matches!(ladder(&short, &whole, &()), Err(Error::TooShort { frames: 39, least: 40, .. })));
 }

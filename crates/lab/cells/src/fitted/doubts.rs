@@ -1,10 +1,7 @@
 //! Doubts that leave a fit without motion, place and symmetry.
 
 use crate::regime::FittedRegime;
-use motiform_inference::{HANDED_RATE, Handedness, Stretch, Symmetry, Track, Warning};
-
-/// Significance below which innovations that are not white leave a cell without motion and place.
-const COLOURED: f64 = 1e-6;
+use motiform_inference::{COLOURED, HANDED_RATE, Handedness, Stretch, Symmetry, Track, Warning};
 
 /// Serious warnings, and what speaks against the test of handedness; `beside`: its p-values beside a velocity of the stage, and in
 /// stretched images.

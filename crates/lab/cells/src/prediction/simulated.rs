@@ -1,58 +1,62 @@
 //! A cell simulated from a fit, seen as the observed one was.
 
 use super::record::Record;
-use crate::natural::{model, noise};
+use crate::natural::{STEP, model, noise};
 use crate::start::{coordinates, pair};
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{InPlane, Integration, Model, NoisyOrbit, Normal, Orbit, StepControl};
-use motiform_inference::{Fit, Observation, Scales, Track};
+use motiform_inference::{Coefficient, Fit, Observation, Scales, Track};
 
-/// Longest step of the noise, in natural times.
-const STEP: f64 = 1.0 / 16.0;
 /// A state larger than this, in natural units, has left all bounds.
 const BOUND: f64 = 30.0;
 
-/// The record of a cell by the equations with these coefficients (units of the data) and the fitted noise, from where the observed one
-/// starts within its errors, at its frames, with errors of its covariances times the fitted factor; `None` if it leaves all bounds.
-pub(super) fn simulated(
-    fit: &Fit,
-    coefficients: &[f64],
-    (track, observed): (&Track, &Record),
-    (seed, number): (u64, u64),
-) -> Option<Record> {
-    let units = Units(&fit.scales);
-    let natural: Vec<f64> = fit
-        .coefficients
-        .iter()
-        .zip(coefficients)
-        .map(|(c, value)| value / fit.scales.coefficient(&c.term))
-        .collect();
-    let model = model(fit, &natural)?;
-    let mut normal = Normal::new(seed, 2 * number);
-    let errors = Errors::of(track, observed, fit);
-    let mut state = start(model.as_ref(), track, &units, &errors, &mut normal)?;
-    let dt = observed.dt / units.0.time;
-    let steps = (dt / STEP).ceil().max(1.0);
-    let step = dt / steps;
-    let control = StepControl::Fixed { step };
-    let body = InPlane(model.as_ref());
-    let orbit = Orbit::new(&body, &RK4, control, 0.0, &state).ok()?;
-    let noise = noise(fit, model.as_ref(), step);
-    let mut orbit = NoisyOrbit::new(orbit, noise, Normal::new(seed, 2 * number + 1)).ok()?;
-    let mut frames = Vec::with_capacity(observed.frames.len());
-    for (place, wanted) in observed.mask().enumerate() {
-        let t = step * (place as f64 * steps); // as the orbit counts
-        while orbit.t() < t {
-            orbit.advance(t).ok()?;
-        }
-        state.copy_from_slice(orbit.state());
-        if state[..model.dim()].iter().any(|x| x.is_nan() || x.abs() > BOUND) {
-            return None;
-        }
-        let seen = errors.add(place, units.observed(model.as_ref(), &state), &mut normal);
-        frames.push(wanted.then_some(seen));
+/// Simulates cells by a fit, from where the observed one starts within its errors, at its frames.
+pub(super) struct Simulator<'a> {
+    fit: &'a Fit,
+    track: &'a Track,
+    observed: &'a Record,
+    errors: Errors,
+    seed: u64,
+}
+
+impl<'a> Simulator<'a> {
+    pub(super) fn new(fit: &'a Fit, (track, observed): (&'a Track, &'a Record), seed: u64) -> Self {
+        Self { fit, track, observed, errors: Errors::of(track, observed, fit), seed }
     }
-    Some(Record { dt: observed.dt, frames })
+
+    /// The record of cell `number` by the equations with these coefficients (units of the data) and the fitted noise, with errors of the
+    /// covariances of the frames times the fitted factor; `None` if it leaves all bounds.
+    pub(super) fn record(&self, coefficients: &[f64], number: u64) -> Option<Record> {
+        let Self { fit, track, observed, errors, seed } = self;
+        let units = Units(&fit.scales);
+        let unit = |c: &Coefficient| fit.scales.coefficient(&c.term);
+        let natural: Vec<f64> =
+            fit.coefficients.iter().zip(coefficients).map(|(c, value)| value / unit(c)).collect();
+        let model = model(fit, &natural)?;
+        let mut normal = Normal::new(*seed, 2 * number);
+        let mut state = start(model.as_ref(), track, &units, errors, &mut normal)?;
+        let dt = observed.dt / units.0.time;
+        let steps = (dt / STEP).ceil().max(1.0);
+        let step = dt / steps;
+        let body = InPlane(model.as_ref());
+        let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step }, 0.0, &state).ok()?;
+        let noise = noise(fit, model.as_ref(), step);
+        let mut orbit = NoisyOrbit::new(orbit, noise, Normal::new(*seed, 2 * number + 1)).ok()?;
+        let mut frames = Vec::with_capacity(observed.frames.len());
+        for (place, wanted) in observed.mask().enumerate() {
+            let t = step * (place as f64 * steps); // as the orbit counts
+            while orbit.t() < t {
+                orbit.advance(t).ok()?;
+            }
+            state.copy_from_slice(orbit.state());
+            if state[..model.dim()].iter().any(|x| x.is_nan() || x.abs() > BOUND) {
+                return None;
+            }
+            let seen = errors.add(place, units.observed(model.as_ref(), &state), &mut normal);
+            frames.push(wanted.then_some(seen));
+        }
+        Some(Record { dt: observed.dt, frames })
+    }
 }
 
 /// The state at the first frame: its modes, and the velocity over the first frames, moved by errors of the same size as theirs.

@@ -134,22 +134,25 @@ impl Asked {
             let parts = record.frames.iter().map(|y| y.as_ref().map(|y| part(y, at)));
             parts.collect::<Vec<_>>()
         };
+        let second = mode(2);
         let speeds: Vec<f64> = moves.0.iter().flatten().map(|v| libm::hypot(v[0], v[1])).collect();
         let mut all = vec![
             self.over_lags(Kind::Displacement, |lag| square(record, lag)),
             self.over_lags(Kind::Velocity, |lag| correlation(&moves.0, lag)),
-            self.over_lags(Kind::SecondMode, |lag| correlation(&mode(2), lag)),
-            self.alignment(&moves, &mode(2)),
+            self.over_lags(Kind::SecondMode, |lag| correlation(&second, lag)),
+            self.alignment(&moves, &second),
             quantiles(Kind::Speed, speeds),
             quantiles(Kind::Turning, moves.turns(self.step)),
             quantiles(Kind::SecondSize, shape(2)),
         ];
         if record.modes() > 2 {
-            all.push(self.over_lags(Kind::ThirdMode, |lag| correlation(&mode(4), lag)));
+            let third = mode(4);
+            all.push(self.over_lags(Kind::ThirdMode, |lag| correlation(&third, lag)));
             all.push(quantiles(Kind::ThirdSize, shape(4)));
         }
         if record.modes() > 3 {
-            all.push(self.over_lags(Kind::FourthMode, |lag| correlation(&mode(6), lag)));
+            let fourth = mode(6);
+            all.push(self.over_lags(Kind::FourthMode, |lag| correlation(&fourth, lag)));
             all.push(quantiles(Kind::FourthSize, shape(6)));
         }
         all

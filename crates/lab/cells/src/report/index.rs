@@ -141,7 +141,7 @@ fn places(cases: &[Case<'_>], setting: &Setting<'_>) -> Result<Option<Section>, 
             .iter()
             .filter_map(|case| Some((case.cell.name.as_str(), placed(fitted_of(case)?, number)?, None)))
             .collect();
-        let drawn = if all.is_empty() { None } else { map(&all, plane, setting.maps) };
+        let drawn = if all.is_empty() { None } else { map(&all, plane)? };
         if let Some(map) = drawn {
             figures.push(setting.figure(map, format!("The cells that have a place on the {name}."))?);
         }

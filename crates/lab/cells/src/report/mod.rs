@@ -1,8 +1,8 @@
 //! Tracked cells as HTML pages: `report.html` for the data set, and a page per cell with its outlines, its motion, the fitted
 //! equations, their place on the paper's planes, and simulated cells beside the observed one.
 //!
-//! Turns results of [`crate`] into pages and figures; computes nothing but the regimes beneath the places ([`Maps`]). Definitions on
-//! the pages are those of docs/cells.md, docs/statistics.md and docs/inference.md.
+//! Turns results of [`crate`] into pages and figures; computes nothing. Definitions on the pages are
+//! those of docs/cells.md, docs/statistics.md and docs/inference.md.
 
 mod checks;
 mod comparison;
@@ -20,13 +20,10 @@ mod summary;
 mod terms;
 mod words;
 
-pub use maps::Maps;
-
 use crate::{CellFit, CellTrack, Observation, Prediction, Sample, Units};
 use motiform_dynamics::Watch;
 use motiform_figures::Figure;
 use motiform_figures::report::{Picture, Report, ReportFigure};
-use motiform_inference::{Placement, Plane};
 use motiform_lab::draw::{FigureFormat, formats, sheet_in};
 use motiform_lab::pool;
 use motiform_study::Error;
@@ -64,8 +61,6 @@ const INDEX: &str = "report";
 pub(crate) struct Setting<'p> {
     /// Units as they are written on pages.
     pub units: Units,
-    /// Regimes beneath places.
-    pub maps: &'p Maps,
     /// The style of figures.
     pub format: &'p FigureFormat,
 }
@@ -110,11 +105,11 @@ pub type Sink<'w> = dyn Fn(&str, &[u8]) -> Result<(), Error> + Sync + 'w;
 pub fn pages(
     sample: &Sample,
     (cases, together): (&[Case<'_>], Option<&CellFit>),
-    (maps, format): (&Maps, &FigureFormat),
-    (threads, watch): (usize, &dyn Watch),
+    (threads, format): (usize, &FigureFormat),
+    watch: &dyn Watch,
     write: &Sink<'_>,
 ) -> Result<bool, Error> {
-    let setting = Setting { units: Units::of(sample).typeset(), maps, format };
+    let setting = Setting { units: Units::of(sample).typeset(), format };
     let names = crate::file_names(cases.iter().map(|case| case.cell.name.as_str()));
     let outlines: HashMap<&str, &Cell> =
         sample.tracks.cells.iter().map(|cell| (cell.name.as_str(), cell)).collect();
@@ -133,23 +128,6 @@ pub fn pages(
     }
     setting.write(INDEX, index::report(sample, (cases, together), &names, &setting)?, write)?;
     Ok(true)
-}
-
-/// The planes on which a cell has a place: those whose [`Maps`] are needed.
-#[must_use]
-pub fn planes(fits: &[CellFit]) -> Vec<Plane> {
-    let placed = |number: usize| {
-        let of = |fit: &CellFit| {
-            fit.fitted.as_ref().is_ok_and(|f| matches!(f.places[number], Placement::Placed(_)))
-        };
-        fits.iter().any(of)
-    };
-    place::PLANES
-        .into_iter()
-        .enumerate()
-        .filter(|(number, _)| placed(*number))
-        .map(|(_, plane)| plane.0)
-        .collect()
 }
 
 /// The page of a cell without its ending.

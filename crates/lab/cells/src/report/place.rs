@@ -1,8 +1,9 @@
 //! The place on the paper's planes.
 
 use crate::Fitted;
+use crate::report::Setting;
+use crate::report::maps::beneath;
 use crate::report::numbers::{estimate, plain};
-use crate::report::{Maps, Setting};
 use motiform_figures::report::{Cell, Section, Table};
 use motiform_figures::{MapPlace, PlaceMap, literal};
 use motiform_inference::{Coordinate, Place, Placement, Plane, coordinates, draws};
@@ -29,7 +30,7 @@ pub(crate) fn section(name: &str, fitted: &Fitted, setting: &Setting<'_>) -> Res
             }
             Placement::Placed(place) => {
                 section.tables.push(table(place, plane_name));
-                if let Some(map) = map(&[(name, place, Some(fitted))], plane, setting.maps) {
+                if let Some(map) = map(&[(name, place, Some(fitted))], plane)? {
                     let caption = format!(
                         "The cell on the {plane_name}. Beneath: motions of the tensor model on the paper's slice; what \
                          is off the slice is in the table, so the motion beneath need not be that of the cell."
@@ -43,15 +44,21 @@ pub(crate) fn section(name: &str, fitted: &Fitted, setting: &Setting<'_>) -> Res
 }
 
 /// Places on a plane; `None` without a diagram. Clouds are drawn where fits are given.
-pub(crate) fn map(places: &[(&str, &Place, Option<&Fitted>)], plane: Plane, maps: &Maps) -> Option<PlaceMap> {
-    let under = maps.of(plane)?.clone();
+///
+/// # Errors
+/// As [`beneath`].
+pub(crate) fn map(
+    places: &[(&str, &Place, Option<&Fitted>)],
+    plane: Plane,
+) -> Result<Option<PlaceMap>, Error> {
+    let Some(under) = beneath(plane)? else { return Ok(None) };
     let one = |(name, place, fitted): &(&str, &Place, Option<&Fitted>)| MapPlace {
         name: literal(name),
         at: [place.coordinates[0].estimate.value, place.coordinates[1].estimate.value],
         region: ellipse(place),
         cloud: fitted.map_or_else(Vec::new, |fitted| cloud(fitted, plane)),
     };
-    Some(PlaceMap {
+    Ok(Some(PlaceMap {
         x_label: under.x_label.clone(),
         y_label: under.y_label.clone(),
         region_label: "95 % region".to_owned(),
@@ -59,7 +66,7 @@ pub(crate) fn map(places: &[(&str, &Place, Option<&Fitted>)], plane: Plane, maps
         places: places.iter().map(one).collect(),
         under,
         ..PlaceMap::default()
-    })
+    }))
 }
 
 /// Coordinates of models drawn from the estimate.

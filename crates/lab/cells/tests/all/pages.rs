@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
-use motiform_cells::report::{Case, Maps, pages, planes};
+use motiform_cells::report::{Case, pages};
 use motiform_cells::{CellFit, CellTrack, FitOptions, Observation, Sample, fit_cells, fit_together, observe};
 use motiform_dynamics::Normal;
 use motiform_lab::draw::FigureFormat;
@@ -62,21 +62,20 @@ fn drawn(sample: &Sample, fits: &[CellFit]) -> Vec<File> {
             fit: fits.iter().find(|fit| fit.name == cell.name),
         })
         .collect();
-    let maps = Maps::compute(&planes(fits), 2, &()).unwrap();
-    written(sample, &cases, None, &maps)
+    written(sample, &cases, None)
 }
 
 /// The name and content of a page.
 type File = (String, Vec<u8>);
 
 /// All pages, that of the data set, which is written last, first.
-fn written(sample: &Sample, cases: &[Case<'_>], together: Option<&CellFit>, maps: &Maps) -> Vec<File> {
+fn written(sample: &Sample, cases: &[Case<'_>], together: Option<&CellFit>) -> Vec<File> {
     let files = std::sync::Mutex::new(Vec::new());
     let write = |name: &str, bytes: &[u8]| {
         files.lock().unwrap().push((name.to_owned(), bytes.to_vec()));
         Ok(())
     };
-    assert!(pages(sample, (cases, together), (maps, &FigureFormat::default()), (2, &()), &write).unwrap());
+    assert!(pages(sample, (cases, together), (2, &FigureFormat::default()), &(), &write).unwrap());
     let mut files: Vec<File> = files.into_inner().unwrap();
     let index = files.pop().unwrap();
     files.sort();
@@ -170,10 +169,7 @@ fn cells_without_fits_have_pages_too_and_the_watch_stops_the_drawing() {
     let observation = observe(cell);
     let cases = [Case { cell, observation: &observation, fit: None }];
     let write = |name: &str, _: &[u8]| panic!("{name} is written");
-    assert!(
-        !pages(&sample, (&cases, None), (&Maps::default(), &FigureFormat::default()), (1, &Stop), &write)
-            .unwrap()
-    );
+    assert!(!pages(&sample, (&cases, None), (1, &FigureFormat::default()), &Stop, &write).unwrap());
 }
 
 #[test]
@@ -192,7 +188,7 @@ fn one_law_for_all_cells_is_on_the_first_page() {
         .zip(&found)
         .map(|(cell, observation)| Case { cell, observation, fit: None })
         .collect();
-    let files = written(&sample, &cases, Some(&fit), &Maps::default());
+    let files = written(&sample, &cases, Some(&fit));
     assert_eq!(files.len(), 3);
     let page = std::str::from_utf8(&files[0].1).unwrap();
     for words in [

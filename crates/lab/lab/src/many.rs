@@ -1,0 +1,85 @@
+//! The motions of many plans of one model, together.
+
+use crate::analyse::{self, Body};
+use motiform_analysis::regime::{Settings, Verdict, classifies_in_lanes};
+use motiform_dynamics::{Model, StopOnly, Watch};
+use motiform_kernels::{Kernel, Row, classify_rows};
+use motiform_study::{Error, RunPlan};
+
+/// A body with its shape at the start.
+type Start = (Box<dyn Model>, Vec<f64>);
+
+/// The motions of `plans`, in their order, on this thread; `None` if the watch stopped it. The plans are of one model with any parameters
+/// and starts, and have the numerics of the first one. Verdicts are those of [`analyse::classify`] to the last bit; they are found in the
+/// lanes of vector registers where there are kernels for the model.
+///
+/// # Errors
+/// Input that only the numerics can reject.
+///
+/// # Checked by  `verdicts_are_those_of_each_plan`
+pub fn classify(plans: &[RunPlan], budget: f64, watch: &dyn Watch) -> Result<Option<Vec<Verdict>>, Error> {
+    let Some(first) = plans.first() else { return Ok(Some(Vec::new())) };
+    let settings = analyse::settings(first, budget)?;
+    let starts = plans.iter().map(|plan| analyse::start(plan)).collect::<Result<Vec<Start>, Error>>()?;
+    let kernel = Kernel::of_all(starts.iter().map(|(model, _)| model.as_ref()));
+    match kernel.filter(|_| plans.len() > 1 && classifies_in_lanes(&settings)) {
+        Some(kernel) => in_lanes((kernel, &settings), starts, watch),
+        None => one_by_one(plans, &settings, &starts, watch),
+    }
+}
+
+fn one_by_one(
+    plans: &[RunPlan],
+    settings: &Settings,
+    starts: &[Start],
+    watch: &dyn Watch,
+) -> Result<Option<Vec<Verdict>>, Error> {
+    let classify = |(plan, (model, shape)): (&RunPlan, &Start)| {
+        let values = plan.computation.parameters.values();
+        Body { info: plan.info()?, values, model: model.as_ref() }.classify(shape, settings, watch)
+    };
+    plans.iter().zip(starts).map(classify).collect()
+}
+
+fn in_lanes(
+    (kernel, settings): (Kernel, &Settings),
+    starts: Vec<Start>,
+    watch: &dyn Watch,
+) -> Result<Option<Vec<Verdict>>, Error> {
+    let mut found: Vec<Option<Result<Option<Verdict>, Error>>> = starts.iter().map(|_| None).collect();
+    let mut left = starts.into_iter().enumerate();
+    let mut next = || left.next().map(|(key, (body, start))| Row { key, body, start });
+    let mut done = |key: usize, verdict: motiform_analysis::Result<Option<Verdict>>| {
+        found[key] = Some(verdict.map_err(Error::from));
+    };
+    classify_rows(kernel, settings, &mut next, &mut done, &StopOnly(watch));
+    found.into_iter().map(|verdict| verdict.unwrap_or(Ok(None))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motiform_study::Study;
+
+    fn plans(text: &str) -> Vec<RunPlan> {
+        let plan = |kappa2: f64| {
+            let mut study = Study::parse(text, "text", "test").unwrap();
+            study.set("kappa2", kappa2).unwrap();
+            RunPlan::new(&study).unwrap()
+        };
+        [0.3, 0.5, 0.7, 0.9, 1.2].map(plan).to_vec()
+    }
+
+    /// In lanes, and one by one with a method that has none.
+    #[test]
+    fn verdicts_are_those_of_each_plan() {
+        for text in ["preset = \"fig4\"", "preset = \"fig4\"\n[run]\nstepper = \"dopri5\""] {
+            let plans = plans(text);
+            let alone = |plan: &RunPlan| analyse::classify(plan, 0.0, &()).unwrap().unwrap();
+            let alone: Vec<Verdict> = plans.iter().map(alone).collect();
+            assert_eq!(classify(&plans, 0.0, &()).unwrap().unwrap(), alone);
+            assert!(alone[0].regime != alone[4].regime);
+        }
+        assert_eq!(classify(&[], 0.0, &()).unwrap(), Some(Vec::new()));
+    }
+}
