@@ -1,6 +1,6 @@
 //! Where a curve meets a point again: the place at which it crosses a value of one parameter.
 
-use super::follow::CurveSample;
+use super::result::CurveSample;
 
 /// The crossing is compared up to this part of the stretch between two points of the curve, and of the range.
 const NEAR: (f64, f64) = (1e-2, 1e-5);

@@ -1,7 +1,7 @@
 //! The folder of curves: `manifest.json`, `points.parquet`, `summary.json`, and `curves.json`, from which the
 //! work goes on.
 
-use super::follow::Curves;
+use super::result::Curves;
 use super::summary::curve_summary;
 use super::table::curve_columns;
 use crate::branches::folder::{finish, keep, open, put_table, read};

@@ -2,6 +2,7 @@
 
 use super::crossing::{Target, passes};
 use super::family::PlaneBodies;
+use super::result::{CurveLeg, CurveSample, Curves, FollowedCurve};
 use crate::branches::family::{Bodies, lasting};
 use crate::branches::follow::follow_kept;
 use crate::branches::result::{Branches, Sample};
@@ -11,69 +12,6 @@ use motiform_dynamics::{Part, Watch};
 use motiform_lab::pool::each;
 use motiform_study::curves::CurveKind;
 use motiform_study::{CurvePlan, Error};
-use serde::{Deserialize, Serialize};
-
-/// A point of a curve with what is read off it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CurveSample {
-    /// The parameters of the plane, across and upwards.
-    pub parameters: [f64; 2],
-    /// Their derivatives by the length along the curve.
-    pub direction: [f64; 2],
-    /// Length along the curve from its start.
-    pub arclength: f64,
-    /// The critical condition.
-    pub special: Special,
-    /// The further degeneracy, at a point of codimension two.
-    pub degenerate: Option<Degenerate>,
-    /// The residual of the condition that holds along the curve.
-    pub residual: f64,
-    /// The slope of the condition across the curve.
-    pub transversality: f64,
-    /// Number of growing directions, the critical ones left out.
-    pub unstable: usize,
-    /// Period of the motion; at a Hopf bifurcation, of the oscillation that begins (model time).
-    pub period: Option<f64>,
-    /// The eigenvalue, or multiplier, closest to the critical value.
-    pub critical: Option<(f64, f64)>,
-    /// A shape of the motion in the model's coordinates.
-    pub state: Vec<f64>,
-}
-
-/// A curve from its start to one of its ends.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CurveLeg {
-    /// Its points, the first one the start.
-    pub samples: Vec<CurveSample>,
-    /// Why it ended.
-    pub end: End,
-}
-
-/// A curve of special points.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FollowedCurve {
-    /// The critical condition along it.
-    pub kind: CurveKind,
-    /// The special point where it was begun: branch, leg and point.
-    pub start: [usize; 3],
-    /// Towards smaller and towards larger values of the parameter that the branches have in common; one leg if the curve is closed.
-    pub legs: Vec<CurveLeg>,
-    /// The kinds of points of codimension two that were looked for.
-    pub sought: Vec<Degenerate>,
-    /// Why it could not be followed at all.
-    pub refused: Option<String>,
-}
-
-/// Curves, as far as they are followed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Curves {
-    /// The branches whose special points are followed.
-    pub branches: Branches,
-    /// The curves in the order in which they were found.
-    pub curves: Vec<FollowedCurve>,
-    /// `true` if everything was done that was asked for: not interrupted.
-    pub complete: bool,
-}
 
 /// The share of the branches in the progress of the work.
 const BRANCHES: f64 = 0.2;
@@ -276,7 +214,7 @@ fn comes_back(plan: &CurvePlan, samples: &[CurveSample]) -> bool {
     ahead > 0.0 && passes(&[before.clone(), last.clone()], &target(plan, first.parameters, first.period))
 }
 
-fn target(plan: &CurvePlan, at: [f64; 2], period: Option<f64>) -> Target {
+pub(super) fn target(plan: &CurvePlan, at: [f64; 2], period: Option<f64>) -> Target {
     let (varied, plane) = (plan.varied(), &plan.computation.plane);
     Target { at, period, varied, width: plane[varied].to - plane[varied].from }
 }
@@ -301,7 +239,7 @@ fn sample(plane: &PlaneBodies<'_>, point: &CurvePoint) -> Result<CurveSample, Er
     })
 }
 
-fn period(motion: &Motion, special: Special) -> Option<f64> {
+pub(super) fn period(motion: &Motion, special: Special) -> Option<f64> {
     match special {
         Special::Hopf(hopf) => Some(hopf.period()),
         _ => motion.orbit().map(motiform_analysis::PeriodicOrbit::period),
@@ -323,49 +261,4 @@ fn critical(motion: &Motion, special: Special) -> Option<(f64, f64)> {
     };
     let off = |value: &(f64, f64)| libm::hypot(value.0 - at.0, value.1 - at.1);
     all.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)))
-}
-
-impl Curves {
-    /// Returns `true` if the curve through this special point was followed before.
-    fn begun(&self, start: [usize; 3]) -> bool {
-        self.curves.iter().any(|curve| curve.start == start)
-    }
-
-    /// Returns `true` if a curve passes through this special point.
-    fn passes(&self, plan: &CurvePlan, kind: CurveKind, start: [usize; 3]) -> bool {
-        let sample = self.branches.at(start);
-        let mut curves = self.curves.iter().filter(|curve| curve.kind == kind);
-        sample.is_some_and(|sample| curves.any(|curve| curve.passes(plan, sample)))
-    }
-}
-
-impl Curves {
-    /// Where a curve was begun, across and upwards.
-    #[must_use]
-    pub fn start(&self, plan: &CurvePlan, curve: &FollowedCurve) -> Option<[f64; 2]> {
-        let first = self.branches.at(curve.start)?.point.parameter;
-        Some(PlaneBodies::oriented(plan, [first, plan.fixed_value()]))
-    }
-}
-
-impl FollowedCurve {
-    /// Returns `true` if it passes through a special point of a branch of this plan. The curve may have been begun on a branch of another
-    /// one over the same plane.
-    #[must_use]
-    pub fn passes(&self, plan: &CurvePlan, sample: &Sample) -> bool {
-        let period = sample.point.special.and_then(|special| period(&sample.point.motion, special));
-        let at = PlaneBodies::oriented(plan, [sample.point.parameter, plan.fixed_value()]);
-        let target = target(plan, at, period);
-        self.legs.iter().any(|leg| leg.samples.windows(2).any(|pair| passes(pair, &target)))
-    }
-
-    /// Its points from one end to the other, the start once.
-    pub fn samples(&self) -> impl Iterator<Item = &CurveSample> {
-        let (back, on) = match &self.legs[..] {
-            [back, on] => (&back.samples[..], &on.samples[1..]),
-            [one] => (&[][..], &one.samples[..]),
-            _ => (&[][..], &[][..]),
-        };
-        back.iter().rev().chain(on)
-    }
 }

@@ -9,14 +9,13 @@ mod crossing;
 mod family;
 mod folder;
 mod follow;
+mod result;
 mod summary;
 mod table;
 
 pub(crate) use crossing::same_point;
 pub use folder::CurveFolder;
-pub use follow::{
-    CurveLeg, CurveSample, Curves, FollowedCurve, follow_curve, follow_curve_within, follow_curves,
-    follow_curves_kept,
-};
+pub use follow::{follow_curve, follow_curve_within, follow_curves, follow_curves_kept};
+pub use result::{CurveLeg, CurveSample, Curves, FollowedCurve};
 pub use summary::{codimension_2, curve_ends, curve_summary, not_found};
 pub use table::curve_columns;

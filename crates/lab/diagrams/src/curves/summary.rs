@@ -1,6 +1,6 @@
 //! Curves in a few numbers: what `--json` prints and `summary.json` holds.
 
-use super::follow::{CurveLeg, CurveSample, Curves, FollowedCurve};
+use super::result::{CurveLeg, CurveSample, Curves, FollowedCurve};
 use crate::branches::summary::summary;
 use motiform_continuation::{Degenerate, End};
 use motiform_study::CurvePlan;

@@ -1,7 +1,7 @@
 //! The points of curves as a table.
 
 use super::family::PlaneBodies;
-use super::follow::{CurveSample, Curves, FollowedCurve};
+use super::result::{CurveSample, Curves, FollowedCurve};
 use motiform_continuation::{Coefficient, Special};
 use motiform_store::columns::{Column, Values};
 use motiform_study::quantity::special;
