@@ -1,9 +1,9 @@
 //! Output for the user, and the exit code.
 
 use crate::remedy;
-use motiform_analysis::Estimate;
 use motiform_dynamics::Outcome;
 use motiform_figures::Label;
+use motiform_lab::answers::Answer;
 use motiform_study::Error;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -39,11 +39,9 @@ impl From<&Outcome> for End {
     }
 }
 
-/// `0.0902 +- 2.1e-3`, or a note that there is no error.
-pub(crate) fn estimate(estimate: &Estimate, width: usize, digits: usize) -> String {
-    let Estimate { value, error } = estimate;
-    let error = if estimate.has_error() { format!("+- {error:.1e}") } else { "(no error)".to_owned() };
-    format!("{value:>width$.digits$} {error}")
+/// Prints an answer: its lines, or with `--json` its object.
+pub(crate) fn say(answer: &impl Answer, json: bool) -> anyhow::Result<()> {
+    print(&answer.said(json)?)
 }
 
 /// Prints `text` and a line end on standard output. A closed pipe is not an error; a full disk is.

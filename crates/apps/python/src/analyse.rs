@@ -6,6 +6,7 @@ use crate::study::{Study, plan};
 use crate::watch::Caller;
 use motiform_analysis::Lyapunov;
 use motiform_dynamics::Direction;
+use motiform_lab::answers::{Motions, OfOrbit};
 use motiform_lab::samples::{self, Basins, Escapes, Samples};
 use motiform_study::{Error, Random, RunPlan};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -68,17 +69,11 @@ pub(crate) fn motions(
         let basins = Basins::new(&samples, &verdicts);
         Ok(Some((plan, verdicts, basins, escapes)))
     }))?;
-    let words = escapes.as_ref().map(|escapes| escapes.words(verdicts.len()));
-    let text = serde_json::to_string(&json!({
-        "starts": basins.starts,
-        "shares": basins.shares,
-        "words": basins.words(),
-        "escapes": escapes,
-        "escape_words": words.unwrap_or_default(),
-        "verdicts": verdicts,
-        "accuracy": accuracy(&used)?,
-    }));
-    text.map_err(of_json)
+    let found = Motions::new(&used, &verdicts, &basins, escapes.as_ref());
+    let mut entry = serde_json::to_value(&found).map_err(of_json)?;
+    entry["words"] = json!(found.sentences());
+    entry["accuracy"] = accuracy(&used)?;
+    Ok(entry.to_string())
 }
 
 /// The largest exponents of a study's motion.
@@ -101,20 +96,11 @@ pub(crate) fn lyapunov(
 
 /// Exponents as JSON.
 pub(crate) fn exponents_json(found: &Lyapunov, accuracy: Value) -> PyResult<String> {
-    let text = serde_json::to_string(&json!({
-        "accuracy": accuracy,
-        "exponents": found.exponents,
-        "zeros": found.zeros(),
-        "dimension": found.dimension(),
-        "without_error": found.without_error(),
-        "neutral": found.neutral,
-        "time": found.time,
-        "transient": found.transient,
-        "outcome": found.outcome,
-        "complete": found.outcome.is_complete(),
-        "ended": found.outcome.to_string(),
-    }));
-    text.map_err(of_json)
+    let mut entry = serde_json::to_value(OfOrbit::new(found)).map_err(of_json)?;
+    entry["accuracy"] = accuracy;
+    entry["complete"] = json!(found.outcome.is_complete());
+    entry["ended"] = json!(found.outcome.to_string());
+    Ok(entry.to_string())
 }
 
 /// The steady motions of a study's model.

@@ -2,6 +2,7 @@
 //! steady shapes; a [`ScanPlan`](motiform_study::ScanPlan) is computed row by row; datasets and scans become figures.
 
 pub mod analyse;
+pub mod answers;
 pub mod clock;
 pub mod dataset;
 pub mod draw;

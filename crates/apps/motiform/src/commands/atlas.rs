@@ -3,23 +3,24 @@
 use crate::args::AtlasOptions;
 use crate::commands::remarks::ties;
 use crate::commands::subject;
-use crate::output::{End, plain, print, warn};
+use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_analysis::Regime;
 use motiform_diagrams::atlas::{
     AtlasFolder, Boundary, Grid, Line, Stage, atlas_summary, boundaries, regions, survey, trace,
 };
 use motiform_store::{Folder, Opening};
-use motiform_study::atlas::{AtlasPlan, AtlasSettings, axis, samples};
+use motiform_study::atlas::{AtlasPlan, axis, samples};
 use motiform_study::{Error, Study};
-use std::fmt::Write;
-use std::path::PathBuf;
+use serde::{Serialize, Serializer};
+use std::fmt::{Display, Formatter};
+use std::path::{Path, PathBuf};
 
 pub(crate) fn run(options: &AtlasOptions) -> anyhow::Result<End> {
     let remedy = "nothing is drawn with --no-figures: leave one out";
     options.style.refuse_unless(!options.no_figures, remedy)?;
     let study = study(options)?;
-    let plan = AtlasPlan::new(&study, &settings(options))?;
+    let plan = AtlasPlan::new(&study)?;
     ties(&study, &plan.computation.scan.axes.iter().map(|axis| axis.name.as_str()).collect::<Vec<_>>())?;
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from(plan.default_folder()));
     let files = AtlasFolder::open(&out, &plan, Opening::of(options.resume, options.force))?;
@@ -35,11 +36,7 @@ pub(crate) fn run(options: &AtlasOptions) -> anyhow::Result<End> {
     let format = options.style.format();
     atlas.write(&files, (!options.no_figures).then_some(&format))?;
     files.notes().iter().for_each(|note| warn(note));
-    print(&if options.json {
-        serde_json::to_string(&atlas_summary(&atlas))?
-    } else {
-        text(&atlas, &files.shown().display().to_string())?
-    })?;
+    say(&Surveyed { atlas: &atlas, written: files.shown() }, options.json)?;
     let undetermined = |place: &motiform_diagrams::atlas::Place| place.motion(Regime::Undetermined).is_some();
     Ok(if atlas.grid.places.iter().any(undetermined) { End::NotAsAsked } else { End::Done })
 }
@@ -71,14 +68,6 @@ fn compute(
     lines
 }
 
-fn settings(options: &AtlasOptions) -> AtlasSettings {
-    AtlasSettings {
-        lines: usize::from(options.lines),
-        branches: usize::try_from(options.branches).unwrap_or(usize::MAX),
-        steady: options.steady.then_some(true),
-    }
-}
-
 /// The study that the options describe.
 fn study(options: &AtlasOptions) -> Result<Study, Error> {
     let mut study = subject::study(&options.subject)?;
@@ -90,37 +79,54 @@ fn study(options: &AtlasOptions) -> Result<Study, Error> {
     study.scan.budget = options.budget.unwrap_or(study.scan.budget);
     study.random = options.random.or(study.random);
     study.run.seed = options.seed.unwrap_or(study.run.seed);
+    options.lines.apply(&mut study.atlas)?;
     Ok(study.perturbed()?.0)
 }
 
-fn text(atlas: &AtlasFolder, written: &str) -> anyhow::Result<String> {
-    let AtlasFolder { plan, grid, lines } = atlas;
-    let mut text = format!("{}\n", plain(&plan.title));
-    for side in plan.plane() {
-        writeln!(text, "axis       {side}")?;
+/// The regions and boundaries of a plane.
+struct Surveyed<'a> {
+    atlas: &'a AtlasFolder,
+    written: &'a Path,
+}
+
+impl Serialize for Surveyed<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        atlas_summary(self.atlas).serialize(serializer)
     }
-    let samples = plan.computation.scan.samples;
-    writeln!(
-        text,
-        "cells      {} computed of {}, {samples} initial states each",
-        grid.computed(),
-        grid.places.len()
-    )?;
-    for region in regions(plan, grid).iter().filter(|region| region.cells >= LISTED) {
-        let (names, [x, y]) = (names(&region.motions), region.at);
-        writeln!(text, "region     {names:<32} {:5.1} %, around {x:.4}, {y:.4}", 100.0 * region.share)?;
+}
+
+impl Display for Surveyed<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let AtlasFolder { plan, grid, lines } = self.atlas;
+        writeln!(f, "{}", plain(&plan.title))?;
+        for side in plan.plane() {
+            writeln!(f, "axis       {side}")?;
+        }
+        let samples = plan.computation.scan.samples;
+        writeln!(
+            f,
+            "cells      {} computed of {}, {samples} initial states each",
+            grid.computed(),
+            grid.places.len()
+        )?;
+        for region in regions(plan, grid).iter().filter(|region| region.cells >= LISTED) {
+            let (names, [x, y]) = (names(&region.motions), region.at);
+            writeln!(f, "region     {names:<32} {:5.1} %, around {x:.4}, {y:.4}", 100.0 * region.share)?;
+        }
+        let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
+        writeln!(f, "followed   {} lines, {curves} curves", lines.len())?;
+        let short = lines.iter().filter(|line| line.refused.is_some()).count();
+        if short > 0 {
+            writeln!(
+                f,
+                "           {short} of them not to their ends: report.html and summary.json say why"
+            )?;
+        }
+        for found in boundaries(plan, grid, lines).iter().filter(|found| found.edges >= LISTED) {
+            boundary(f, found)?;
+        }
+        write!(f, "written    {}", self.written.display())
     }
-    let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
-    writeln!(text, "followed   {} lines, {curves} curves", lines.len())?;
-    let short = lines.iter().filter(|line| line.refused.is_some()).count();
-    if short > 0 {
-        writeln!(text, "           {short} of them not to their ends: report.html and summary.json say why")?;
-    }
-    for found in boundaries(plan, grid, lines).iter().filter(|found| found.edges >= LISTED) {
-        boundary(&mut text, found)?;
-    }
-    write!(text, "written    {written}")?;
-    Ok(text)
 }
 
 /// Regions and boundaries of fewer cells are not listed.
@@ -130,7 +136,7 @@ fn names(motions: &[Regime]) -> String {
     motions.iter().map(|motion| motion.name()).collect::<Vec<_>>().join(" + ")
 }
 
-fn boundary(text: &mut String, found: &Boundary) -> std::fmt::Result {
+fn boundary(f: &mut Formatter<'_>, found: &Boundary) -> std::fmt::Result {
     let part = |edges: usize| format!("{:.0} %", 100.0 * edges as f64 / found.edges as f64);
     let mut kinds: Vec<String> =
         found.kinds.iter().map(|(kind, edges)| format!("{kind} {}", part(*edges))).collect();
@@ -138,9 +144,9 @@ fn boundary(text: &mut String, found: &Boundary) -> std::fmt::Result {
         kinds.push(format!("not named {}", part(found.unnamed)));
     }
     let between = found.between.each_ref().map(|side| names(side)).join(" | ");
-    writeln!(text, "boundary   {between:<40} {}", kinds.join(", "))?;
+    writeln!(f, "boundary   {between:<40} {}", kinds.join(", "))?;
     if let Some(why) = found.why {
-        writeln!(text, "           {why}")?;
+        writeln!(f, "           {why}")?;
     }
     Ok(())
 }

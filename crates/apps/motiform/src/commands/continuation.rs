@@ -3,7 +3,7 @@
 use crate::args::ContinueOptions;
 use crate::commands::remarks::{of_branches, ties};
 use crate::commands::{curves, subject};
-use crate::output::{End, plain, print, warn};
+use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_diagrams::draw::branch_figures;
 use motiform_diagrams::starts::StartPoint;
@@ -16,7 +16,8 @@ use motiform_store::{Folder, Journal, Opening};
 use motiform_study::branches::BranchSettings;
 use motiform_study::quantity::motion::PERIOD;
 use motiform_study::{BranchPlan, CurvePlan, Error, Given, Shown, Study};
-use std::fmt::Write;
+use serde::{Serialize, Serializer};
+use std::fmt::{Display, Formatter};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(options: &ContinueOptions) -> anyhow::Result<End> {
@@ -52,11 +53,7 @@ fn branches(options: &ContinueOptions, plan: BranchPlan, units: &Shown) -> anyho
     let ordinate = options.observable.ordinate();
     let drawn = || branch_figures(&folder.plan, &folder.found, ordinate, units);
     let (written, undrawn) = write(options, files, drawn, |pictures, to| folder.write(pictures, to))?;
-    print(&if options.json {
-        serde_json::to_string(&summary(&folder.plan, &folder.found))?
-    } else {
-        text(&folder, written.as_deref(), units)?
-    })?;
+    say(&Branched { folder: &folder, written: written.as_deref(), units }, options.json)?;
     end(undrawn, folder.found.complete)
 }
 
@@ -158,31 +155,43 @@ pub(super) fn end(undrawn: Option<Error>, complete: bool) -> anyhow::Result<End>
     Ok(End::Done)
 }
 
-fn text(folder: &BranchFolder, written: Option<&str>, units: &Shown) -> anyhow::Result<String> {
-    let BranchFolder { plan, found } = folder;
-    let along = &plan.computation.along;
-    let mut text = format!("{}, {} = {}..{}\n", plain(&plan.title()), along.name, along.from, along.to);
-    for (number, followed) in found.branches.iter().enumerate() {
-        branch(&mut text, folder, (number, followed), units)?;
+/// The branches of a plan.
+struct Branched<'a> {
+    folder: &'a BranchFolder,
+    written: Option<&'a str>,
+    units: &'a Shown,
+}
+
+impl Serialize for Branched<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        summary(&self.folder.plan, &self.folder.found).serialize(serializer)
     }
-    if found.left > 0 {
-        writeln!(text, "more       begins at {} of these points; --branches N follows more", found.left)?;
+}
+
+impl Display for Branched<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let BranchFolder { plan, found } = self.folder;
+        let along = &plan.computation.along;
+        write!(f, "{}, {} = {}..{}", plain(&plan.title()), along.name, along.from, along.to)?;
+        for (number, followed) in found.branches.iter().enumerate() {
+            branch(f, self.folder, (number, followed), self.units)?;
+        }
+        if found.left > 0 {
+            write!(f, "\nmore       begins at {} of these points; --branches N follows more", found.left)?;
+        }
+        if found.doublings_left > 0 {
+            let left = found.doublings_left;
+            write!(
+                f,
+                "\ndoublings  of the period that were not followed: {left}; --doublings N follows N in a row"
+            )?;
+        }
+        self.written.map_or(Ok(()), |written| write!(f, "\nwritten    {written}"))
     }
-    if found.doublings_left > 0 {
-        let left = found.doublings_left;
-        writeln!(
-            text,
-            "doublings  of the period that were not followed: {left}; --doublings N follows N in a row"
-        )?;
-    }
-    if let Some(written) = written {
-        writeln!(text, "written    {written}")?;
-    }
-    Ok(text.trim_end().to_owned())
 }
 
 fn branch(
-    text: &mut String,
+    f: &mut Formatter<'_>,
     folder: &BranchFolder,
     (number, followed): (usize, &Followed),
     units: &Shown,
@@ -191,20 +200,20 @@ fn branch(
     let motion = motion.map_or("", |motion| motion.name());
     let form = form.map_or(String::new(), |form| format!(" ({})", form.name()));
     let course = followed.course().map_or(String::new(), |course| format!(" {}", course.words()));
-    writeln!(text, "branch {number:<3} {motion}{course}{form}, {} points", followed.samples().count())?;
+    write!(f, "\nbranch {number:<3} {motion}{course}{form}, {} points", followed.samples().count())?;
     let stable = stretches(&folder.found, followed);
     if stable.is_empty() {
-        writeln!(text, "           stable nowhere")?;
+        write!(f, "\n           stable nowhere")?;
     }
     for [from, to] in stable {
         let [from, to] = [from, to].map(|end| bound(followed, end));
-        writeln!(text, "           stable from {from} to {to}")?;
+        write!(f, "\n           stable from {from} to {to}")?;
     }
     for special in folder.found.special(number) {
-        writeln!(text, "           {}", line(&special, units))?;
+        write!(f, "\n           {}", line(&special, units))?;
     }
     for leg in &followed.legs {
-        writeln!(text, "           ends: {}", leg.ending())?;
+        write!(f, "\n           ends: {}", leg.ending())?;
     }
     Ok(())
 }

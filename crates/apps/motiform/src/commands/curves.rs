@@ -2,7 +2,7 @@
 
 use super::continuation::{end, or_abandon, output, prepare, write};
 use crate::args::ContinueOptions;
-use crate::output::{End, plain, print, warn};
+use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_diagrams::curves::{
     CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, follow_curves_kept, not_found,
@@ -10,7 +10,8 @@ use motiform_diagrams::curves::{
 use motiform_diagrams::draw::{check_scan, curve_figures};
 use motiform_lab::scan::ScanFolder;
 use motiform_study::CurvePlan;
-use std::fmt::Write;
+use serde::{Serialize, Serializer};
+use std::fmt::{Display, Formatter};
 
 pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result<End> {
     let over = options.over.as_deref().map(ScanFolder::read).transpose()?;
@@ -32,55 +33,59 @@ pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result
             "no special point of these kinds lies on the branches that were followed; --branches N follows more",
         );
     }
-    print(&if options.json {
-        serde_json::to_string(&curve_summary(&folder.plan, &folder.found))?
-    } else {
-        text(&folder, written.as_deref())?
-    })?;
+    say(&Followed { folder: &folder, written: written.as_deref() }, options.json)?;
     end(undrawn, folder.found.complete)
 }
 
-fn text(folder: &CurveFolder, written: Option<&str>) -> anyhow::Result<String> {
-    let CurveFolder { plan, found } = folder;
-    let mut text = plain(&plan.title());
-    for side in &plan.computation.plane {
-        write!(text, ", {side}")?;
+/// The curves of a plan.
+struct Followed<'a> {
+    folder: &'a CurveFolder,
+    written: Option<&'a str>,
+}
+
+impl Serialize for Followed<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        curve_summary(&self.folder.plan, &self.folder.found).serialize(serializer)
     }
-    writeln!(text, "\n{} branches along {}", found.branches.branches.len(), plan.computation.branches.along)?;
-    for (number, followed) in found.curves.iter().enumerate() {
-        curve(&mut text, folder, (number, followed))?;
+}
+
+impl Display for Followed<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let CurveFolder { plan, found } = self.folder;
+        f.write_str(&plain(&plan.title()))?;
+        for side in &plan.computation.plane {
+            write!(f, ", {side}")?;
+        }
+        write!(f, "\n{} branches along {}", found.branches.branches.len(), plan.computation.branches.along)?;
+        for (number, followed) in found.curves.iter().enumerate() {
+            curve(f, self.folder, (number, followed))?;
+        }
+        self.written.map_or(Ok(()), |written| write!(f, "\nwritten    {written}"))
     }
-    if let Some(written) = written {
-        writeln!(text, "written    {written}")?;
-    }
-    Ok(text.trim_end().to_owned())
 }
 
 fn curve(
-    text: &mut String,
+    f: &mut Formatter<'_>,
     CurveFolder { plan, found }: &CurveFolder,
     (number, followed): (usize, &FollowedCurve),
 ) -> std::fmt::Result {
     let [across, upwards] = plan.computation.plane.each_ref().map(|side| side.name.as_str());
     let [x, y] = found.start(plan, followed).unwrap_or([f64::NAN; 2]);
     let (kind, points) = (followed.kind.name(), followed.samples().count());
-    writeln!(
-        text,
-        "curve {number:<4} {kind} through {across} = {x:.9}, {upwards} = {y:.9}, {points} points"
-    )?;
+    write!(f, "\ncurve {number:<4} {kind} through {across} = {x:.9}, {upwards} = {y:.9}, {points} points")?;
     if let Some(why) = &followed.refused {
-        writeln!(text, "           not followed: {why}")?;
+        write!(f, "\n           not followed: {why}")?;
     }
     for (kind, sample) in codimension_2(followed) {
         let [x, y] = sample.parameters;
-        writeln!(text, "           {:<17} {across} = {x:.9}  {upwards} = {y:.9}", kind.name())?;
+        write!(f, "\n           {:<17} {across} = {x:.9}  {upwards} = {y:.9}", kind.name())?;
     }
     let missing: Vec<&str> = not_found(followed).iter().map(|kind| kind.name()).collect();
     if !missing.is_empty() {
-        writeln!(text, "           none found of {}", missing.join(", "))?;
+        write!(f, "\n           none found of {}", missing.join(", "))?;
     }
     for end in curve_ends(plan, followed) {
-        writeln!(text, "           ends: {end}")?;
+        write!(f, "\n           ends: {end}")?;
     }
     Ok(())
 }

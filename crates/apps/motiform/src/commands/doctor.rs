@@ -1,14 +1,15 @@
 //! `motiform doctor`.
 
 use crate::args::{DoctorOptions, all_cores};
-use crate::output::{End, print};
+use crate::output::{End, say};
 use crate::progress::Progress;
 use motiform_dynamics::simd::InstructionSet;
 use motiform_lab::samples::{self, Samples};
 use motiform_models::ModelInfo;
 use motiform_study::{Random, RunPlan, presets};
-use serde_json::json;
-use std::fmt::Write;
+use serde::{Serialize, Serializer};
+use serde_json::{Value, json};
+use std::fmt::{Display, Formatter};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
@@ -50,28 +51,61 @@ pub(crate) fn run(options: &DoctorOptions) -> anyhow::Result<End> {
     let Some(rates) = rates(threads)? else { return Ok(End::Interrupted) };
     let found = HELPERS.map(|helper| (helper.start(), helper));
     let (lanes, cores) = (lanes(), std::env::consts::ARCH);
-    if options.json {
-        let helpers: serde_json::Map<_, _> =
-            found.iter().map(|(found, helper)| (helper.name.to_owned(), json!(found))).collect();
-        let object = json!({
-            "version": env!("CARGO_PKG_VERSION"), "processor": cores, "lanes": lanes.1, "threads": threads,
-            "programs": helpers, "motions_per_second": { "one_thread": rates[0], "all_threads": rates[1] },
-        });
-        print(&object.to_string())?;
-        return Ok(End::Done);
-    }
-    let mut text = format!("motiform    {}\n", env!("CARGO_PKG_VERSION"));
-    writeln!(text, "processor   {cores}, {}: {} orbits side by side; {threads} threads", lanes.0, lanes.1)?;
-    for (found, helper) in &found {
-        writeln!(text, "{:<11} {}", helper.name, found.unwrap_or(helper.without))?;
-    }
-    write!(
-        text,
-        "speed       {:.0} motions named a second on one thread, {:.0} on all ({STARTS} random starts of preset fig4)",
-        rates[0], rates[1]
+    let helpers =
+        found.iter().map(|(found, helper)| (helper.name, found.unwrap_or(helper.without))).collect();
+    let programs = found.iter().map(|(found, helper)| (helper.name.to_owned(), json!(found))).collect();
+    let [one_thread, all_threads] = rates;
+    let motions_per_second = Rates { one_thread, all_threads };
+    let version = env!("CARGO_PKG_VERSION");
+    say(
+        &Machine { version, processor: cores, lanes, threads, programs, motions_per_second, helpers },
+        options.json,
     )?;
-    print(&text)?;
     Ok(End::Done)
+}
+
+/// The equipment of a machine.
+#[derive(Serialize)]
+struct Machine {
+    version: &'static str,
+    processor: &'static str,
+    #[serde(serialize_with = "count")]
+    lanes: (&'static str, u32),
+    threads: usize,
+    programs: serde_json::Map<String, Value>,
+    motions_per_second: Rates,
+    /// Helpers, and where they are or what is missing without them.
+    #[serde(skip)]
+    helpers: Vec<(&'static str, &'static str)>,
+}
+
+/// Motions named per second.
+#[derive(Serialize)]
+struct Rates {
+    one_thread: f64,
+    all_threads: f64,
+}
+
+/// The number of lanes alone.
+fn count<S: Serializer>(lanes: &(&'static str, u32), serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_u32(lanes.1)
+}
+
+impl Display for Machine {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let Self { version, processor, lanes: (name, lanes), threads, .. } = self;
+        writeln!(f, "motiform    {version}")?;
+        writeln!(f, "processor   {processor}, {name}: {lanes} orbits side by side; {threads} threads")?;
+        for (name, what) in &self.helpers {
+            writeln!(f, "{name:<11} {what}")?;
+        }
+        let Rates { one_thread, all_threads } = self.motions_per_second;
+        write!(
+            f,
+            "speed       {one_thread:.0} motions named a second on one thread, {all_threads:.0} on all ({STARTS} random \
+             starts of preset fig4)"
+        )
+    }
 }
 
 /// The instruction set of lanes, in words, and its number of lanes.

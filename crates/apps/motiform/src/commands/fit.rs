@@ -4,7 +4,7 @@ use crate::args::FitCellsOptions;
 use crate::commands::observe::{head, plain_error, quality, read, style};
 use crate::commands::pages::draw;
 use crate::commands::population::fitted;
-use crate::output::{End, print, warn};
+use crate::output::{End, print, say, warn};
 use crate::progress::Progress;
 use motiform_cells::{
     Agreement, CellFit, CellTrack, Correction, FitOptions, FitWork, Fitted, Observation, Prediction, Sample,
@@ -13,7 +13,8 @@ use motiform_cells::{
 use motiform_inference::{Estimate, Place, Placement, Symmetry};
 use motiform_statistics::{four_digits, with_error};
 use motiform_store::Opening;
-use std::fmt::Write;
+use serde::{Serialize, Serializer};
+use std::fmt::{Display, Formatter, Write};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
@@ -50,7 +51,7 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
         work.notes().iter().for_each(|note| warn(note));
     }
     let folder = work.as_ref().map(FitWork::path);
-    show(options, &sample, &fits, folder)?;
+    say(&Fits { sample: &sample, fits: &fits, folder }, options.cells.json)?;
     let asked = if options.together { 1 } else { cells.len() };
     if fits.len() < asked {
         let further = if folder.is_some() { "; the same `motiform fit` with --resume continues" } else { "" };
@@ -112,33 +113,41 @@ fn or_none(fit: motiform_cells::Result<CellFit>) -> motiform_cells::Result<Optio
     }
 }
 
-fn show(
-    options: &FitCellsOptions,
-    sample: &Sample,
-    fits: &[CellFit],
-    folder: Option<&Path>,
-) -> anyhow::Result<()> {
-    if options.cells.json {
-        return print(&fits_json(sample, fits).to_string());
+/// The fits of cells, and the folder that they were written into.
+struct Fits<'a> {
+    sample: &'a Sample,
+    fits: &'a [CellFit],
+    folder: Option<&'a Path>,
+}
+
+impl Serialize for Fits<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        fits_json(self.sample, self.fits).serialize(serializer)
     }
-    let mut text = head(sample);
-    for fit in fits {
-        write!(text, "\n{}", sentences(sample, fit)?)?;
+}
+
+impl Display for Fits<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let Self { sample, fits, folder } = self;
+        let mut text = head(sample);
+        for fit in *fits {
+            write!(text, "\n{}", sentences(sample, fit)?)?;
+        }
+        if fits.len() > 1 {
+            write!(text, "\n{}", fitted(&fitted_population(fits), &Units::of(sample))?)?;
+        }
+        if let Some(path) = folder {
+            write!(text, "\nwritten        {}", path.display())?;
+        }
+        f.write_str(text.trim_end())
     }
-    if fits.len() > 1 {
-        write!(text, "\n{}", fitted(&fitted_population(fits), &Units::of(sample))?)?;
-    }
-    if let Some(path) = folder {
-        write!(text, "\nwritten        {}", path.display())?;
-    }
-    print(text.trim_end())
 }
 
 fn regime(fitted: &Fitted) -> &'static str {
     fitted.motion_name()
 }
 
-fn sentences(sample: &Sample, fit: &CellFit) -> anyhow::Result<String> {
+fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> {
     let fitted = match &fit.fitted {
         Ok(fitted) => fitted,
         Err(why) => return Ok(format!("cell {:<9} undecided\nbecause        {why}\n", fit.name)),

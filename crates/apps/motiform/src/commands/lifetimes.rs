@@ -3,17 +3,18 @@
 use crate::args::LifetimesOptions;
 use crate::commands::remarks::{of_scan, ties};
 use crate::commands::subject;
-use crate::output::{End, plain, print, warn};
+use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_analysis::LifeLaws;
 use motiform_lab::draw::lifetimes::draw_lifetimes;
 use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
-use motiform_lab::scan::Axis;
+use motiform_lab::scan::{Axis, ScanComputation};
 use motiform_store::{Folder, Kind, Opening};
 use motiform_study::quantity::statistic::LIFE;
 use motiform_study::{Error, Random, ScanPlan, Shown};
-use serde_json::json;
-use std::fmt::Write;
+use serde::Serialize;
+use std::fmt::{Display, Formatter};
+use std::path::Path;
 
 /// The file of the results.
 const FILE: &str = "lifetimes.json";
@@ -45,8 +46,9 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
         return interrupted(files);
     }
     let found = lives.summarised(&plan, options.transient)?;
+    let answer = Lived::new(&plan, &found, (options.out.as_deref(), &units));
     if let Some(files) = files {
-        let mut text = serde_json::to_vec_pretty(&json(&plan, &found)?)?;
+        let mut text = serde_json::to_vec_pretty(&answer)?;
         text.push(b'\n');
         files.put(FILE, &text)?;
         for picture in draw_lifetimes(&plan, &found, &options.style.format_in(units.clone()))? {
@@ -55,11 +57,7 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
         files.complete()?;
         files.notes().iter().for_each(|note| warn(note));
     }
-    print(&if options.json {
-        json(&plan, &found)?.to_string()
-    } else {
-        summary(&plan, &found, (options, &units))?
-    })?;
+    say(&answer, options.json)?;
     let answered = !matches!(found.laws, LifeLaws::TooFew { .. } | LifeLaws::Neither { .. });
     Ok(if answered { End::Done } else { End::NotAsAsked })
 }
@@ -115,54 +113,76 @@ fn plan(options: &LifetimesOptions) -> Result<(ScanPlan, Shown), Error> {
     Ok((ScanPlan::new(&study)?, options.units.of(Some(&study))?))
 }
 
-fn json(plan: &ScanPlan, found: &Lifetimes) -> anyhow::Result<serde_json::Value> {
-    let mut object = json!({ "plan_hash": plan.hash(), "plan": plan.computation });
-    if let (Some(object), serde_json::Value::Object(entries)) =
-        (object.as_object_mut(), serde_json::to_value(found)?)
-    {
-        object.extend(entries);
-        object.insert("notes".to_owned(), found.notes().into());
-        object.insert("sentence".to_owned(), found.laws.words().into());
-    }
-    Ok(object)
+/// The lifetimes of the motions of a plan.
+#[derive(Serialize)]
+struct Lived<'a> {
+    plan_hash: String,
+    #[serde(rename = "plan")]
+    computation: &'a ScanComputation,
+    #[serde(flatten)]
+    found: &'a Lifetimes,
+    notes: Vec<String>,
+    sentence: String,
+    #[serde(skip)]
+    plan: &'a ScanPlan,
+    #[serde(skip)]
+    written: Option<&'a Path>,
+    #[serde(skip)]
+    units: &'a Shown,
 }
 
-fn summary(
-    plan: &ScanPlan,
-    found: &Lifetimes,
-    (options, units): (&LifetimesOptions, &Shown),
-) -> anyhow::Result<String> {
-    let c = &plan.computation;
-    let mut text = format!("{} ({}, {})\n", plan.title, c.model, plan.name);
-    let starts = format!("{} starts each, {}, seed {}", c.samples, c.random.words(), c.seed);
-    let until = if units.is_physical() {
-        plain(&units.words(found.until, LIFE.dimension, ""))
-    } else {
-        found.until.to_string()
-    };
-    writeln!(text, "{starts}, followed to {until}")?;
-    let head = ["blew up", "captured", "lasting", "delay", "events", "watched", "mean life"];
-    let unit = if units.is_physical() {
-        format!(", times in {}", plain(&units.name(LIFE.dimension, "")))
-    } else {
-        String::new()
-    };
-    write!(text, "{:>12}", found.parameter)?;
-    for title in head {
-        write!(text, " {title:>10}")?;
+impl<'a> Lived<'a> {
+    fn new(
+        plan: &'a ScanPlan,
+        found: &'a Lifetimes,
+        (written, units): (Option<&'a Path>, &'a Shown),
+    ) -> Self {
+        Self {
+            plan_hash: plan.hash(),
+            computation: &plan.computation,
+            found,
+            notes: found.notes(),
+            sentence: found.laws.words(),
+            plan,
+            written,
+            units,
+        }
     }
-    writeln!(text, "  95 % limits{unit}")?;
-    for at in &found.values {
-        writeln!(text, "{}", row(at, units.factor(LIFE.dimension)))?;
+
+    /// The first lines: what was followed, and the head of the table.
+    fn head(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let Self { plan, found, units, .. } = self;
+        let c = &plan.computation;
+        writeln!(f, "{} ({}, {})", plan.title, c.model, plan.name)?;
+        let (until, unit) = match units.is_physical() {
+            true => (
+                plain(&units.words(found.until, LIFE.dimension, "")),
+                format!(", times in {}", plain(&units.name(LIFE.dimension, ""))),
+            ),
+            false => (found.until.to_string(), String::new()),
+        };
+        let starts = format!("{} starts each, {}, seed {}", c.samples, c.random.words(), c.seed);
+        writeln!(f, "{starts}, followed to {until}")?;
+        write!(f, "{:>12}", found.parameter)?;
+        for title in ["blew up", "captured", "lasting", "delay", "events", "watched", "mean life"] {
+            write!(f, " {title:>10}")?;
+        }
+        writeln!(f, "  95 % limits{unit}")
     }
-    for note in found.notes() {
-        writeln!(text, "note      {note}")?;
+}
+
+impl Display for Lived<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        self.head(f)?;
+        for at in &self.found.values {
+            writeln!(f, "{}", row(at, self.units.factor(LIFE.dimension)))?;
+        }
+        for note in &self.notes {
+            writeln!(f, "note      {note}")?;
+        }
+        write!(f, "law       {}", self.sentence)?;
+        self.written.map_or(Ok(()), |out| write!(f, "\nwritten   {}", out.display()))
     }
-    write!(text, "law       {}", found.laws.words())?;
-    if let Some(out) = &options.out {
-        write!(text, "\nwritten   {}", out.display())?;
-    }
-    Ok(text)
 }
 
 fn row(at: &LifeAt, factor: f64) -> String {

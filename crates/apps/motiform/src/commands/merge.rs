@@ -1,8 +1,8 @@
 //! `motiform merge`.
 
 use crate::args::MergeOptions;
-use crate::commands::scan::show;
-use crate::output::{End, warn};
+use crate::output::{End, say, warn};
+use motiform_lab::answers::Scanned;
 use motiform_lab::scan::{ScanFolder, Totals, merge};
 
 pub(crate) fn run(options: &MergeOptions) -> anyhow::Result<End> {
@@ -13,7 +13,7 @@ pub(crate) fn run(options: &MergeOptions) -> anyhow::Result<End> {
     }
     let folder = ScanFolder::read(&options.out)?;
     let totals = Totals::of(&folder)?;
-    show(&folder, &totals, options.json)?;
+    say(&Scanned::new(&folder, &totals)?, options.json)?;
     if merged.missing > 0 {
         let parts = folder.plan().parts();
         warn(&format!(

@@ -3,7 +3,7 @@
 use crate::args::{CellsOptions, ObserveOptions, all_cores};
 use crate::commands::pages::draw;
 use crate::commands::population::observed;
-use crate::output::{End, print, warn};
+use crate::output::{End, say, warn};
 use crate::progress::Progress;
 use motiform_cells::{
     CellTrack, Observation, OutlineFile, Sample, Units, observations_json, observe, observed_population,
@@ -14,7 +14,8 @@ use motiform_statistics::{Answer, four_digits};
 use motiform_store::{Kind, Staged};
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::{Columns, Note, Options};
-use std::fmt::Write;
+use serde::{Serialize, Serializer};
+use std::fmt::{Display, Formatter, Write};
 use std::path::PathBuf;
 
 /// Notes of one kind that are printed.
@@ -37,7 +38,6 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
         let format = options.cells.style.format();
         drawn = draw(&sample, (&cells, &found), (&[], false), (all_cores(), &format), &write)?;
     }
-    let json = options.cells.json.then(|| observations_json(&sample, &found).to_string());
     let written =
         staged.map(|staged| write_observations(&sample, &found, staged)).transpose().map_err(plain_error)?;
     let written = written.map(|(path, kept)| {
@@ -45,7 +45,7 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
         path
     });
     let files: Vec<PathBuf> = outlines.into_iter().chain(written).collect();
-    print(&json.map_or_else(|| text(&sample, &found, &files), Ok)?)?;
+    say(&Observed { sample: &sample, found: &found, files: &files }, options.cells.json)?;
     let undecided = found.iter().any(|one| one.motion.regime.is_none());
     Ok(match (drawn, undecided) {
         (false, _) => End::Interrupted,
@@ -74,23 +74,42 @@ fn observe_all(cells: &[&CellTrack]) -> Option<Vec<Observation>> {
     Some(found)
 }
 
-/// The text for people: each cell, all of them together, and the files that were written.
-fn text(sample: &Sample, found: &[Observation], files: &[PathBuf]) -> anyhow::Result<String> {
-    let (mut text, units) = (head(sample), Units::of(sample));
-    for one in found {
-        let cell = sample.cells.iter().find(|cell| cell.name == one.cell);
-        write!(text, "\n{}", sentences(one, cell, &units)?)?;
-    }
-    if found.len() > 1 {
-        write!(text, "\n{}", observed(&observed_population(found), &population_numbers(found), &units)?)?;
-    }
-    for path in files {
-        write!(text, "\nwritten        {}", path.display())?;
-    }
-    Ok(text.trim_end().to_owned())
+/// The observed motions: each cell, all of them together, and the files that were written.
+struct Observed<'a> {
+    sample: &'a Sample,
+    found: &'a [Observation],
+    files: &'a [PathBuf],
 }
 
-fn sentences(found: &Observation, cell: Option<&CellTrack>, units: &Units) -> anyhow::Result<String> {
+impl Serialize for Observed<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        observations_json(self.sample, self.found).serialize(serializer)
+    }
+}
+
+impl Display for Observed<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let Self { sample, found, files } = self;
+        let (mut text, units) = (head(sample), Units::of(sample));
+        for one in *found {
+            let cell = sample.cells.iter().find(|cell| cell.name == one.cell);
+            write!(text, "\n{}", sentences(one, cell, &units)?)?;
+        }
+        if found.len() > 1 {
+            write!(text, "\n{}", observed(&observed_population(found), &population_numbers(found), &units)?)?;
+        }
+        for path in *files {
+            write!(text, "\nwritten        {}", path.display())?;
+        }
+        f.write_str(text.trim_end())
+    }
+}
+
+fn sentences(
+    found: &Observation,
+    cell: Option<&CellTrack>,
+    units: &Units,
+) -> Result<String, std::fmt::Error> {
     let name = found.motion.regime.map_or("undecided", |regime| regime.name());
     let mut text = format!("cell {:<9} {name}\nbecause        {}\n", found.cell, found.motion.why);
     if let Some(confidence) = found.motion.confidence {
@@ -109,7 +128,7 @@ fn sentences(found: &Observation, cell: Option<&CellTrack>, units: &Units) -> an
 }
 
 /// The numbers without a model, and why some are missing.
-fn numbers(found: &Observation, units: &Units) -> anyhow::Result<String> {
+fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
     let mut missing: Vec<(String, Vec<&str>)> = Vec::new();
     for row in found.numbers.rows() {
@@ -144,7 +163,7 @@ fn answer(found: &Answer, unit: &str) -> String {
 }
 
 /// Frames that count, and what is wrong with the others.
-pub(crate) fn quality(cell: Option<&CellTrack>, frames: usize) -> anyhow::Result<String> {
+pub(crate) fn quality(cell: Option<&CellTrack>, frames: usize) -> Result<String, std::fmt::Error> {
     let Some(cell) = cell else { return Ok(String::new()) };
     let all = cell.modes.frames.len();
     let mut text = format!("frames         {frames} of {all} count");

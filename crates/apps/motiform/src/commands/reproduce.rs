@@ -1,7 +1,7 @@
 //! `motiform reproduce`.
 
 use crate::args::ReproduceOptions;
-use crate::output::{End, plain, print, warn};
+use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_figures::Label;
 use motiform_figures::report::{Claim, Counts, Picture, Report, ReportFigure};
@@ -9,8 +9,9 @@ use motiform_lab::draw::{FigureFormat, formats};
 use motiform_paper::{Keeping, Kept, Options, reproduce_kept};
 use motiform_store::{Folder, Kind, Opening, end_of_work};
 use motiform_study::Error;
+use serde::{Serialize, Serializer};
 use serde_json::json;
-use std::fmt::Write;
+use std::fmt::{Display, Formatter};
 use std::path::Path;
 
 /// The page.
@@ -52,7 +53,7 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     files.complete()?;
     files.notes().iter().for_each(|note| warn(note));
     let page = out.join(PAGE);
-    print(&if options.json { json(&report, &page)? } else { summary(&report, &page)? })?;
+    say(&Reproduced { report: &report, page: &page }, options.json)?;
     Ok(if report.all_hold() { End::Done } else { End::NotAsAsked })
 }
 
@@ -92,47 +93,58 @@ fn write_figure(
     Ok(())
 }
 
+/// A report: the claims of the paper, and the checks of ours.
+struct Reproduced<'a> {
+    report: &'a Report,
+    page: &'a Path,
+}
+
 /// `hold`, `differ`, `fail`, `not_judged` count the claims of the paper; `checks` has the same for the checks of ours.
-fn json(report: &Report, page: &Path) -> anyhow::Result<String> {
-    let claim = |claim: &Claim| {
-        json!({ "source": if claim.is_ours() { "check" } else { "paper" }, "sentences": claim.sentences(),
+impl Serialize for Reproduced<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { report, page } = self;
+        let claim = |claim: &Claim| {
+            json!({ "source": if claim.is_ours() { "check" } else { "paper" }, "sentences": claim.sentences(),
                 "says": claim.says, "finds": claim.finds, "how": claim.how, "verdict": claim.verdict.words(),
                 "explanation": claim.verdict.explanation() })
-    };
-    let sections: Vec<_> = report
-        .numbered()
-        .map(|(number, section)| {
-            let claims: Vec<_> = section.claims.iter().map(claim).collect();
-            json!({ "number": number, "title": section.title, "claims": claims })
-        })
-        .collect();
-    let (counts, checks) = (report.counts(), report.checks());
-    Ok(serde_json::to_string(&json!({
+        };
+        let sections: Vec<_> = report
+            .numbered()
+            .map(|(number, section)| {
+                let claims: Vec<_> = section.claims.iter().map(claim).collect();
+                json!({ "number": number, "title": section.title, "claims": claims })
+            })
+            .collect();
+        let (counts, checks) = (report.counts(), report.checks());
+        json!({
         "report": page, "hold": counts.hold, "differ": counts.differ, "fail": counts.fail, "not_judged": counts.unjudged,
         "checks": { "hold": checks.hold, "differ": checks.differ, "fail": checks.fail, "not_judged": checks.unjudged },
         "sections": sections,
-    }))?)
+    })
+    .serialize(serializer)
+    }
 }
 
-fn summary(report: &Report, page: &Path) -> anyhow::Result<String> {
-    let mut text = String::new();
-    for section in &report.sections {
-        writeln!(text, "{}", plain(&section.title))?;
-        for claim in &section.claims {
-            let ours = if claim.is_ours() { "check: " } else { "" };
-            writeln!(text, "  {:12} {ours}{}", claim.verdict.words(), plain(&claim.says))?;
-            if let Some(explanation) = claim.verdict.explanation() {
-                writeln!(text, "               found: {}", plain(&claim.finds))?;
-                writeln!(text, "               {}", plain(explanation))?;
+impl Display for Reproduced<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let Self { report, page } = self;
+        for section in &report.sections {
+            writeln!(f, "{}", plain(&section.title))?;
+            for claim in &section.claims {
+                let ours = if claim.is_ours() { "check: " } else { "" };
+                writeln!(f, "  {:12} {ours}{}", claim.verdict.words(), plain(&claim.says))?;
+                if let Some(explanation) = claim.verdict.explanation() {
+                    writeln!(f, "               found: {}", plain(&claim.finds))?;
+                    writeln!(f, "               {}", plain(explanation))?;
+                }
             }
         }
+        let counted = |Counts { hold, differ, fail, unjudged }: Counts| {
+            let open = if unjudged == 0 { String::new() } else { format!(", {unjudged} not judged") };
+            format!("{hold} hold, {differ} differ for a known reason, {fail} fail{open}")
+        };
+        writeln!(f, "claims of the paper: {}", counted(report.counts()))?;
+        writeln!(f, "additional checks:   {}", counted(report.checks()))?;
+        write!(f, "{}", page.display())
     }
-    let counted = |Counts { hold, differ, fail, unjudged }: Counts| {
-        let open = if unjudged == 0 { String::new() } else { format!(", {unjudged} not judged") };
-        format!("{hold} hold, {differ} differ for a known reason, {fail} fail{open}")
-    };
-    writeln!(text, "claims of the paper: {}", counted(report.counts()))?;
-    writeln!(text, "additional checks:   {}", counted(report.checks()))?;
-    write!(text, "{}", page.display())?;
-    Ok(text)
 }

@@ -3,13 +3,12 @@
 use crate::args::ScanOptions;
 use crate::commands::remarks::{of_scan, ties};
 use crate::commands::subject;
-use crate::output::{End, print, warn};
+use crate::output::{End, say, warn};
 use crate::progress::Progress;
+use motiform_lab::answers::Scanned;
 use motiform_lab::draw::{files, scan_figures};
-use motiform_lab::scan::{Classify, Opening, Scan, ScanFolder, Shard, Totals};
+use motiform_lab::scan::{Classify, Opening, Scan, Shard, Totals};
 use motiform_study::{Error, ScanPlan, Study};
-use serde_json::json;
-use std::fmt::Write;
 use std::path::PathBuf;
 
 pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
@@ -35,7 +34,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     }
     scan.notes().iter().for_each(|note| warn(note));
     let totals = Totals::of(scan.folder())?;
-    show(scan.folder(), &totals, options.json)?;
+    say(&Scanned::new(scan.folder(), &totals)?, options.json)?;
     for damaged in &totals.damaged {
         warn(&format!("{damaged}; it belongs to another shard, which --resume recomputes"));
     }
@@ -72,59 +71,4 @@ fn study(options: &ScanOptions) -> Result<Study, Error> {
         warn(&format!("{perturbation}; --perturb 0 keeps the exact start"));
     }
     Ok(study)
-}
-
-/// Prints the contents of a folder.
-pub(crate) fn show(folder: &ScanFolder, totals: &Totals, as_json: bool) -> anyhow::Result<()> {
-    print(&if as_json { json(folder, totals)? } else { summary(folder, totals)? })
-}
-
-fn json(folder: &ScanFolder, totals: &Totals) -> anyhow::Result<String> {
-    let regimes: serde_json::Map<String, serde_json::Value> =
-        totals.regimes().map(|(regime, rows)| (regime.name().to_owned(), rows.into())).collect();
-    Ok(serde_json::to_string(&json!({
-        "plan_hash": folder.manifest().plan_hash,
-        "cells": folder.plan().cells(),
-        "random": folder.plan().computation.random,
-        "rows": totals.rows,
-        "regimes": regimes,
-        "multistable": totals.multistable,
-        "undetermined": totals.undetermined,
-        "escaped": totals.escaped,
-        "missing": totals.missing,
-        "folder": folder.path(),
-    }))?)
-}
-
-fn summary(folder: &ScanFolder, totals: &Totals) -> anyhow::Result<String> {
-    let plan = folder.plan();
-    let mut text = format!("{} ({}, {})\n", plan.title, plan.computation.model, plan.name);
-    for axis in &plan.computation.axes {
-        writeln!(text, "axis      {axis}")?;
-    }
-    let (cells, samples) = (totals.cells, plan.computation.samples);
-    writeln!(
-        text,
-        "cells     {cells} of {}, {samples} initial state{} each",
-        plan.cells(),
-        if samples == 1 { "" } else { "s" }
-    )?;
-    if samples > 1 || plan.draws_first()? {
-        let (random, seed) = (plan.computation.random.words(), plan.computation.seed);
-        writeln!(text, "          random ones {random}, seed {seed}")?;
-    }
-    for (regime, rows) in totals.regimes() {
-        let share = 100.0 * rows as f64 / totals.rows as f64;
-        writeln!(text, "          {:14} {rows} rows ({share:.1} %)", regime.name())?;
-    }
-    let special = [
-        (totals.multistable, "with more than one motion"),
-        (totals.undetermined, "undetermined"),
-        (totals.escaped, "with an escape"),
-    ];
-    for (count, what) in special.into_iter().filter(|entry| entry.0 > 0) {
-        writeln!(text, "          {count} cells {what}")?;
-    }
-    write!(text, "folder    {}", folder.path().display())?;
-    Ok(text)
 }

@@ -2,14 +2,18 @@
 
 use crate::args::{Crossing, SectionOptions};
 use crate::commands::subject;
-use crate::output::{End, print, warn};
+use crate::output::{End, say, warn};
 use crate::progress::Progress;
 use motiform_dynamics::Direction;
 use motiform_lab::section::section;
+use motiform_models::ModelName;
 use motiform_store::columns::to_csv;
 use motiform_store::table::Table;
-use motiform_study::{Error, RunPlan};
-use serde_json::{Map, Value, json};
+use motiform_study::plan::Named;
+use motiform_study::{Ending, Error, RunPlan};
+use serde::{Serialize, Serializer};
+use serde_json::Value;
+use std::fmt::{Display, Formatter};
 
 pub(crate) fn run(options: &SectionOptions) -> anyhow::Result<End> {
     let plan = plan(options)?;
@@ -23,18 +27,13 @@ pub(crate) fn run(options: &SectionOptions) -> anyhow::Result<End> {
     let found = section(&plan, (name, *value), direction, &watch);
     watch.finish();
     let (table, ending) = found?;
-    if options.motion.json {
-        let object = json!({
-            "model": plan.computation.model,
-            "parameters": plan.computation.parameters,
-            "at": { "coordinate": name, "value": value },
-            "crossings": crossings(&table),
-            "outcome": ending,
-        });
-        print(&serde_json::to_string(&object)?)?;
-    } else {
-        print(String::from_utf8_lossy(&to_csv(&table.columns)).trim_end())?;
-    }
+    let c = &plan.computation;
+    let at = At { coordinate: name, value: *value };
+    let crossings = Crossings(&table);
+    say(
+        &Section { model: &c.model, parameters: &c.parameters, at, crossings, outcome: &ending },
+        options.motion.json,
+    )?;
     if !ending.is_complete() {
         warn(&format!("the run {ending}"));
     }
@@ -48,11 +47,38 @@ fn plan(options: &SectionOptions) -> Result<RunPlan, Error> {
     RunPlan::new(&study)
 }
 
+/// The crossings of an orbit: objects, or lines of a table.
+#[derive(Serialize)]
+struct Section<'a> {
+    model: &'a ModelName,
+    parameters: &'a Named,
+    at: At<'a>,
+    crossings: Crossings<'a>,
+    outcome: &'a Ending,
+}
+
+/// The section.
+#[derive(Serialize)]
+struct At<'a> {
+    coordinate: &'a str,
+    value: f64,
+}
+
 /// An object for each crossing.
-fn crossings(table: &Table) -> Vec<Value> {
-    let row = |row: usize| {
-        let entries = table.columns.iter().map(|column| (column.name.clone(), column.values[row].into()));
-        Value::Object(entries.collect::<Map<_, _>>())
-    };
-    (0..table.rows()).map(row).collect()
+struct Crossings<'a>(&'a Table);
+
+impl Serialize for Crossings<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let row = |row: usize| {
+            let columns = self.0.columns.iter();
+            Value::Object(columns.map(|column| (column.name.clone(), column.values[row].into())).collect())
+        };
+        serializer.collect_seq((0..self.0.rows()).map(row))
+    }
+}
+
+impl Display for Section<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.write_str(String::from_utf8_lossy(&to_csv(&self.crossings.0.columns)).trim_end())
+    }
 }

@@ -3,7 +3,7 @@
 use crate::args::{SimulateOptions, TableFormat};
 use crate::commands::remarks::remark;
 use crate::commands::{figure, film, subject};
-use crate::output::{End, plain, print, warn};
+use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_analysis::Verdict;
 use motiform_lab::draw::Picture;
@@ -15,8 +15,9 @@ use motiform_lab::simulate::{Run, columns, simulate_into};
 use motiform_store::table::Table;
 use motiform_store::{Format, Kind, Staged, StagedFile, TableWriter};
 use motiform_study::{Dataset, Error, Manifest, RunPlan, Study};
+use serde::{Serialize, Serializer};
 use serde_json::json;
-use std::fmt::Write;
+use std::fmt::{Display, Formatter};
 use std::path::PathBuf;
 
 pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
@@ -36,12 +37,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     run.manifest.regime = verdict.as_ref().map(|verdict| verdict.regime.name().to_owned());
     let whole = rows.finish(&run.manifest).map_err(|error| target.shown(error))?;
     let (written, undrawn) = target.write(options, &run, whole)?;
-    let text = if options.json {
-        json(&run.manifest)?
-    } else {
-        summary(&run, verdict.as_ref(), written.as_deref())?
-    };
-    print(&text)?;
+    say(&Simulated { run: &run, verdict: verdict.as_ref(), written: written.as_deref() }, options.json)?;
     if let Some((motion, growth)) = naming::unstable(&run.manifest)? {
         warn(&format!(
             "the run ends on {motion} motion that is unstable (growth rate {growth:.2e}): its start has an exact \
@@ -227,53 +223,62 @@ fn pictures(
     figure::pictures(&Dataset { manifest, trajectory, crossings: run.crossings.clone() }, &options.drawing)
 }
 
-fn json(manifest: &Manifest) -> anyhow::Result<String> {
-    let mut object = json!({
-        "model": manifest.plan.computation.model,
-        "parameters": manifest.plan.computation.parameters,
-        "outcome": manifest.outcome,
-        "control": manifest.plan.computation.control,
-        "t": manifest.outcome.t_last(),
-        "state": manifest.state,
-        "position": manifest.position,
-        "steps": manifest.steps,
-        "manifest": manifest,
-    });
-    if let Some(regime) = &manifest.regime {
-        object["regime"] = json!(regime);
-    }
-    if let Some(object) = object.as_object_mut().filter(|_| !manifest.measures.is_empty()) {
-        object.insert("velocity".to_owned(), json!(manifest.velocity));
-        for (name, value) in &manifest.measures.0 {
-            object.insert(name.clone(), json!(value));
-        }
-    }
-    Ok(serde_json::to_string(&object)?)
+/// The end of a run.
+struct Simulated<'a> {
+    run: &'a Run,
+    verdict: Option<&'a Verdict>,
+    written: Option<&'a str>,
 }
 
-fn summary(run: &Run, verdict: Option<&Verdict>, written: Option<&str>) -> anyhow::Result<String> {
-    let manifest = &run.manifest;
-    let plan = &manifest.plan;
-    let mut text = format!("{} ({}, {})\n", plain(&manifest.title()), plan.computation.model, plan.name);
-    writeln!(text, "outcome   {}", manifest.outcome)?;
-    let (steps, rejected) = (manifest.steps, manifest.rejected_steps);
-    let c = &plan.computation;
-    writeln!(text, "steps     {steps} accepted, {rejected} rejected ({}, {})", c.stepper, c.control)?;
-    if let Some(noise) = &c.noise {
-        writeln!(text, "noise     {noise}, seed {}", c.seed)?;
+impl Serialize for Simulated<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let manifest = &self.run.manifest;
+        let mut object = json!({
+            "model": manifest.plan.computation.model,
+            "parameters": manifest.plan.computation.parameters,
+            "outcome": manifest.outcome,
+            "control": manifest.plan.computation.control,
+            "t": manifest.outcome.t_last(),
+            "state": manifest.state,
+            "position": manifest.position,
+            "steps": manifest.steps,
+            "manifest": manifest,
+        });
+        if let Some(regime) = &manifest.regime {
+            object["regime"] = json!(regime);
+        }
+        if let Some(object) = object.as_object_mut().filter(|_| !manifest.measures.is_empty()) {
+            object.insert("velocity".to_owned(), json!(manifest.velocity));
+            for (name, value) in &manifest.measures.0 {
+                object.insert(name.clone(), json!(value));
+            }
+        }
+        object.serialize(serializer)
     }
-    if let Some(verdict) = verdict {
-        writeln!(text, "motion    at the end {}: {}", verdict.regime, verdict.why)?;
+}
+
+impl Display for Simulated<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let manifest = &self.run.manifest;
+        let plan = &manifest.plan;
+        write!(f, "{} ({}, {})", plain(&manifest.title()), plan.computation.model, plan.name)?;
+        write!(f, "\noutcome   {}", manifest.outcome)?;
+        let (steps, rejected) = (manifest.steps, manifest.rejected_steps);
+        let c = &plan.computation;
+        write!(f, "\nsteps     {steps} accepted, {rejected} rejected ({}, {})", c.stepper, c.control)?;
+        if let Some(noise) = &c.noise {
+            write!(f, "\nnoise     {noise}, seed {}", c.seed)?;
+        }
+        if let Some(verdict) = self.verdict {
+            write!(f, "\nmotion    at the end {}: {}", verdict.regime, verdict.why)?;
+        }
+        let state: Vec<String> =
+            manifest.state.0.iter().map(|(name, value)| format!("{name} = {value:.6}")).collect();
+        write!(f, "\nstate     {}", state.join("  "))?;
+        write!(f, "\nposition  x = {:.6}  y = {:.6}", manifest.position[0], manifest.position[1])?;
+        if let Some(crossings) = &self.run.crossings {
+            write!(f, "\ncrossings {}", crossings.rows())?;
+        }
+        self.written.map_or(Ok(()), |written| write!(f, "\nwritten   {written}"))
     }
-    let state: Vec<String> =
-        manifest.state.0.iter().map(|(name, value)| format!("{name} = {value:.6}")).collect();
-    writeln!(text, "state     {}", state.join("  "))?;
-    writeln!(text, "position  x = {:.6}  y = {:.6}", manifest.position[0], manifest.position[1])?;
-    if let Some(crossings) = &run.crossings {
-        writeln!(text, "crossings {}", crossings.rows())?;
-    }
-    if let Some(written) = written {
-        writeln!(text, "written   {written}")?;
-    }
-    Ok(text.trim_end().to_owned())
 }

@@ -3,13 +3,14 @@
 use crate::args::{StatisticsOptions, SubjectOptions};
 use crate::commands::remarks::remark;
 use crate::commands::subject;
-use crate::output::{End, plain, print, warn};
+use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_lab::statistics::{Measurement, read, samples_apart, sentences, simulated_kept, summary, write};
 use motiform_statistics::Settings;
 use motiform_store::{Folder, Journal, Opening};
 use motiform_study::{Error, RunPlan, Shown, Study};
-use std::fmt::Write;
+use serde::{Serialize, Serializer};
+use std::fmt::{Display, Formatter};
 use std::path::Path;
 
 /// Bodies, if their number is not given.
@@ -41,7 +42,6 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
             return Err(error);
         }
     };
-    let json = options.json.then(|| summary(&found).to_string());
     if let Some(folder) = &folder {
         write(&found, &options.style.format_in(units.clone()), folder).map_err(plain_error)?;
         folder.notes().iter().for_each(|note| warn(note));
@@ -51,11 +51,8 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
             );
         }
     }
-    let written = folder.map(|folder| folder.shown().display().to_string());
-    print(&match json {
-        Some(json) => json,
-        None => text(&found, written.as_deref(), &units)?,
-    })?;
+    let written = folder.as_ref().map(Folder::shown);
+    say(&Measured { found: &found, written, units: &units }, options.json)?;
     found.notes.iter().for_each(|note| warn(note));
     Ok(if found.complete { End::Done } else { End::Interrupted })
 }
@@ -136,15 +133,27 @@ fn settings(options: &StatisticsOptions) -> Settings {
     Settings { radii: options.radius.clone(), threshold: options.threshold.clone() }
 }
 
-fn text(found: &Measurement, written: Option<&str>, units: &Shown) -> anyhow::Result<String> {
-    let mut text = format!("{}\n", plain(&found.title));
-    for (label, sentence) in sentences(found, units) {
-        writeln!(text, "{label:<12} {sentence}")?;
+/// The statistics of a motion.
+struct Measured<'a> {
+    found: &'a Measurement,
+    written: Option<&'a Path>,
+    units: &'a Shown,
+}
+
+impl Serialize for Measured<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        summary(self.found).serialize(serializer)
     }
-    if let Some(written) = written {
-        writeln!(text, "{:<12} {written}", "written")?;
+}
+
+impl Display for Measured<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&plain(&self.found.title))?;
+        for (label, sentence) in sentences(self.found, self.units) {
+            write!(f, "\n{label:<12} {sentence}")?;
+        }
+        self.written.map_or(Ok(()), |written| write!(f, "\n{:<12} {}", "written", written.display()))
     }
-    Ok(text.trim_end().to_owned())
 }
 
 /// The error itself, so that remedies and exit codes are those of every command.

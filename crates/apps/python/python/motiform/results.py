@@ -208,10 +208,9 @@ class Motions:
 
 def motions_of(raw: dict[str, Any]) -> Motions:
     """The motions of the native module's JSON."""
-    verdicts = tuple(verdict_of({**entry, "accuracy": raw["accuracy"]}) for entry in raw["verdicts"])
+    verdicts = tuple(verdict_of({**entry, "accuracy": raw["accuracy"]}) for entry in raw["samples"])
     shares = tuple(Share(**entry) for entry in raw["shares"])
-    text = "; ".join([raw["words"], *raw["escape_words"]])
-    return Motions(verdicts, shares, raw["starts"], raw["escapes"], text)
+    return Motions(verdicts, shares, raw["starts"], raw.get("escapes"), "; ".join(raw["words"]))
 
 
 @dataclass(frozen=True)
@@ -260,7 +259,7 @@ def exponents_of(raw: dict[str, Any]) -> Exponents:
     pairs = [(entry["value"], entry.get("error", np.inf)) for entry in raw["exponents"]]
     estimates = np.array(pairs, dtype=float).reshape(-1, 2)
     outcome = outcome_of(raw["outcome"], raw["complete"], raw["ended"])
-    ends = (raw["neutral"], raw["time"], raw["transient"], outcome, Accuracy(**raw["accuracy"]), raw["without_error"])
+    ends = (raw["neutral"], raw["time"], raw["transient"], outcome, Accuracy(**raw["accuracy"]), raw.get("without_error"))
     dimension = raw.get("dimension")
     return Exponents(estimates[:, 0], estimates[:, 1], *ends, Estimate(**dimension) if dimension else None)
 

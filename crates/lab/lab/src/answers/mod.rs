@@ -1,0 +1,59 @@
+//! Answers to questions about a plan: each is lines for people, and an object for programs.
+//!
+//! The program prints one of the two, Python reads the object. What an object has beside the answer is what it is about: the model, its
+//! parameters, the accuracy.
+
+mod classified;
+mod exponents;
+mod motions;
+mod saddle;
+mod scanned;
+mod steady;
+
+pub use classified::Classified;
+pub use exponents::{Exponents, MeanExponents, OfOrbit};
+pub use motions::Motions;
+pub use scanned::Scanned;
+pub use steady::SteadyMotions;
+
+use motiform_analysis::Estimate;
+use motiform_models::ModelName;
+use motiform_study::Plan;
+use motiform_study::plan::{Control, Named};
+use serde::Serialize;
+use std::fmt::Display;
+
+/// An answer: lines for people, and an object for programs.
+pub trait Answer: Display + Serialize {
+    /// The object on one line, if `json`, or else the lines.
+    ///
+    /// # Errors
+    /// An object that cannot be written as JSON.
+    fn said(&self, json: bool) -> serde_json::Result<String> {
+        if json { serde_json::to_string(self) } else { Ok(self.to_string()) }
+    }
+}
+
+impl<A: Display + Serialize> Answer for A {}
+
+/// The subject of an answer.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct About<'a> {
+    model: &'a ModelName,
+    parameters: &'a Named,
+    control: Control,
+}
+
+impl<'a> About<'a> {
+    fn of(plan: &'a Plan) -> Self {
+        let c = &plan.computation;
+        Self { model: &c.model, parameters: &c.parameters, control: c.control }
+    }
+}
+
+/// `0.0902 +- 2.1e-3`, or a note that there is no error.
+fn estimate(estimate: &Estimate, width: usize, digits: usize) -> String {
+    let Estimate { value, error } = estimate;
+    let error = if estimate.has_error() { format!("+- {error:.1e}") } else { "(no error)".to_owned() };
+    format!("{value:>width$.digits$} {error}")
+}

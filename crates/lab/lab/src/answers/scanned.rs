@@ -1,0 +1,85 @@
+//! The contents of a scan.
+
+use crate::scan::{ScanFolder, Totals};
+use motiform_study::{Error, Random};
+use serde::Serialize;
+use std::fmt::{Display, Formatter, Result};
+use std::path::Path;
+
+/// The totals of a scan.
+#[derive(Clone, Debug, Serialize)]
+pub struct Scanned<'a> {
+    plan_hash: &'a str,
+    cells: usize,
+    random: Random,
+    rows: usize,
+    regimes: serde_json::Map<String, serde_json::Value>,
+    multistable: usize,
+    undetermined: usize,
+    escaped: usize,
+    missing: usize,
+    folder: &'a Path,
+    #[serde(skip)]
+    read: &'a ScanFolder,
+    #[serde(skip)]
+    totals: &'a Totals,
+    /// `true` if initial states were drawn.
+    #[serde(skip)]
+    drawn: bool,
+}
+
+impl<'a> Scanned<'a> {
+    /// The totals of a folder.
+    ///
+    /// # Errors
+    /// An unknown model.
+    pub fn new(read: &'a ScanFolder, totals: &'a Totals) -> std::result::Result<Self, Error> {
+        let plan = read.plan();
+        let regimes = totals.regimes().map(|(regime, rows)| (regime.name().to_owned(), rows.into()));
+        Ok(Self {
+            plan_hash: &read.manifest().plan_hash,
+            cells: plan.cells(),
+            random: plan.computation.random,
+            rows: totals.rows,
+            regimes: regimes.collect(),
+            multistable: totals.multistable,
+            undetermined: totals.undetermined,
+            escaped: totals.escaped,
+            missing: totals.missing,
+            folder: read.path(),
+            read,
+            totals,
+            drawn: plan.computation.samples > 1 || plan.draws_first()?,
+        })
+    }
+}
+
+impl Display for Scanned<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let (plan, totals) = (self.read.plan(), self.totals);
+        writeln!(f, "{} ({}, {})", plan.title, plan.computation.model, plan.name)?;
+        for axis in &plan.computation.axes {
+            writeln!(f, "axis      {axis}")?;
+        }
+        let (cells, samples) = (totals.cells, plan.computation.samples);
+        let plural = if samples == 1 { "" } else { "s" };
+        writeln!(f, "cells     {cells} of {}, {samples} initial state{plural} each", plan.cells())?;
+        if self.drawn {
+            let (random, seed) = (plan.computation.random.words(), plan.computation.seed);
+            writeln!(f, "          random ones {random}, seed {seed}")?;
+        }
+        for (regime, rows) in totals.regimes() {
+            let share = 100.0 * rows as f64 / totals.rows as f64;
+            writeln!(f, "          {:14} {rows} rows ({share:.1} %)", regime.name())?;
+        }
+        let special = [
+            (totals.multistable, "with more than one motion"),
+            (totals.undetermined, "undetermined"),
+            (totals.escaped, "with an escape"),
+        ];
+        for (count, what) in special.into_iter().filter(|entry| entry.0 > 0) {
+            writeln!(f, "          {count} cells {what}")?;
+        }
+        write!(f, "folder    {}", self.folder.display())
+    }
+}
