@@ -1,7 +1,7 @@
 //! Atlases of a plane of two parameters.
 
 use crate::errors::{of_json, python};
-use crate::study::Study;
+use crate::study::{Study, apply};
 use crate::watch::Caller;
 use motiform_diagrams::atlas::{
     AtlasFolder, atlas_map, atlas_summary, cell_columns, curve_columns, survey, trace,
@@ -12,36 +12,37 @@ use motiform_lab::draw::{FigureFormat, files};
 use motiform_store::columns::{Column, to_csv};
 use motiform_store::{Folder, Journal, Opening};
 use motiform_study::Error;
-use motiform_study::atlas::{self, AtlasPlan, AtlasSettings};
+use motiform_study::atlas::{self, AtlasPlan};
 use motiform_study::scan::Axis;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyDict};
 use std::path::PathBuf;
 
 /// A finished atlas.
 #[pyclass(frozen, module = "motiform._motiform")]
 pub(crate) struct Atlas(AtlasFolder);
 
-/// Initial states of a cell, most lines, most branches of a line, model time for classifying a motion, threads.
-type Counts = (Option<u64>, usize, usize, Option<f64>, usize);
+/// Initial states of a cell, model time for classifying a motion, threads.
+type Counts = (Option<u64>, Option<f64>, usize);
 
 /// A folder, and whether it is new, resumed or replaced.
 type Place = Option<(PathBuf, String)>;
 
 /// The atlas of a plane: both axes as text, as on the command line; what a signal or the callable raised in its place.
 #[pyfunction]
-#[pyo3(signature = (study, axes, counts, steady, out, progress=None))]
+#[pyo3(signature = (study, axes, counts, settings, out, progress=None))]
 pub(crate) fn make_atlas(
     py: Python<'_>,
     study: &Study,
     axes: Option<Vec<String>>,
     counts: Counts,
-    steady: Option<bool>,
+    settings: &Bound<'_, PyDict>,
     out: Place,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Option<Atlas>> {
-    let (samples, lines, branches, budget, threads) = counts;
+    let (samples, budget, threads) = counts;
     let mut study = study.0.clone();
+    apply(settings, &mut study.atlas)?;
     if let Some(axes) = axes {
         let axes: Result<Vec<Axis>, Error> = axes.iter().map(|text| atlas::axis(text)).collect();
         study.scan.axes = axes.map_err(python)?;
@@ -49,7 +50,7 @@ pub(crate) fn make_atlas(
     study.scan.samples = atlas::samples(&study, samples);
     study.scan.budget = budget.unwrap_or(study.scan.budget);
     let study = study.perturbed().map_err(python)?.0;
-    let plan = AtlasPlan::new(&study, &AtlasSettings { lines, branches, steady }).map_err(python)?;
+    let plan = AtlasPlan::new(&study).map_err(python)?;
     let folder = out.map(|(path, opening)| AtlasFolder::open(&path, &plan, opening_of(&opening)));
     let folder: Option<Folder> = folder.transpose().map_err(python)?;
     let journal: &dyn Journal = folder.as_ref().map_or(&(), |folder| folder);

@@ -234,13 +234,19 @@ pub(crate) fn set_one<S: Settings>(table: &mut S, name: &str, value: &Bound<'_, 
 /// A table with these settings, the others with their defaults.
 pub(crate) fn table<S: Settings + Default>(given: &Bound<'_, PyDict>) -> PyResult<S> {
     let mut table = S::default();
+    apply(given, &mut table)?;
+    Ok(table)
+}
+
+/// Sets these settings of a table; `None` leaves one as it is.
+pub(crate) fn apply<S: Settings>(given: &Bound<'_, PyDict>, table: &mut S) -> PyResult<()> {
     for (name, value) in given {
         let name = name.cast::<PyString>()?;
-        if !set_one(&mut table, name.to_str()?, &value)? {
+        if !set_one(table, name.to_str()?, &value)? {
             return Err(PyTypeError::new_err(format!("unknown setting {name:?}")));
         }
     }
-    Ok(table)
+    Ok(())
 }
 
 /// The plan of a study.

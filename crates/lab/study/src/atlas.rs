@@ -2,6 +2,7 @@
 
 use crate::branches::{Along, BRANCH_FORMAT, BranchComputation, BranchSettings};
 use crate::curves::{CURVE_FORMAT, CurveComputation, CurveKind};
+use crate::described::settings;
 use crate::plan::{Computation, Named, Plan, Question, check, stepper};
 use crate::scan::{Axis, ScanComputation};
 use crate::{BranchPlan, CurvePlan, Error, ScanPlan, Stride, Study};
@@ -49,15 +50,17 @@ pub fn samples(study: &Study, asked: Option<u64>) -> u64 {
     }
 }
 
-/// Bounds of the work.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct AtlasSettings {
-    /// Most lines across boundaries.
-    pub lines: usize,
-    /// Most branches on a line.
-    pub branches: usize,
-    /// `true` to follow steady motions alone. `None`: for stiff models, whose orbits take long.
-    pub steady: Option<bool>,
+settings! {
+    /// The lines of an atlas, along which motions are followed.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub struct AtlasSettings {
+        /// Most lines across boundaries along which motions are followed, by default 24, at most 1000; 0 follows none.
+        pub lines: u64,
+        /// Most branches on each line, by default 4.
+        pub branches: u64,
+        /// Follow steady motions alone, not the orbits that begin at Hopf points (by default so for stiff models).
+        pub steady: Option<bool>,
+    }
 }
 
 impl Default for AtlasSettings {
@@ -116,8 +119,9 @@ impl AtlasPlan {
     ///
     /// # Errors
     /// [`Error`] naming the key, the value and the remedy.
-    pub fn new(study: &Study, settings: &AtlasSettings) -> Result<Self, Error> {
-        let mut study = study.clone();
+    pub fn new(study: &Study) -> Result<Self, Error> {
+        let (mut study, settings) = (study.clone(), &study.atlas);
+        let whole = |count: u64| usize::try_from(count).unwrap_or(usize::MAX);
         let method = stepper(&study.run.stepper)?;
         let stiff = matches!(method, Method::Exponential(_));
         let axes =
@@ -137,8 +141,11 @@ impl AtlasPlan {
         let stride = Stride { steady, ..Stride::default() };
         let mut start = None;
         for axis in &study.scan.axes {
-            let settings =
-                BranchSettings { branches: settings.branches, stride, ..BranchSettings::over(along(axis)) };
+            let settings = BranchSettings {
+                branches: whole(settings.branches),
+                stride,
+                ..BranchSettings::over(along(axis))
+            };
             start = Some(BranchPlan::new(&study, &settings)?.computation.start);
         }
         let ScanPlan { name, title, computation: scan, .. } = ScanPlan::new(&study)?;
@@ -146,8 +153,8 @@ impl AtlasPlan {
         let computation = AtlasComputation {
             format: ATLAS_FORMAT,
             scan,
-            lines: settings.lines,
-            branches: settings.branches,
+            lines: whole(settings.lines),
+            branches: whole(settings.branches),
             line_steps: LINE_STEPS,
             stride,
             start,

@@ -1,5 +1,6 @@
 //! A study as typed: everything is optional, nothing is computed yet.
 
+pub use crate::atlas::AtlasSettings;
 use crate::described::settings;
 pub use crate::follow_settings::FollowSettings;
 use crate::input;
@@ -45,6 +46,8 @@ pub struct Study {
     pub scan: ScanSettings,
     /// Branches and curves.
     pub follow: FollowSettings,
+    /// The lines of an atlas.
+    pub atlas: AtlasSettings,
     /// The return map, if any.
     pub return_map: Option<ReturnMapSettings>,
     /// Settings of figures.
@@ -162,6 +165,7 @@ impl Study {
             run: RunSettings { stepper: info.stepper.to_owned(), rtol: info.rtol, ..RunSettings::default() },
             scan: ScanSettings::default(),
             follow: FollowSettings::default(),
+            atlas: AtlasSettings::default(),
             return_map: None,
             figure: FigureSettings { animation: true, ..FigureSettings::default() },
             display: DisplaySettings::of_model(info),

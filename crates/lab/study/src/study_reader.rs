@@ -5,7 +5,9 @@ use crate::described::Described;
 use crate::plain::Plain;
 use crate::random::Random;
 use crate::run_settings::RunSettings;
-use crate::study::{DisplaySettings, FigureSettings, FollowSettings, ReturnMapSettings, ScanSettings, Study};
+use crate::study::{
+    AtlasSettings, DisplaySettings, FigureSettings, FollowSettings, ReturnMapSettings, ScanSettings, Study,
+};
 use crate::toml_reader::{Source, Table, Value};
 use crate::{Error, amplitudes, presets};
 use motiform_models::amplitudes::NAME;
@@ -48,6 +50,9 @@ impl Study {
         if let Some(table) = top.table("continue")? {
             let info = study.info()?;
             study.follow.read(table, &|follow, key| follow.check(info, key))?;
+        }
+        if let Some(table) = top.table("atlas")? {
+            study.atlas.read(table, &|_, _| Ok(()))?;
         }
         if let Some(table) = top.table("return_map")? {
             let preset = study.return_map.take();
@@ -254,6 +259,7 @@ pub fn schema() -> serde_json::Value {
             "run": RunSettings::schema(),
             "scan": ScanSettings::schema(),
             "continue": FollowSettings::schema(),
+            "atlas": AtlasSettings::schema(),
             "return_map": ReturnMapSettings::schema(),
             "figure": FigureSettings::schema(),
             "display": DisplaySettings::schema(),

@@ -63,6 +63,7 @@ impl Study {
             ("run", self.run.table(Some(&bare.run))?),
             ("scan", self.scan.table(Some(&bare.scan))?),
             ("continue", self.follow.table(Some(&bare.follow))?),
+            ("atlas", self.atlas.table(Some(&bare.atlas))?),
             ("figure", self.figure.table(Some(&bare.figure))?),
             ("display", self.display.table(Some(&bare.display))?),
         ];

@@ -1,5 +1,6 @@
 //! Options of `atlas`.
 
+use super::settings::{Lines, SettingOptions};
 use super::{StyleOptions, SubjectOptions, ThreadOptions, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
@@ -26,15 +27,8 @@ pub(crate) struct AtlasOptions {
     /// Maximum model time for classifying one motion; 0 is the model's default
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) budget: Option<f64>,
-    /// Maximum number of lines across boundaries along which motions are followed; 0 follows none
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(..=1000), allow_hyphen_values = true, default_value_t = 24)]
-    pub(crate) lines: u16,
-    /// Maximum number of branches on each line
-    #[arg(long, value_name = "N", value_parser = whole, allow_hyphen_values = true, default_value_t = 4)]
-    pub(crate) branches: u64,
-    /// Follow steady motions alone, not the orbits that begin at Hopf points (always so for stiff models)
-    #[arg(long)]
-    pub(crate) steady: bool,
+    #[command(flatten)]
+    pub(crate) lines: SettingOptions<Lines>,
     /// Output folder (default: MODEL-PRESET-atlas in the current folder)
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

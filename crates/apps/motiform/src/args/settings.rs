@@ -4,7 +4,7 @@ use super::{number, whole};
 use clap::builder::ValueParser;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use motiform_study::study::{FigureSettings, FollowSettings, RunSettings, ScanSettings};
+use motiform_study::study::{AtlasSettings, FigureSettings, FollowSettings, RunSettings, ScanSettings};
 use motiform_study::{Error, Key, Settings};
 use serde_json::Value;
 use std::marker::PhantomData;
@@ -85,6 +85,14 @@ impl Keys for Following {
         "doublings",
     ];
     const RENAMED: &'static [(&'static str, &'static str)] = &[("from", "motion"), ("samples", "sweep")];
+}
+
+/// The lines of an atlas.
+pub(crate) struct Lines;
+
+impl Keys for Lines {
+    type Table = AtlasSettings;
+    const NAMES: &'static [&'static str] = &["lines", "branches", "steady"];
 }
 
 /// Settings that were given as options.

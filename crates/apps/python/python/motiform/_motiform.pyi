@@ -153,8 +153,8 @@ def follow_branches(
 def make_atlas(
     study: Study,
     axes: list[str] | None,
-    counts: tuple[int | None, int, int, float | None, int],
-    steady: bool | None,
+    counts: tuple[int | None, float | None, int],
+    settings: dict[str, Any],
     out: tuple[str, str] | None,
     progress: _Progress = None,
 ) -> Atlas | None: ...

@@ -242,8 +242,8 @@ class Model(Analysed):
         axes: Mapping[str, str | Sequence[float]] | None = None,
         *,
         samples: int | None = None,
-        lines: int = 24,
-        branches: int = 4,
+        lines: int | None = None,
+        branches: int | None = None,
         steady: bool | None = None,
         random: Random | None = None,
         seed: int | None = None,
@@ -265,8 +265,8 @@ class Model(Analysed):
 
         `axes`: two parameters with their ranges, (low, high), (low, high, count), or text as on the command line (``"0.1:1.6:33"``); by default
         the plane of the model's preset. `samples`: initial states of each cell, 3 if neither this nor the study says it. `lines` across
-        boundaries are followed, with at most so many `branches` each, of `steady` motions alone if that is true (by default where the
-        equations are stiff). `out`, `resume`, `overwrite`: a folder that :func:`read` reads, as with ``--out --resume --force``. An
+        boundaries are followed (24, if neither this nor the study says it), with at most so many `branches` each (4), of `steady` motions
+        alone if that is true (by default where the equations are stiff). `out`, `resume`, `overwrite`: a folder that :func:`read` reads, as with ``--out --resume --force``. An
         interruption raises ``KeyboardInterrupt``; with `out` what is finished is kept.
 
         More: docs/atlas.md.
@@ -275,9 +275,10 @@ class Model(Analysed):
         study = with_given(self._study, None, {"random": random, "seed": seed})
         remark(study, () if axes is None else tuple(axes))
         place = None if out is None else (os.fspath(out), "resume" if resume else "replace" if overwrite else "new")
-        counts = (samples, lines, branches, budget, threads or os.cpu_count() or 1)
+        counts = (samples, budget, threads or os.cpu_count() or 1)
+        settings = {"lines": lines, "branches": branches, "steady": steady}
         with Bar(progress, 1, "of cells and lines") as bar:
-            native = _motiform.make_atlas(study, names, counts, steady, place, bar.callable())
+            native = _motiform.make_atlas(study, names, counts, settings, place, bar.callable())
         if native is None:
             raise KeyboardInterrupt
         return atlas_of(native, self.units)

@@ -7,7 +7,6 @@ use crate::common;
 
 use common::{column, preset, run};
 use motiform_store::table::same_bits;
-use motiform_study::atlas::AtlasSettings;
 use motiform_study::branches::{Along, BranchSettings};
 use motiform_study::curves::{CurveKind, CurveSettings, Plane};
 use motiform_study::scan::Axis;
@@ -162,7 +161,7 @@ fn plans_of_all_kinds_have_one_manifest() {
     manifests(&CurvePlan::new(&study, branches, &settings).unwrap(), "tensor-fig5a-curves");
     study.scan.axes = vec![Axis::parse("kappa2=0.85:1:3").unwrap(), Axis::parse("kappa3=0.1:0.9:3").unwrap()];
     manifests(&ScanPlan::new(&study).unwrap(), "tensor-fig5a-scan");
-    manifests(&AtlasPlan::new(&study, &AtlasSettings::default()).unwrap(), "tensor-fig5a-atlas");
+    manifests(&AtlasPlan::new(&study).unwrap(), "tensor-fig5a-atlas");
     study.name = "tensor".to_owned();
     manifests(&ScanPlan::new(&study).unwrap(), "tensor-scan");
     manifests(&RunPlan::new(&study).unwrap(), "tensor");
