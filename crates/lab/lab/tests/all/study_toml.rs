@@ -220,14 +220,25 @@ fn keys_that_the_reader_knows(info: &ModelInfo) -> BTreeSet<String> {
         let list = complaint.lines().next().unwrap().rsplit_once(" are ").unwrap().1;
         list.split(", ").map(str::to_owned).collect()
     };
-    for table in ["run", "scan", "continue", "return_map", "figure", "display"] {
+    for table in ["run", "scan", "continue", "atlas", "return_map", "figure", "display"] {
         let keys = listed(&complaint(&format!("[{model}]\n[{table}]\nzzz = 1\n")));
         known.extend(keys.iter().map(|key| format!("{table}.{key}")));
     }
     let initial = listed(&complaint(&format!("[{model}]\n[initial]\nzzz = 1\n")));
     known.extend(initial.iter().chain([&"random".to_owned()]).map(|key| format!("initial.{key}")));
-    let tables =
-        ["model", "ties", "initial", "run", "scan", "continue", "return_map", "figure", "display", "fit"];
+    let tables = [
+        "model",
+        "ties",
+        "initial",
+        "run",
+        "scan",
+        "continue",
+        "atlas",
+        "return_map",
+        "figure",
+        "display",
+        "fit",
+    ];
     let top = listed(&complaint(&format!("zzz = 1\n[{model}]\n")));
     known.extend(top.into_iter().filter(|key| !tables.contains(&key.as_str())));
     known
