@@ -21,7 +21,7 @@ const LEFT: f64 = 100.0;
 /// [`WALK_RATE`]. Where the walk is far from that after first steps already, the value is a bound from above.
 ///
 /// # Errors    [`crate::Error::Interrupted`] where the watch stops it
-/// # Checked by  `tests/all/null.rs`: random walks, and a cell that moves straight
+/// # Checked by  `tests/all/null.rs`: random walks, and a cell that moves straight; bounds against walks at their maximum
 pub fn walk_p_value(tracks: &[Track], whole: &Fit, selection: &Selection, watch: &dyn Watch) -> Result<f64> {
     let kept = selection.subsets.best().map(|set| set.kept.clone()).unwrap_or_default();
     let is_decay = |i: &usize| whole.coefficients[*i].name == "z1: z1";
