@@ -20,38 +20,63 @@ const OF_MODULE: [&str; 2] = ["alone.test.mjs", "module.test.mjs"];
 /// files there.
 const IN_FIREFOX: [&str; 2] = ["alone.test.mjs", "swarm.test.mjs"];
 
-/// Builds the program, and tests its page.
+/// The page: the checkout, its folder there, and the Node that builds and tests it.
+struct Page {
+    root: PathBuf,
+    folder: PathBuf,
+    node: PathBuf,
+}
+
+impl Page {
+    fn new() -> Result<Self> {
+        let root = root()?.canonicalize()?;
+        Ok(Self { folder: root.join("crates/apps/explorer/web"), node: node(&root)?, root })
+    }
+
+    /// Builds the page, compares it with the committed one, and builds the page without a server.
+    fn build(&self) -> Result<()> {
+        npm("page dependencies", &self.node, &self.folder, &["ci", "--no-audit", "--no-fund"])?;
+        compare(&self.node, &self.root, &self.folder)?;
+        web::for_tests(&self.node, &self.root, &self.folder)
+    }
+
+    /// Runs these test files, as far as they can be run, in a browser.
+    fn test(&self, browser: Environment, is_wanted: impl Fn(&Path) -> bool) -> Result<()> {
+        let mut files = files(&self.folder.join("tests"), web::is_installed()?)?;
+        files.retain(|file| is_wanted(file));
+        Browser::new(&self.node, browser, binary(&self.root)).test(&files)
+    }
+}
+
+/// Builds the program and its page, and tests the page in Chromium, and in part in Firefox.
 pub(crate) fn test() -> Result<()> {
     cargo("program", &["build", "--release", "--workspace"])?;
-    test_built()
+    build()?;
+    test_in_chromium()?;
+    test_part_in_firefox()
 }
 
-/// Builds the page, compares it with the committed one, and tests that of the program that was built last, in
-/// Chromium, and in part in Firefox.
-pub(crate) fn test_built() -> Result<()> {
-    let root = root()?.canonicalize()?;
-    let folder = root.join("crates/apps/explorer/web");
-    let node = node(&root)?;
-    let [chromium, firefox] = [chromium()?, firefox()?];
-    npm("page dependencies", &node, &folder, &["ci", "--no-audit", "--no-fund"])?;
-    compare(&node, &root, &folder)?;
-    let alone = web::for_tests(&node, &root, &folder)?;
-    let mut files = files(&folder.join("tests"), alone)?;
-    Browser::new(&node, chromium, binary(&root)).test(&files)?;
-    files.retain(|file| IN_FIREFOX.iter().any(|name| file.ends_with(name)));
-    Browser::new(&node, firefox, binary(&root)).test(&files)
+/// Builds the page, compares it with the committed one, and builds the page without a server.
+pub(crate) fn build() -> Result<()> {
+    Page::new()?.build()
 }
 
-/// All tests of the page in Firefox; those that ask for what Firefox does not offer its drivers are skipped, with the reason.
+/// Tests the page that was built last, of the program that was built last.
+pub(crate) fn test_in_chromium() -> Result<()> {
+    Page::new()?.test(chromium()?, |_| true)
+}
+
+/// The same in Firefox, with the files of which each push runs the tests there.
+pub(crate) fn test_part_in_firefox() -> Result<()> {
+    Page::new()?.test(firefox()?, |file| IN_FIREFOX.iter().any(|name| file.ends_with(name)))
+}
+
+/// Builds all, and runs all tests of the page in Firefox; those that ask for what Firefox does not offer its drivers are skipped, with the
+/// reason.
 pub(crate) fn test_in_firefox() -> Result<()> {
-    let root = root()?.canonicalize()?;
-    let folder = root.join("crates/apps/explorer/web");
-    let (node, firefox) = (node(&root)?, firefox()?);
-    npm("page dependencies", &node, &folder, &["ci", "--no-audit", "--no-fund"])?;
     cargo("program", &["build", "--release", "--workspace"])?;
-    let alone = web::for_tests(&node, &root, &folder)?;
-    let files = files(&folder.join("tests"), alone)?;
-    Browser::new(&node, firefox, binary(&root)).test(&files)
+    build()?;
+    Page::new()?.test(firefox()?, |_| true)
 }
 
 fn chromium() -> Result<Environment> {

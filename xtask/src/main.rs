@@ -78,24 +78,15 @@ fn main() -> ExitCode {
 
 fn run() -> Result<()> {
     match std::env::args().nth(1).as_deref() {
-        Some("test") => {
-            let done = everything();
-            parts::print();
-            done
-        }
+        Some("test") => with_parts(everything()),
         Some("quick") => cargo("tests", TESTS),
-        Some("checks") => {
-            let done = all(CHECKS);
-            parts::print();
-            done
-        }
+        Some("checks") => with_parts(all(CHECKS)),
+        // Steps of `test`, begun by it.
+        Some("beside-tests") => with_parts(all(CHECKS).and_then(|()| explorer::build())),
+        Some("beside-chromium") => with_parts(python::test().and_then(|()| explorer::test_part_in_firefox())),
         Some("explorer") => explorer::test(),
         Some("firefox") => explorer::test_in_firefox(),
-        Some("python") => {
-            let done = python::test();
-            parts::print();
-            done
-        }
+        Some("python") => with_parts(python::test()),
         Some("web") => web::run(),
         Some("book") => book::build(),
         Some("documents") => book::documents(),
@@ -111,6 +102,12 @@ fn run() -> Result<()> {
     }
 }
 
+/// Prints how long the parts of a task took, also of one that failed.
+fn with_parts(done: Result<()>) -> Result<()> {
+    parts::print();
+    done
+}
+
 fn all(steps: &[(&str, &[&str])]) -> Result<()> {
     steps.iter().try_for_each(|(name, arguments)| cargo(name, arguments))
 }
@@ -119,15 +116,15 @@ fn everything() -> Result<()> {
     all(BEFORE)?;
     tests_beside_checks()?;
     // Browsers wait for most of their time.
-    let python = Beside::begin("python")?;
-    let page = explorer::test_built(); // the tests have built the program
+    let python = Beside::begin("beside-chromium")?;
+    let page = explorer::test_in_chromium(); // the tests have built the program
     python.end()?;
     page?;
     book::build() // in the environment of the Python tests
 }
 
 /// The tests leave a quarter of two processors idle, because each binary ends with its longest test: lints and documentation are checked
-/// meanwhile, as soon as cargo is done with building, which only one cargo can do at a time.
+/// and the page is built meanwhile, as soon as cargo is done with building, which only one cargo can do at a time.
 fn tests_beside_checks() -> Result<()> {
     let mut checks = None;
     let tests = parts::timed("tests", || -> Result<_> {
@@ -139,7 +136,7 @@ fn tests_beside_checks() -> Result<()> {
             let line = line?;
             eprintln!("{line}");
             if checks.is_none() && line.trim_start().starts_with("Running ") {
-                checks = Some(Beside::begin("checks")?);
+                checks = Some(Beside::begin("beside-tests")?);
             }
         }
         Ok(child.wait()?)

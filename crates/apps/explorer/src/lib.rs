@@ -19,6 +19,8 @@ mod frames;
 mod greeting;
 mod local;
 mod map;
+#[cfg(target_arch = "wasm32")]
+mod module;
 mod motion;
 mod protocol;
 #[cfg(feature = "server")]

@@ -9,17 +9,43 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 /// The same seed gives the same draws. See [`equations()`](crate::equations()).
 #[must_use]
 pub fn draws(fit: &Fit, count: usize, seed: u64) -> Vec<Vec<f64>> {
-    let n = fit.coefficients.len();
-    let eigen = SymmetricEigen::new(fit.covariance());
-    let root =
-        DMatrix::from_fn(n, n, |i, k| eigen.eigenvectors[(i, k)] * eigen.eigenvalues[k].max(0.0).sqrt());
+    let root = root(fit.covariance());
     let mut normal = Normal::new(seed, 0);
     (0..count)
         .map(|_| {
-            let deviates = DVector::from_fn(n, |_, _| normal.next());
-            let moved = &root * deviates;
+            let moved = &root * DVector::from_fn(root.nrows(), |_, _| normal.next());
             let unit = |i: usize| fit.scales.coefficient(&fit.coefficients[i].term);
-            (0..n).map(|i| fit.coefficients[i].estimate.value + moved[i] * unit(i)).collect()
+            (0..moved.len()).map(|i| fit.coefficients[i].estimate.value + moved[i] * unit(i)).collect()
         })
         .collect()
+}
+
+/// The symmetric root of a covariance. It is a continuous function of the covariance, so that round-off, which differs with the axes and
+/// the units of the data, does not change the draws. Eigenvectors are not: round-off decides on their signs, and on their directions where variances are equal.
+fn root(covariance: DMatrix<f64>) -> DMatrix<f64> {
+    let eigen = SymmetricEigen::new(covariance);
+    let roots = eigen.eigenvalues.map(|variance| variance.max(0.0).sqrt());
+    &eigen.eigenvectors * DMatrix::from_diagonal(&roots) * eigen.eigenvectors.transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::root;
+    use nalgebra::DMatrix;
+
+    /// Two equal variances, in axes of their plane that no round-off fixes, and a third one that is nearly 0.
+    #[test]
+    fn the_root_follows_the_covariance() {
+        let covariance = |small: f64| {
+            let column = DMatrix::from_column_slice(3, 1, &[1.0, 2.0, -2.0]) / 3.0;
+            let along = &column * column.transpose();
+            (DMatrix::identity(3, 3) - &along) * 4.0 + along * small
+        };
+        let one = root(covariance(1e-9));
+        assert!((&one * &one - covariance(1e-9)).norm() < 1e-12);
+        let mut moved = covariance(1e-9);
+        moved[(0, 1)] += 1e-13;
+        moved[(1, 0)] += 1e-13;
+        assert!((root(moved) - one).norm() < 1e-8);
+    }
 }

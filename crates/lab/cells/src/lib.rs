@@ -19,6 +19,7 @@ mod natural;
 mod numbers;
 mod observe;
 mod outlines;
+mod own_axes;
 mod packed;
 mod population;
 mod prediction;

@@ -14,6 +14,8 @@ pub use envelope::{Agreement, Envelope};
 pub use record::Record;
 pub use statistics::{Axis, Kind, Statistic};
 
+use crate::regime::MOST_LOST;
+use crate::start;
 use motiform_dynamics::Watch;
 use motiform_inference::{Fit, Track, draws};
 use serde::{Deserialize, Serialize};
@@ -21,8 +23,6 @@ use simulated::Simulator;
 
 /// Simulated cells that are kept for drawing.
 const SHOWN: usize = 3;
-/// Share of the simulated cells that may blow up.
-const MOST_LOST: f64 = 0.1;
 
 /// The number of simulated cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,15 +115,18 @@ pub fn predict(track: &Track, fit: &Fit, companions: Companions, watch: &dyn Wat
     let asked = statistics::Asked::of(&observed, track);
     let mut found = Vec::new();
     let (mut shown, mut lost) = (Vec::new(), 0);
-    let simulator = Simulator::new(fit, (track, &observed), companions.seed);
+    let axes = start::axes(track, !fit.handed)?;
+    let own = axes.track(track);
+    let simulator = Simulator::new(fit, (&own, &observed), companions.seed);
     for (number, drawn) in draws(fit, companions.count, companions.seed).into_iter().enumerate() {
         if watch.stopped() {
             return None;
         }
         match simulator.record(&drawn, number as u64 + 1) {
-            Some(record) => {
+            Some(mut record) => {
                 found.push(asked.all(&record));
                 if shown.len() < SHOWN {
+                    record.frames.iter_mut().flatten().for_each(|y| axes.into_images(y));
                     shown.push(record);
                 }
             }

@@ -13,8 +13,11 @@ use motiform_models::amplitudes::info;
 use motiform_study::Study;
 use serde::{Deserialize, Serialize};
 
-/// A motion is named if this share of the models has it.
+/// A motion is named if this share of the models that do not blow up has it.
 pub const LEAST_SHARE: f64 = 0.9;
+/// Share of the models that the data allow that may blow up. A cell that was tracked did not, and chaos of which some models escape after a
+/// long time is chaos in the record; where more of them do, the equations do not describe the cell.
+pub(crate) const MOST_LOST: f64 = 0.1;
 
 /// Models of which the share of their motion without noise is computed, at most.
 const MOST_SHARES: usize = 20;
@@ -26,17 +29,19 @@ const CARRIED_COARSELY: f64 = 1.0;
 /// The motions of draws from the estimate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FittedRegime {
-    /// The motion, if at least [`LEAST_SHARE`] of the models agree. Never blow-up: a cell that was tracked did not.
+    /// The motion, if at least [`LEAST_SHARE`] of the models that do not blow up agree, and at most a tenth of all blows up. Never blow-up: a
+    /// cell that was tracked did not.
     pub regime: Option<Regime>,
     /// The motion of the best model itself.
     pub best: Regime,
-    /// The share of the most frequent motion.
+    /// The share of the most frequent motion, blow-up left out, among the models that do not blow up.
     pub share: f64,
     /// Number of draws with each motion.
     pub counts: Vec<(Regime, usize)>,
     /// Number of draws.
     pub draws: usize,
-    /// Where the motion of each model begins: a state of the cell, as coordinates of the model in natural units.
+    /// Where the motion of each model begins: a state of the cell, as coordinates of the model in natural units, along the cell's own axes:
+    /// it moves to the right.
     #[serde(default)]
     pub start: Vec<f64>,
     /// See [`FittedRegime::is_carried`].
@@ -108,7 +113,7 @@ pub fn regime_of(
     (count, seed): (usize, u64),
     watch: &dyn Watch,
 ) -> Result<FittedRegime> {
-    let start = start::observed(tracks, &selection.fit.scales).unwrap_or_default();
+    let start = start::observed(tracks, &selection.fit.scales, !whole.handed).unwrap_or_default();
     let left = time_left(tracks, &selection.fit);
     let sets = sets(tracks, whole, selection, watch)?;
     let drawn = drawn(&sets, count, seed);
@@ -129,18 +134,19 @@ pub fn regime_of(
     }
     counts.sort_by_key(|entry| std::cmp::Reverse(entry.1));
     let draws = counts.iter().map(|entry| entry.1).sum::<usize>();
-    let (first, most) = counts.first().copied().unwrap_or((best, 0));
-    let agreeing = if draws == 0 { 0.0 } else { most as f64 / draws as f64 };
-    let named =
-        agreeing >= LEAST_SHARE && first == best && !matches!(first, Regime::Undetermined | Regime::BlowUp);
+    let (first, share, lost) = most_frequent(&counts);
+    let named = share >= LEAST_SHARE
+        && lost <= MOST_LOST * draws as f64
+        && first == Some(best)
+        && best != Regime::Undetermined;
     // the speed of a cell that rests is within its errors, and its equations are not identifiable
     let moves = selection.fit.scales.signal.first().is_some_and(|signal| *signal >= 1.0);
-    let carried = named && first == Regime::Motionless && moves;
-    let regime = (named && !carried).then_some(first);
+    let carried = named && best == Regime::Motionless && moves;
+    let regime = (named && !carried).then_some(best);
     Ok(FittedRegime {
         regime,
         best,
-        share: agreeing,
+        share,
         counts,
         draws,
         start,
@@ -149,6 +155,17 @@ pub fn regime_of(
         coarse: best == Regime::Motionless && moves && is_coarse(tracks, &selection.fit),
         driven: Driven::of(shares),
     })
+}
+
+/// The most frequent motion of these in descending order, blow-up left out, its share among the models that do not blow up, and the number
+/// of those that do.
+fn most_frequent(counts: &[(Regime, usize)]) -> (Option<Regime>, f64, f64) {
+    let lost = |entry: &&(Regime, usize)| entry.0 == Regime::BlowUp;
+    let all = counts.iter().map(|entry| entry.1).sum::<usize>() as f64;
+    let blown = counts.iter().find(lost).map_or(0.0, |entry| entry.1 as f64);
+    let first = counts.iter().find(|entry| !lost(entry));
+    let share = first.map_or(0.0, |entry| entry.1 as f64 / (all - blown));
+    (first.map(|entry| entry.0), share, blown)
 }
 
 /// The motion that a record shows of one that the equations end in: a steady one that they reach after its end is undetermined.

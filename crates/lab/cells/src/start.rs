@@ -1,5 +1,6 @@
 //! A state that a cell had: where its equations begin.
 
+use crate::own_axes::OwnAxes;
 use motiform_inference::{Observation, Scales, Track};
 
 /// Two frames whose displacement is the velocity of the first one: the frame at this place, and the first later one whose displacement
@@ -8,6 +9,14 @@ pub(crate) fn pair(track: &Track, place: usize) -> Option<[&Observation; 2]> {
     let first = track.0.get(place)?;
     let later = track.0[place + 1..].iter().find(|frame| clear(first, frame)).or(track.0.last())?;
     (later.t > first.t).then_some([first, later])
+}
+
+/// The axes of the cell at the first frame of a track, along which it is simulated; `None` without two frames.
+pub(crate) fn axes(track: &Track, mirrored: bool) -> Option<OwnAxes> {
+    let [first, later] = pair(track, 0)?;
+    let mut state = first.y.clone();
+    (0..2).for_each(|k| state[k] = later.y[k] - first.y[k]);
+    Some(OwnAxes::of(&state, mirrored))
 }
 
 /// Velocity and modes of a pair of frames, in natural units, as coordinates of the model.
@@ -19,11 +28,14 @@ pub(crate) fn coordinates([first, later]: [&[f64]; 2], by: f64, scales: &Scales)
 }
 
 /// The state in the middle of the longest track, where transients are over: coordinates of the model in natural units; `None` without
-/// two frames.
-pub(crate) fn observed(tracks: &[Track], scales: &Scales) -> Option<Vec<f64>> {
+/// two frames. They are those along the cell's own axes: it moves to the right (`mirrored`: and its first mode turns to the left), so that
+/// the motion from there does not depend on the axes of the images.
+pub(crate) fn observed(tracks: &[Track], scales: &Scales, mirrored: bool) -> Option<Vec<f64>> {
     let track = tracks.iter().max_by_key(|track| track.0.len())?;
     let [first, later] = pair(track, track.0.len() / 2)?;
-    Some(coordinates([&first.y, &later.y], later.t - first.t, scales))
+    let mut state = coordinates([&first.y, &later.y], later.t - first.t, scales);
+    OwnAxes::of(&state, mirrored).into_own(&mut state);
+    Some(state)
 }
 
 /// `true` if the displacement is 5 times its error.

@@ -29,10 +29,10 @@ pub(crate) fn draw(
     let cases: Vec<Case<'_>> = cells.iter().copied().zip(observations).map(case).collect();
     let common = if together { fits.first() } else { None };
     let watch = Progress::new(cells.len() as f64, "pages");
-    if watch.stopped() {
-        return Ok(false);
-    }
-    let made = pages(sample, (&cases, common), (threads, format), &watch, write);
+    let made = match watch.stopped() {
+        true => Ok(false),
+        false => pages(sample, (&cases, common), (threads, format), &watch, write),
+    };
     watch.finish();
     match made {
         Ok(true) => Ok(true),

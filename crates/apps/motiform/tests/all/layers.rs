@@ -7,7 +7,7 @@ use cargo_metadata::{DependencyKind, MetadataCommand, Package};
 use std::process::Command;
 
 /// Each crate by its group and name, its folder in `crates/`, and the crates that it may use. A new crate must be given its place here.
-const LAYERS: [(&str, &str); 19] = [
+const LAYERS: [(&str, &str); 18] = [
     ("engine/dynamics", ""),
     ("show/figures", ""),
     ("lab/store", ""),
@@ -24,7 +24,6 @@ const LAYERS: [(&str, &str); 19] = [
     ("lab/cells", "analysis diagrams dynamics figures inference lab models statistics store study tracks"),
     ("show/paper", "analysis continuation diagrams dynamics figures lab models store study"),
     ("apps/explorer", "analysis diagrams dynamics figures lab models store study"),
-    ("apps/web", "explorer lab"),
     (
         "apps/motiform",
         "analysis cells continuation diagrams dynamics explorer figures inference lab models paper statistics store study tracks",

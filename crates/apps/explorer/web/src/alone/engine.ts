@@ -1,4 +1,4 @@
-/** A worker: the module, its memory, and the functions that it needs; `crates/apps/web/src/boundary.rs` is the other side. */
+/** A worker: the module, its memory, and the functions that it needs; `crates/apps/explorer/src/module/boundary.rs` is the other side. */
 
 import type { Note, Order } from "./orders";
 

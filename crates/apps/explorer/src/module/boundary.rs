@@ -86,23 +86,23 @@ fn incoming(length: usize) -> String {
 /// Begins a session with so many helpers for maps. It greets the page.
 #[unsafe(no_mangle)]
 pub extern "C" fn begin(mappers: usize) {
-    crate::page::begin(mappers);
+    super::page::begin(mappers);
 }
 
 /// Answers a message of the page.
 #[unsafe(no_mangle)]
 pub extern "C" fn hear(length: usize) {
-    crate::page::hear(&incoming(length));
+    super::page::hear(&incoming(length));
 }
 
 /// Takes what a helper sends back.
 #[unsafe(no_mangle)]
 pub extern "C" fn report(length: usize) {
-    crate::page::report(&incoming(length));
+    super::page::report(&incoming(length));
 }
 
 /// Does the job of an errand, in a helper.
 #[unsafe(no_mangle)]
 pub extern "C" fn assist(length: usize) {
-    crate::page::assist(&incoming(length));
+    super::page::assist(&incoming(length));
 }

@@ -1,7 +1,7 @@
 //! The session of the page, and the jobs of a helper.
 
-use crate::boundary::{Channel, milliseconds, send};
-use motiform_explorer::{Answer, Answers, Catalogue, Greeting, Local, Post};
+use super::boundary::{Channel, milliseconds, send};
+use crate::{Answer, Answers, Catalogue, Greeting, Local, Post};
 use motiform_lab::clock;
 use std::cell::RefCell;
 use std::time::Duration;
@@ -48,7 +48,7 @@ pub(crate) fn report(text: &str) {
 /// Does the job of an errand.
 pub(crate) fn assist(errand: &str) {
     prepare();
-    motiform_explorer::assist(errand, &|text| send(Channel::Back, text.as_bytes()));
+    crate::assist(errand, &|text| send(Channel::Back, text.as_bytes()));
 }
 
 /// Sets the clock of the worker, and where the message of a panic goes.

@@ -2,10 +2,8 @@
 //!
 //! One module, two roles. In the worker of the body it holds a session: `begin`, `hear` a message of the page, `report` what a helper
 //! found. In the worker of a helper it does the jobs that the session posts: `assist`. The texts and binary
-//! messages are exactly those of the WebSocket (`crates/apps/explorer/PROTOCOL.md`). Built by `cargo xtask web`;
-//! elsewhere this crate is empty.
+//! messages are exactly those of the WebSocket (`PROTOCOL.md`). Built by `cargo xtask web`, as a `cdylib` of this crate
+//! without its features.
 
-#[cfg(target_arch = "wasm32")]
 mod boundary;
-#[cfg(target_arch = "wasm32")]
 mod page;
