@@ -5,6 +5,7 @@ mod cells;
 #[cfg(test)]
 mod documented;
 mod drawing;
+mod folder;
 #[cfg(test)]
 mod fuzz;
 mod help;
@@ -24,6 +25,7 @@ pub(crate) use atlas::AtlasOptions;
 pub(crate) use cells::{CellsOptions, FitCellsOptions, ObserveOptions};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use drawing::{DrawingOptions, FilmFormat, StyleOptions, UnitsOptions};
+pub(crate) use folder::FolderOptions;
 #[cfg(feature = "explorer")]
 use help::EXPLORE_HELP;
 use help::{

@@ -21,7 +21,8 @@ pub fn draws(fit: &Fit, count: usize, seed: u64) -> Vec<Vec<f64>> {
 }
 
 /// The symmetric root of a covariance. It is a continuous function of the covariance, so that round-off, which differs with the axes and
-/// the units of the data, does not change the draws. Eigenvectors are not: round-off decides on their signs, and on their directions where variances are equal.
+/// the units of the data, does not change the draws. Eigenvectors are not: round-off decides on their signs, and on their directions where
+/// variances are equal.
 fn root(covariance: DMatrix<f64>) -> DMatrix<f64> {
     let eigen = SymmetricEigen::new(covariance);
     let roots = eigen.eigenvalues.map(|variance| variance.max(0.0).sqrt());

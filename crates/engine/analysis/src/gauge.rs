@@ -17,7 +17,7 @@ pub struct Gauge {
 impl Gauge {
     /// That of a body.
     #[must_use]
-    pub fn of<B: Equivariant + ?Sized>(body: &B) -> Self {
+    pub fn of(body: &dyn Equivariant) -> Self {
         Self { form: (!body.symmetry().rotations).then(|| general(body)) }
     }
 
@@ -29,7 +29,7 @@ impl Gauge {
 
     /// A function that vanishes where the size of an orbit has its extremes, smooth everywhere: `u . f(u)`, or `l . f(u)`.
     #[must_use]
-    pub fn rate<B: Equivariant + ?Sized>(&self, body: &B, shape: &[f64]) -> f64 {
+    pub fn rate(&self, body: &dyn Equivariant, shape: &[f64]) -> f64 {
         let mut rate = vec![0.0; shape.len()];
         VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
         dot(self.form.as_deref().unwrap_or(shape), &rate)
@@ -42,7 +42,7 @@ impl Gauge {
 }
 
 /// `l_i` proportional to `1/(1 + 0.618 i)`, of unit length; with a mirror the mean of `l` and `M^T l`.
-fn general<B: Equivariant + ?Sized>(body: &B) -> Vec<f64> {
+fn general(body: &dyn Equivariant) -> Vec<f64> {
     let weights: Vec<f64> = (0..body.dim()).map(|i| 1.0 / (1.0 + 0.618 * i as f64)).collect();
     let length = norm(&weights);
     let unit: Vec<f64> = weights.iter().map(|weight| weight / length).collect();

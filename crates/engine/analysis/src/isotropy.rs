@@ -27,7 +27,7 @@ impl Isotropy {
     ///
     /// # Checked by  tests/all/isotropy.rs: pure modes, bodies with an axis in any direction, the circle, general shapes
     #[must_use]
-    pub fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> Self {
+    pub fn of(body: &dyn Equivariant, shape: &[f64], tolerance: f64) -> Self {
         let size = norm(shape);
         let symmetry = body.symmetry();
         let mut spin = vec![0.0; shape.len()];
@@ -46,7 +46,7 @@ impl Isotropy {
 }
 
 /// The order of the rotations that leave the shape unchanged (1 for none; a circle counts as 1).
-fn folds<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> usize {
+fn folds(body: &dyn Equivariant, shape: &[f64], tolerance: f64) -> usize {
     let fixed = |folds: &usize| {
         let mut turned = shape.to_vec();
         body.rotate(std::f64::consts::TAU / *folds as f64, &mut turned);
@@ -60,7 +60,7 @@ fn folds<B: Equivariant + ?Sized>(body: &B, shape: &[f64], tolerance: f64) -> us
 /// The mean of the images of `shape` under the rotations by multiples of `2 pi / count`. With more of them than the shape has modes
 /// only what no rotation changes is left. What is below the rounding error of the sum is 0.
 #[must_use]
-pub fn mean_over_rotations<B: Equivariant + ?Sized>(body: &B, shape: &[f64], count: usize) -> Vec<f64> {
+pub fn mean_over_rotations(body: &dyn Equivariant, shape: &[f64], count: usize) -> Vec<f64> {
     let mut sum = vec![0.0; shape.len()];
     for k in 0..count {
         let mut turned = shape.to_vec();

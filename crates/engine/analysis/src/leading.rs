@@ -29,8 +29,8 @@ const STEPS: usize = 8;
 const PLACES: usize = 64;
 
 /// The leading exponents, largest first; `None` where the orbit cannot be closed.
-pub(crate) fn leading_exponents<B: Equivariant + ?Sized>(
-    body: &B,
+pub(crate) fn leading_exponents(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     flow: &Flow,
     watch: &dyn Watch,
@@ -56,8 +56,8 @@ pub(crate) fn leading_exponents<B: Equivariant + ?Sized>(
 }
 
 /// The same orbit from where its shape changes fastest: where it nearly rests, the direction of the flow is lost in the errors of a period.
-fn fastest<B: Equivariant + ?Sized>(
-    body: &B,
+fn fastest(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     flow: &Flow,
     watch: &dyn Watch,
@@ -79,11 +79,7 @@ fn fastest<B: Equivariant + ?Sized>(
 }
 
 /// Steps of Newton's method until the orbit closes; the images of the directions that it follows.
-fn close<B: Equivariant + ?Sized>(
-    newton: &mut Newton<'_, B>,
-    flow: &Flow,
-    watch: &dyn Watch,
-) -> Option<Vec<Vec<f64>>> {
+fn close(newton: &mut Newton<'_>, flow: &Flow, watch: &dyn Watch) -> Option<Vec<Vec<f64>>> {
     for _ in 0..STEPS {
         let image = newton.image(flow, watch)?;
         if norm(&image.rest) <= CLOSED * flow.accuracy() * norm(&newton.shape) {

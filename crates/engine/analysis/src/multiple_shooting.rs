@@ -55,8 +55,8 @@ struct Part {
 }
 
 /// Shapes along the orbit, at equal times: `Phi_(T/m)(u_i) = u_(i+1)`, and the last one's image is `R(angle) [M] u_0`.
-struct Nodes<'b, B: ?Sized> {
-    body: &'b B,
+struct Nodes<'b> {
+    body: &'b dyn Equivariant,
     shapes: Vec<Vec<f64>>,
     time: f64,
     angle: f64,
@@ -70,8 +70,8 @@ struct Nodes<'b, B: ?Sized> {
 /// that part.
 ///
 /// # Checked by  tests/all/long_runs.rs: periods against long runs of another integrator on the index form
-pub(crate) fn refine<B: Equivariant + ?Sized>(
-    body: &B,
+pub(crate) fn refine(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     flow: &Flow,
     tolerance: f64,
@@ -98,10 +98,10 @@ pub(crate) fn refine<B: Equivariant + ?Sized>(
     None
 }
 
-impl<'b, B: Equivariant + ?Sized> Nodes<'b, B> {
+impl<'b> Nodes<'b> {
     /// Shapes along an orbit, so close that the parts between them keep within the limits.
     fn along(
-        body: &'b B,
+        body: &'b dyn Equivariant,
         orbit: &PeriodicOrbit,
         limits: &Limits,
         flow: &Flow,
@@ -254,8 +254,8 @@ impl Part {
 
 /// The Floquet exponents of an orbit across the flow and the group, largest first, of directions that shrink fast as well; `None` where the
 /// maps of the parts do not give them.
-pub(crate) fn all_exponents<B: Equivariant + ?Sized>(
-    body: &B,
+pub(crate) fn all_exponents(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     flow: &Flow,
     watch: &dyn Watch,
@@ -272,13 +272,7 @@ pub(crate) fn all_exponents<B: Equivariant + ?Sized>(
 }
 
 /// The flow and all its tangents over `span`; `None` where the run does not reach its end.
-fn part<B: Equivariant + ?Sized>(
-    body: &B,
-    start: &[f64],
-    span: f64,
-    flow: &Flow,
-    watch: &dyn Watch,
-) -> Option<Part> {
+fn part(body: &dyn Equivariant, start: &[f64], span: f64, flow: &Flow, watch: &dyn Watch) -> Option<Part> {
     let dim = start.len();
     let field = Tangent::new(body, dim);
     let mut state = start.to_vec();

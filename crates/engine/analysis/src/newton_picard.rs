@@ -19,8 +19,8 @@ const DIRECTIONS: usize = 5;
 const PARALLEL: f64 = 1e8;
 
 /// The state of Newton's method.
-pub(crate) struct Newton<'b, B: ?Sized> {
-    body: &'b B,
+pub(crate) struct Newton<'b> {
+    body: &'b dyn Equivariant,
     pub(crate) shape: Vec<f64>,
     pub(crate) time: f64,
     angle: f64,
@@ -48,8 +48,8 @@ impl Image {
     }
 }
 
-impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
-    pub(crate) fn new(body: &'b B, guess: &PeriodicGuess<'_>) -> Self {
+impl<'b> Newton<'b> {
+    pub(crate) fn new(body: &'b dyn Equivariant, guess: &PeriodicGuess<'_>) -> Self {
         let dim = guess.shape.len();
         let count = if is_whole(dim) { dim } else { DIRECTIONS };
         let mut random = SplitMix(2);
@@ -73,7 +73,7 @@ impl<'b, B: Equivariant + ?Sized> Newton<'b, B> {
     }
 
     /// At an orbit, following nothing yet.
-    pub(crate) fn at(body: &'b B, orbit: &PeriodicOrbit) -> Self {
+    pub(crate) fn at(body: &'b dyn Equivariant, orbit: &PeriodicOrbit) -> Self {
         let PeriodicOrbit { time, angle, mirrored, .. } = *orbit;
         Self { body, shape: orbit.shape.clone(), time, angle, mirrored, directions: Vec::new() }
     }

@@ -118,8 +118,8 @@ impl PeriodicOrbit {
     ///
     /// # Checked by  tests/all/periodic.rs: van der Pol's period, Hopf's multiplier (both exact), the tensor model's zigzag
     #[must_use]
-    pub fn find<B: Equivariant + ?Sized>(
-        body: &B,
+    pub fn find(
+        body: &dyn Equivariant,
         guess: &PeriodicGuess<'_>,
         flow: &Flow,
         watch: &dyn Watch,
@@ -131,8 +131,8 @@ impl PeriodicOrbit {
     /// The orbit near `shape` that comes back, mirrored or not, after nearly `time`: Newton's method with the
     /// rotation that brings the shape after that time closest to itself.
     #[must_use]
-    pub fn near<B: Equivariant + ?Sized>(
-        body: &B,
+    pub fn near(
+        body: &dyn Equivariant,
         shape: &[f64],
         (time, mirrored): (f64, bool),
         flow: &Flow,
@@ -146,8 +146,8 @@ impl PeriodicOrbit {
     }
 
     /// As [`PeriodicOrbit::find`], but it integrates no more than `effort` of model time, and takes what it integrated from it.
-    pub(crate) fn find_within<B: Equivariant + ?Sized>(
-        body: &B,
+    pub(crate) fn find_within(
+        body: &dyn Equivariant,
         guess: &PeriodicGuess<'_>,
         flow: &Flow,
         effort: &mut f64,
@@ -250,7 +250,7 @@ impl PeriodicOrbit {
 }
 
 /// The inverse of the symmetry `R(angle) [M]`: `M R(-angle)`.
-pub fn back<B: Equivariant + ?Sized>(body: &B, angle: f64, mirrored: bool, x: &mut [f64]) {
+pub fn back(body: &dyn Equivariant, angle: f64, mirrored: bool, x: &mut [f64]) {
     body.rotate(-angle, x);
     if mirrored {
         body.mirror(x);

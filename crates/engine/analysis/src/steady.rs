@@ -38,7 +38,7 @@ impl SteadyMotion {
     ///
     /// # Checked by  tests/all/steady.rs: the cell on both sides of its drift pitchfork with 14 to 64 modes; the tensor model; spinning
     #[must_use]
-    pub fn of<B: Equivariant + ?Sized>(body: &B, found: &RelativeEquilibrium) -> Self {
+    pub fn of(body: &dyn Equivariant, found: &RelativeEquilibrium) -> Self {
         let uncertainty = found.uncertainty(body);
         let size = norm(&found.shape);
         let away = norm(&uncertainty.shape);
@@ -108,7 +108,7 @@ impl SteadyMotion {
 
     /// Its direction at this equilibrium, as far as the symmetry of the body distinguishes directions.
     #[must_use]
-    pub fn direction<B: Equivariant + ?Sized>(&self, body: &B, found: &RelativeEquilibrium) -> Direction {
+    pub fn direction(&self, body: &dyn Equivariant, found: &RelativeEquilibrium) -> Direction {
         let drift = if self.moves() { found.velocity } else { [0.0; 2] };
         Direction::of(body, self.turns().then_some(found.turning_rate), drift)
     }
@@ -136,11 +136,7 @@ fn sure(rate: Estimate) -> f64 {
 
 /// The speed, and how far it may be away for a shape that is wrong by this much: by the change of the
 /// velocity over the error, and by its own rounding.
-fn speed<B: Equivariant + ?Sized>(
-    body: &B,
-    found: &RelativeEquilibrium,
-    uncertainty: &Uncertainty,
-) -> Estimate {
+fn speed(body: &dyn Equivariant, found: &RelativeEquilibrium, uncertainty: &Uncertainty) -> Estimate {
     let value = found.speed();
     let known = uncertainty.shape.iter().all(|x| x.is_finite());
     if !known {

@@ -31,12 +31,7 @@ pub struct Alignment {
 ///
 /// # Checked by  tests/all/symmetry.rs: exact on the group orbit (nearly symmetric shapes too), a metric
 #[must_use]
-pub fn align<B: Equivariant + ?Sized>(
-    body: &B,
-    reference: &[f64],
-    shape: &[f64],
-    mirrored: bool,
-) -> Alignment {
+pub fn align(body: &dyn Equivariant, reference: &[f64], shape: &[f64], mirrored: bool) -> Alignment {
     let mut base = shape.to_vec();
     if mirrored {
         body.mirror(&mut base);
@@ -58,7 +53,7 @@ pub(crate) struct Copies {
 }
 
 impl Copies {
-    pub(crate) fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Self {
+    pub(crate) fn of(body: &dyn Equivariant, shape: &[f64]) -> Self {
         let count = angles(body);
         let mut turned = vec![0.0; shape.len() * count];
         for place in 0..count {
@@ -77,7 +72,7 @@ impl Copies {
     /// The nearest of the copies of the shape at all angles, where one is nearer than half of the shape's
     /// size; farther away, the nearest of those at equal angles (eight to a wave of the highest mode), which
     /// takes no sine.
-    pub(crate) fn nearest<B: Equivariant + ?Sized>(&self, body: &B, reference: &[f64]) -> Vec<f64> {
+    pub(crate) fn nearest(&self, body: &dyn Equivariant, reference: &[f64]) -> Vec<f64> {
         let mut overlaps = vec![0.0; self.count];
         for (&x, column) in reference.iter().zip(self.turned.chunks_exact(self.count)) {
             add(&mut overlaps, x, column);
@@ -94,12 +89,12 @@ impl Copies {
 }
 
 /// The number of equal angles that every mode of the body needs.
-fn angles<B: Equivariant + ?Sized>(body: &B) -> usize {
+fn angles(body: &dyn Equivariant) -> usize {
     if body.symmetry().rotations { (8 * body.highest_mode()).clamp(32, 512) } else { 1 }
 }
 
 /// The best alignment of `base` with `reference`, from its overlaps at equal angles.
-fn best<B: Equivariant + ?Sized>(body: &B, reference: &[f64], base: &[f64], overlaps: &[f64]) -> Alignment {
+fn best(body: &dyn Equivariant, reference: &[f64], base: &[f64], overlaps: &[f64]) -> Alignment {
     let points = overlaps.len();
     let mut turned = base.to_vec();
     let mut turn = |angle: f64| {
@@ -132,7 +127,7 @@ fn best<B: Equivariant + ?Sized>(body: &B, reference: &[f64], base: &[f64], over
 }
 
 /// Newton's method on `c'(a) = reference . R(a) G u`, `c''(a) = reference . R(a) G G u`, within one grid cell.
-fn refine<B: Equivariant + ?Sized>(body: &B, reference: &[f64], base: &[f64], start: f64, cell: f64) -> f64 {
+fn refine(body: &dyn Equivariant, reference: &[f64], base: &[f64], start: f64, cell: f64) -> f64 {
     let (mut first, mut second) = (base.to_vec(), base.to_vec());
     let (mut angle, mut turned) = (start, base.to_vec());
     for _ in 0..8 {
@@ -160,7 +155,7 @@ pub fn wrap(angle: f64) -> f64 {
 
 /// The turning rate of the shape: `omega = Gu . f / |Gu|^2` makes `|f - omega Gu|` least; 0 for a circle.
 #[must_use]
-pub fn turning_of_shape<B: Equivariant + ?Sized>(body: &B, shape: &[f64], rate: &[f64]) -> f64 {
+pub fn turning_of_shape(body: &dyn Equivariant, shape: &[f64], rate: &[f64]) -> f64 {
     let mut spin = vec![0.0; shape.len()];
     body.spin(shape, &mut spin);
     let size = dot(&spin, &spin);
@@ -169,7 +164,7 @@ pub fn turning_of_shape<B: Equivariant + ?Sized>(body: &B, shape: &[f64], rate: 
 
 /// `|f - omega Gu|` with the best omega: how fast the reduced shape changes.
 #[must_use]
-pub fn reduced_speed<B: Equivariant + ?Sized>(body: &B, shape: &[f64], rate: &[f64]) -> f64 {
+pub fn reduced_speed(body: &dyn Equivariant, shape: &[f64], rate: &[f64]) -> f64 {
     let mut spin = vec![0.0; shape.len()];
     body.spin(shape, &mut spin);
     speed_beside(&spin, rate)
@@ -196,16 +191,16 @@ pub(crate) fn speed_beside<S: Bundle>(spin: &[S], rate: &[S]) -> S {
 /// `w' = f(w) - omega(w) G w`, `theta' = omega(w)`, `(x, y)' = R(theta) v(w)`.
 ///
 /// The shape is `R(theta) w`, the position `(x, y)`: heading and path are reconstructed from the reduced orbit.
-#[derive(Clone, Copy, Debug)]
-pub struct MovingFrame<'b, B: ?Sized>(pub &'b B);
+#[derive(Clone, Copy)]
+pub struct MovingFrame<'b>(pub &'b dyn Equivariant);
 
-impl<B: Equivariant + ?Sized> System for MovingFrame<'_, B> {
+impl System for MovingFrame<'_> {
     fn dim(&self) -> usize {
         self.0.dim() + 3
     }
 }
 
-impl<B: Equivariant + ?Sized> VectorField<f64> for MovingFrame<'_, B> {
+impl VectorField<f64> for MovingFrame<'_> {
     fn eval(&self, t: f64, u: &[f64], du: &mut [f64]) {
         let (shape, place) = u.split_at(self.0.dim());
         let (rate, moves) = du.split_at_mut(shape.len());

@@ -23,12 +23,12 @@ pub(super) struct Classes {
 
 impl Classes {
     /// The symmetry of the shapes `nodes`: that of all of them.
-    pub(super) fn of<B: Equivariant + ?Sized>(body: &B, nodes: &[&[f64]]) -> Self {
+    pub(super) fn of(body: &dyn Equivariant, nodes: &[&[f64]]) -> Self {
         Self::within(body, nodes, Isotropy::SAME)
     }
 
     /// The same, with images that differ by up to the part `same` of a shape.
-    pub(super) fn within<B: Equivariant + ?Sized>(body: &B, nodes: &[&[f64]], same: f64) -> Self {
+    pub(super) fn within(body: &dyn Equivariant, nodes: &[&[f64]], same: f64) -> Self {
         let Some(&first) = nodes.first() else { return Self::none(body.dim()) };
         let Isotropy { mut folds, mut circle, mut mirror } = Isotropy::of(body, first, same);
         for node in &nodes[1..] {
@@ -55,7 +55,7 @@ impl Classes {
     }
 
     /// Makes the symmetry of a shape exact.
-    pub(super) fn tidy<B: Equivariant + ?Sized>(&self, body: &B, shape: &mut [f64]) {
+    pub(super) fn tidy(&self, body: &dyn Equivariant, shape: &mut [f64]) {
         if let Some(axis) = self.axis {
             let image = reflected(body, axis, shape);
             shape.iter_mut().for_each(|x| *x *= 0.5);
@@ -69,13 +69,7 @@ impl Classes {
 
     /// Column `j` of `A P + rest (1 - P)`, with `P` the projection on the deviations that keep all symmetry; `A` itself where there is
     /// none.
-    pub(super) fn kept<B: Equivariant + ?Sized>(
-        &self,
-        body: &B,
-        matrix: &[f64],
-        j: usize,
-        rest: f64,
-    ) -> Vec<f64> {
+    pub(super) fn kept(&self, body: &dyn Equivariant, matrix: &[f64], j: usize, rest: f64) -> Vec<f64> {
         let dim = body.dim();
         if self.axis.is_none() && self.folds == 1 && !self.circle {
             return matrix[j * dim..(j + 1) * dim].to_vec();
@@ -91,7 +85,7 @@ impl Classes {
     }
 
     /// Returns `true` if a deviation breaks rotations of the shape.
-    pub(super) fn breaks_rotations<B: Equivariant + ?Sized>(&self, body: &B, deviation: &[f64]) -> bool {
+    pub(super) fn breaks_rotations(&self, body: &dyn Equivariant, deviation: &[f64]) -> bool {
         if self.circle {
             return true;
         }
@@ -113,7 +107,7 @@ impl Classes {
     }
 
     /// The mean over the rotations that leave the shape unchanged.
-    fn mean<B: Equivariant + ?Sized>(&self, body: &B, x: &[f64]) -> Vec<f64> {
+    fn mean(&self, body: &dyn Equivariant, x: &[f64]) -> Vec<f64> {
         // for a circle more turns than there are modes: what is left is what no rotation changes
         let folds = if self.circle { x.len() + 1 } else { self.folds };
         mean_over_rotations(body, x, folds)
@@ -128,7 +122,7 @@ fn combined(vectors: &[Vec<f64>], parts: &[f64]) -> Vec<f64> {
 }
 
 /// `R(axis) M shape`.
-fn reflected<B: Equivariant + ?Sized>(body: &B, axis: f64, shape: &[f64]) -> Vec<f64> {
+fn reflected(body: &dyn Equivariant, axis: f64, shape: &[f64]) -> Vec<f64> {
     let mut image = shape.to_vec();
     body.mirror(&mut image);
     body.rotate(axis, &mut image);
@@ -136,7 +130,7 @@ fn reflected<B: Equivariant + ?Sized>(body: &B, axis: f64, shape: &[f64]) -> Vec
 }
 
 /// An orthonormal basis of the deviations with `R(axis) M x = sign x`.
-fn half<B: Equivariant + ?Sized>(body: &B, axis: f64, sign: f64) -> Vec<Vec<f64>> {
+fn half(body: &dyn Equivariant, axis: f64, sign: f64) -> Vec<Vec<f64>> {
     let part = |unit: &Vec<f64>| {
         let mut out = reflected(body, axis, unit);
         out.iter_mut().for_each(|x| *x *= 0.5 * sign);

@@ -29,8 +29,8 @@ const CARRIED_COARSELY: f64 = 1.0;
 /// The motions of draws from the estimate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FittedRegime {
-    /// The motion, if at least [`LEAST_SHARE`] of the models that do not blow up agree, and at most a tenth of all blows up. Never blow-up: a
-    /// cell that was tracked did not.
+    /// The motion, if at least [`LEAST_SHARE`] of the models that do not blow up agree, and at most a tenth of all blows up. Never blow-up:
+    /// a cell that was tracked did not.
     pub regime: Option<Regime>,
     /// The motion of the best model itself.
     pub best: Regime,

@@ -1,12 +1,12 @@
 //! Options of `atlas`.
 
 use super::settings::{Lines, SettingOptions};
-use super::{StyleOptions, SubjectOptions, ThreadOptions, number, random, whole};
+use super::{FolderOptions, StyleOptions, SubjectOptions, ThreadOptions, number, random, whole};
 use clap::Args;
 use motiform_study::Random;
-use std::path::PathBuf;
 
 #[derive(Args)]
+#[command(mut_arg("out", |out| out.help("Output folder (default: MODEL-PRESET-atlas in the current folder)")))]
 pub(crate) struct AtlasOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
@@ -29,17 +29,10 @@ pub(crate) struct AtlasOptions {
     pub(crate) budget: Option<f64>,
     #[command(flatten)]
     pub(crate) lines: SettingOptions<Lines>,
-    /// Output folder (default: MODEL-PRESET-atlas in the current folder)
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Go on with what is in the output folder (begin, if there is none)
-    #[arg(long, conflicts_with = "force")]
-    pub(crate) resume: bool,
     #[command(flatten)]
     pub(crate) threads: ThreadOptions,
-    /// Replace an earlier atlas; what motiform did not write stays
-    #[arg(long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) folder: FolderOptions,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
     /// Do not draw figures, and write no page

@@ -1,13 +1,15 @@
 //! Options of `lifetimes`.
 
 use super::{
-    Method, SettingOptions, StyleOptions, SubjectOptions, ThreadOptions, UnitsOptions, number, random, whole,
+    FolderOptions, Method, SettingOptions, StyleOptions, SubjectOptions, ThreadOptions, UnitsOptions, number,
+    random, whole,
 };
 use clap::Args;
 use motiform_study::Random;
-use std::path::PathBuf;
 
 #[derive(Args)]
+#[command(mut_arg("out", |out| out.help("Write lifetimes.json and the figure mean-life into this folder")))]
+#[command(mut_arg("resume", |resume| resume.requires("out")))]
 pub(crate) struct LifetimesOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
@@ -31,15 +33,8 @@ pub(crate) struct LifetimesOptions {
     pub(crate) run: SettingOptions<Method>,
     #[command(flatten)]
     pub(crate) threads: ThreadOptions,
-    /// Write lifetimes.json and the figure mean-life into this folder
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Go on with the orbits in the output folder (begin, if there is none); an interrupted run keeps what it followed there
-    #[arg(long, requires = "out", conflicts_with = "force")]
-    pub(crate) resume: bool,
-    /// Replace an existing folder of lifetimes; what motiform did not write stays
-    #[arg(long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) folder: FolderOptions,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
     #[command(flatten)]

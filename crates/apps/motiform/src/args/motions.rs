@@ -1,8 +1,8 @@
 //! The words of `continue`, `equilibria` and `section`: commands about motions that may be unstable.
 
 use super::{
-    Following, MethodOptions, MotionOptions, SettingOptions, Span, StyleOptions, SubjectOptions,
-    UnitsOptions, number,
+    FolderOptions, Following, MethodOptions, MotionOptions, SettingOptions, Span, StyleOptions,
+    SubjectOptions, UnitsOptions, number,
 };
 use clap::{Args, ValueEnum};
 use motiform_diagrams::draw::Ordinate;
@@ -11,6 +11,7 @@ use std::path::PathBuf;
 #[derive(Args)]
 #[command(mut_arg("subject", |subject| subject.required_unless_present("start")))]
 #[command(mut_arg("from_stable", |from_stable| from_stable.conflicts_with("steady")))]
+#[command(mut_arg("out", |out| out.help("Output folder (default: MODEL-PRESET-branches here, with --curve MODEL-PRESET-curves)")))]
 pub(crate) struct ContinueOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
@@ -33,15 +34,8 @@ pub(crate) struct ContinueOptions {
     /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
-    /// Output folder (default: MODEL-PRESET-branches here, with --curve MODEL-PRESET-curves)
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Go on with what is in the output folder (begin, if there is none)
-    #[arg(long, conflicts_with = "force")]
-    pub(crate) resume: bool,
-    /// Replace earlier branches or curves; what motiform did not write stays
-    #[arg(long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) folder: FolderOptions,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
     #[command(flatten)]

@@ -1,14 +1,15 @@
 //! Options of `scan` and `merge`.
 
 use super::{
-    Cells, Method, SettingOptions, StyleOptions, SubjectOptions, ThreadOptions, UnitsOptions, assignment,
-    number, random,
+    Cells, FolderOptions, Method, SettingOptions, StyleOptions, SubjectOptions, ThreadOptions, UnitsOptions,
+    assignment, number, random,
 };
 use clap::Args;
 use motiform_study::Random;
 use std::path::PathBuf;
 
 #[derive(Args)]
+#[command(mut_arg("out", |out| out.help("Output folder (default: MODEL-PRESET-scan in the current folder)")))]
 pub(crate) struct ScanOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
@@ -28,20 +29,13 @@ pub(crate) struct ScanOptions {
     /// orbit never leaves an exact symmetry; 0 keeps the exact start
     #[arg(long, value_name = "SIZE", value_parser = number, allow_hyphen_values = true)]
     pub(crate) perturb: Option<f64>,
-    /// Output folder (default: MODEL-PRESET-scan in the current folder)
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Continue the scan in the output folder (start it if there is none)
-    #[arg(long, conflicts_with = "force")]
-    pub(crate) resume: bool,
     /// Compute share I of N; `motiform merge` combines the folders
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<String>,
     #[command(flatten)]
     pub(crate) threads: ThreadOptions,
-    /// Replace an existing scan; what motiform did not write stays
-    #[arg(long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) folder: FolderOptions,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
     #[command(flatten)]

@@ -1,8 +1,8 @@
 //! Options of `statistics`.
 
 use super::{
-    MethodOptions, ParameterOptions, Recording, SettingOptions, StyleOptions, ThreadOptions, UnitsOptions,
-    number, whole,
+    FolderOptions, MethodOptions, ParameterOptions, Recording, SettingOptions, StyleOptions, ThreadOptions,
+    UnitsOptions, number, whole,
 };
 use clap::Args;
 use std::path::PathBuf;
@@ -12,6 +12,8 @@ const TRANSIENT: &str =
 
 #[derive(Args)]
 #[command(mut_arg("transient", |transient| transient.help(TRANSIENT)))]
+#[command(mut_arg("out", |out| out.help("Write tables, statistics.json and figures into this folder")))]
+#[command(mut_arg("resume", |resume| resume.requires("out")))]
 pub(crate) struct StatisticsOptions {
     /// A model or a preset (`motiform models` lists them), a study file ending in .toml, or folders written by `motiform simulate`, one
     /// body each
@@ -38,15 +40,8 @@ pub(crate) struct StatisticsOptions {
     pub(crate) threshold: Option<(String, Option<f64>)>,
     #[command(flatten)]
     pub(crate) threads: ThreadOptions,
-    /// Write tables, statistics.json and figures into this folder
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Replace an existing folder of statistics; what motiform did not write stays
-    #[arg(long)]
-    pub(crate) force: bool,
-    /// Go on in a folder of statistics whose computation was ended: finished bodies are not computed again
-    #[arg(long, requires = "out", conflicts_with = "force")]
-    pub(crate) resume: bool,
+    #[command(flatten)]
+    pub(crate) folder: FolderOptions,
     #[command(flatten)]
     pub(crate) style: StyleOptions,
     #[command(flatten)]

@@ -9,7 +9,7 @@ use motiform_analysis::Regime;
 use motiform_diagrams::atlas::{
     AtlasFolder, Boundary, Grid, Line, Stage, atlas_summary, boundaries, regions, survey, trace,
 };
-use motiform_store::{Folder, Opening};
+use motiform_store::Folder;
 use motiform_study::atlas::{AtlasPlan, axis, samples};
 use motiform_study::{Error, Study};
 use serde::{Serialize, Serializer};
@@ -22,8 +22,8 @@ pub(crate) fn run(options: &AtlasOptions) -> anyhow::Result<End> {
     let study = study(options)?;
     let plan = AtlasPlan::new(&study)?;
     ties(&study, &plan.computation.scan.axes.iter().map(|axis| axis.name.as_str()).collect::<Vec<_>>())?;
-    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(plan.default_folder()));
-    let files = AtlasFolder::open(&out, &plan, Opening::of(options.resume, options.force))?;
+    let out = options.folder.out.clone().unwrap_or_else(|| PathBuf::from(plan.default_folder()));
+    let files = AtlasFolder::open(&out, &plan, options.folder.opening())?;
     files.notes().iter().for_each(|note| warn(note));
     let Some((grid, lines)) = compute(options, &plan, &files)? else {
         files.settle()?;

@@ -86,9 +86,9 @@ fn subject(options: &ContinueOptions) -> Result<(Study, Option<Given>), Error> {
 
 /// Where the result goes; nowhere, if it is only printed.
 pub(super) fn output(options: &ContinueOptions, default: String) -> Option<PathBuf> {
-    match &options.out {
+    match &options.folder.out {
         Some(path) => Some(path.clone()),
-        None if options.json && !options.resume => None,
+        None if options.json && !options.folder.resume => None,
         None => Some(PathBuf::from(default)),
     }
 }
@@ -100,7 +100,7 @@ pub(super) fn prepare<T>(
     open: impl FnOnce(&Path, Opening) -> Result<(Folder, Option<T>), Error>,
 ) -> Result<(Option<Folder>, Option<T>), Error> {
     let Some(out) = out else { return Ok((None, None)) };
-    let (folder, before) = open(&out, Opening::of(options.resume, options.force))?;
+    let (folder, before) = open(&out, options.folder.opening())?;
     folder.notes().iter().for_each(|note| warn(note));
     Ok((Some(folder), before))
 }

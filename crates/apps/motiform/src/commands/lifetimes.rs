@@ -9,7 +9,7 @@ use motiform_analysis::LifeLaws;
 use motiform_lab::draw::lifetimes::draw_lifetimes;
 use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::{Axis, ScanComputation};
-use motiform_store::{Folder, Kind, Opening};
+use motiform_store::{Folder, Kind};
 use motiform_study::quantity::statistic::LIFE;
 use motiform_study::{Error, Random, ScanPlan, Shown};
 use serde::Serialize;
@@ -24,7 +24,7 @@ const ORBITS: &str = "orbits.json";
 
 pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
     let remedy = "figures are drawn into a folder: give --out DIR, or leave it out";
-    options.style.refuse_unless(options.out.is_some(), remedy)?;
+    options.style.refuse_unless(options.folder.out.is_some(), remedy)?;
     let (plan, units) = plan(options)?;
     let (files, before) = open(options, &plan)?;
     let threads = options.threads.count();
@@ -46,7 +46,7 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
         return interrupted(files);
     }
     let found = lives.summarised(&plan, options.transient)?;
-    let answer = Lived::new(&plan, &found, (options.out.as_deref(), &units));
+    let answer = Lived::new(&plan, &found, (options.folder.out.as_deref(), &units));
     if let Some(files) = files {
         let mut text = serde_json::to_vec_pretty(&answer)?;
         text.push(b'\n');
@@ -70,11 +70,11 @@ fn keep(files: &Folder, lives: &Lives) -> Result<(), Error> {
 
 /// Opens the output before any computing, and reads the orbits that are there.
 fn open(options: &LifetimesOptions, plan: &ScanPlan) -> anyhow::Result<(Option<Folder>, Option<Lives>)> {
-    let Some(out) = &options.out else { return Ok((None, None)) };
+    let Some(out) = &options.folder.out else { return Ok((None, None)) };
     let orbits = out.join(ORBITS);
-    let there = options.resume && orbits.symlink_metadata().is_ok();
+    let there = options.folder.resume && orbits.symlink_metadata().is_ok();
     let before = if there { Some(Lives::read(&orbits, plan)?) } else { None };
-    let files = Folder::open(out, Kind::Lifetimes, Opening::of(options.resume, options.force), &[])?;
+    let files = Folder::open(out, Kind::Lifetimes, options.folder.opening(), &[])?;
     files.check()?;
     files.notes().iter().for_each(|note| warn(note));
     Ok((Some(files), before))

@@ -7,7 +7,7 @@ use crate::output::{End, say, warn};
 use crate::progress::Progress;
 use motiform_lab::answers::Scanned;
 use motiform_lab::draw::{files, scan_figures};
-use motiform_lab::scan::{Classify, Opening, Scan, Shard, Totals};
+use motiform_lab::scan::{Classify, Scan, Shard, Totals};
 use motiform_study::{Error, ScanPlan, Study};
 use std::path::PathBuf;
 
@@ -17,8 +17,8 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     let study = study(options)?;
     let (plan, units) = (ScanPlan::new(&study)?, options.units.of(Some(&study))?);
     let shard = options.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse)?;
-    let out = options.out.clone().unwrap_or_else(|| PathBuf::from(plan.default_folder()));
-    let scan = Scan::open(&out, &plan, shard, Opening::of(options.resume, options.force))?;
+    let out = options.folder.out.clone().unwrap_or_else(|| PathBuf::from(plan.default_folder()));
+    let scan = Scan::open(&out, &plan, shard, options.folder.opening())?;
     scan.notes().iter().for_each(|note| warn(note));
     for damaged in scan.damaged() {
         warn(&format!("{damaged}; its cells are recomputed"));

@@ -7,7 +7,7 @@ use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_lab::statistics::{Measurement, read, samples_apart, sentences, simulated_kept, summary, write};
 use motiform_statistics::Settings;
-use motiform_store::{Folder, Journal, Opening};
+use motiform_store::{Folder, Journal};
 use motiform_study::{Error, RunPlan, Shown, Study};
 use serde::{Serialize, Serializer};
 use std::fmt::{Display, Formatter};
@@ -18,7 +18,7 @@ const BODIES: u64 = 100;
 
 pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
     let remedy = "figures are drawn into a folder: give --out DIR, or leave it out";
-    options.style.refuse_unless(options.out.is_some(), remedy)?;
+    options.style.refuse_unless(options.folder.out.is_some(), remedy)?;
     let datasets = !options.subjects.is_empty() && options.subjects.iter().all(|path| is_dataset(path));
     let mut units = options.units.of(None)?;
     let (folder, found) = if datasets {
@@ -70,7 +70,7 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
         ("--tie", !options.parameters.ties.is_empty()),
         ("--initial", !options.method.initial.is_empty()),
         ("--random", options.method.random.is_some()),
-        ("--resume", options.resume),
+        ("--resume", options.folder.resume),
     ];
     let option = given.into_iter().find(|(_, given)| *given).map(|(key, _)| key);
     let mut settings_given = options.run.names().chain(options.method.run.names());
@@ -84,8 +84,8 @@ fn recorded(options: &StatisticsOptions) -> anyhow::Result<Measurement> {
 
 /// Opens the output before any computing.
 fn open(options: &StatisticsOptions, bodies: Option<(&RunPlan, u64)>) -> Result<Option<Folder>, Error> {
-    let Some(out) = &options.out else { return Ok(None) };
-    let folder = motiform_lab::statistics::open(out, Opening::of(options.resume, options.force), bodies)?;
+    let Some(out) = &options.folder.out else { return Ok(None) };
+    let folder = motiform_lab::statistics::open(out, options.folder.opening(), bodies)?;
     folder.notes().iter().for_each(|note| warn(note));
     Ok(Some(folder))
 }

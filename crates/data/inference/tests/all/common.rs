@@ -215,7 +215,7 @@ impl Experiment {
 pub(crate) fn circle() -> &'static ([Track; 1], Fit) {
     static CIRCLE: OnceLock<([Track; 1], Fit)> = OnceLock::new();
     CIRCLE.get_or_init(|| {
-        let tracks = [Experiment { frames: 300, ..Experiment::new(full(0.5, 0.3), 0.0, 7) }.track()];
+        let tracks = [Experiment { frames: 120, ..Experiment::new(full(0.5, 0.3), 0.0, 7) }.track()];
         let whole = fit(&tracks, &Settings::default(), &()).unwrap();
         (tracks, whole)
     })

@@ -38,7 +38,7 @@ fn a_circle_without_noise_fixes_two_combinations() {
 /// One real equation for each amplitude.
 #[test]
 fn a_straight_motion_without_noise_fixes_one_combination() {
-    let found = look(full(1.5, 1.0), (0.0, 300));
+    let found = look(full(1.5, 1.0), (0.0, 120));
     assert!(!found.identifiable);
     for of in &found.equations {
         assert_eq!(of.fixed(), 1, "{}", of.text);
@@ -49,7 +49,7 @@ fn a_straight_motion_without_noise_fixes_one_combination() {
 /// Without noise nothing is seen; with noise the relaxation about the resting shape.
 #[test]
 fn a_motionless_cell_fixes_relaxation_rates() {
-    assert!(!look(still(), (0.0, 300)).identifiable);
+    assert!(!look(still(), (0.0, 120)).identifiable);
     let mut experiment = Experiment::new(still(), 0.02, 7);
     experiment.frames = 600;
     let tracks = [experiment.track()];

@@ -18,7 +18,7 @@ const WHOLE: f64 = 0.1;
 ///
 /// # Checked by  tests/all/deflation.rs: a field with a known balance, in any units
 #[must_use]
-pub fn balances<B: Equivariant + ?Sized>(body: &B, directions: &[Vec<f64>]) -> Vec<f64> {
+pub fn balances(body: &dyn Equivariant, directions: &[Vec<f64>]) -> Vec<f64> {
     let mut sizes: Vec<f64> =
         directions.iter().filter(|ray| norm(ray) > 0.0).flat_map(|ray| along(body, ray)).collect();
     ascending(&mut sizes);
@@ -26,7 +26,7 @@ pub fn balances<B: Equivariant + ?Sized>(body: &B, directions: &[Vec<f64>]) -> V
 }
 
 /// The same along one direction.
-fn along<B: Equivariant + ?Sized>(body: &B, ray: &[f64]) -> Vec<f64> {
+fn along(body: &dyn Equivariant, ray: &[f64]) -> Vec<f64> {
     let length = norm(ray);
     let rate = |power: i32| {
         let at: Vec<f64> = ray.iter().map(|x| x / length * libm::exp2(f64::from(power))).collect();

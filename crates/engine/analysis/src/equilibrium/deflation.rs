@@ -64,15 +64,15 @@ struct Known {
 impl Deflation {
     /// Without any known equilibrium.
     #[must_use]
-    pub fn of<B: Equivariant + ?Sized>(body: &B) -> Self {
+    pub fn of(body: &dyn Equivariant) -> Self {
         Self { known: Vec::new(), unit: Units::of(body).length }
     }
 
     /// Returns `true` if two equilibria are one, up to rotations.
     #[must_use]
-    pub fn is_same<B: Equivariant + ?Sized>(
+    pub fn is_same(
         &self,
-        body: &B,
+        body: &dyn Equivariant,
         one: &RelativeEquilibrium,
         other: &RelativeEquilibrium,
     ) -> bool {
@@ -80,7 +80,7 @@ impl Deflation {
     }
 
     /// Adds an equilibrium to the known ones.
-    pub fn add<B: Equivariant + ?Sized>(&mut self, body: &B, known: &RelativeEquilibrium) {
+    pub fn add(&mut self, body: &dyn Equivariant, known: &RelativeEquilibrium) {
         let error = norm(&known.uncertainty(body).shape);
         let copies = Copies::of(body, &known.shape);
         self.known.push(Known { copies, error, isolated: known.is_isolated(error, self.unit) });
@@ -92,12 +92,7 @@ impl Deflation {
     /// A step is limited to the size of the shape, or to the reach where that is larger. Where steps become small against the
     /// distance from the known ones, [`RelativeEquilibrium::find`] completes the result.
     #[must_use]
-    pub fn find<B: Equivariant + ?Sized>(
-        &self,
-        body: &B,
-        guess: &[f64],
-        reach: f64,
-    ) -> Option<RelativeEquilibrium> {
+    pub fn find(&self, body: &dyn Equivariant, guess: &[f64], reach: f64) -> Option<RelativeEquilibrium> {
         let mut shape = guess.to_vec();
         let mut rate = vec![0.0; shape.len()];
         VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
@@ -121,7 +116,7 @@ impl Deflation {
     /// `d . grad ln M` for the step d, and the distance from the nearest equilibrium that is deflated.
     ///
     /// `grad ln (L/D + 1) = -1/(1 + D/L) (u - u_i)/D^2`, `u_i` the nearest of its rotated copies.
-    fn pull<B: Equivariant + ?Sized>(&self, body: &B, shape: &[f64], step: &[f64], reach: f64) -> (f64, f64) {
+    fn pull(&self, body: &dyn Equivariant, shape: &[f64], step: &[f64], reach: f64) -> (f64, f64) {
         let (mut sum, mut nearest) = (0.0, f64::INFINITY);
         for known in self.known.iter().filter(|known| known.isolated) {
             let mut away = known.copies.nearest(body, shape);
@@ -136,7 +131,7 @@ impl Deflation {
 
     /// Returns `true` if it is determined by its linearisation and none of the known ones, beyond its error
     /// and theirs.
-    fn lacks<B: Equivariant + ?Sized>(&self, body: &B, found: &RelativeEquilibrium) -> bool {
+    fn lacks(&self, body: &dyn Equivariant, found: &RelativeEquilibrium) -> bool {
         let error = norm(&found.uncertainty(body).shape);
         let apart = |known: &Known| {
             let errors = error + if known.isolated { known.error } else { 0.0 };
@@ -152,7 +147,7 @@ impl Deflation {
 ///
 /// Far away, terms that cancel exactly (those of `(z + conj z)^3` for an imaginary z) leave derivatives that
 /// are rounding alone: any shape then seems to solve the equations, as the residual is small against them.
-fn is_resolved<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> bool {
+fn is_resolved(body: &dyn Equivariant, shape: &[f64]) -> bool {
     let (dim, step) = (shape.len(), DIFFERENCE * norm(shape));
     if step == 0.0 {
         return true;
@@ -173,7 +168,7 @@ fn is_resolved<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> bool {
 }
 
 /// Newton's step `(du, domega)`, with du across the group orbit; the smallest step where that is not determined.
-fn step<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Option<Vec<f64>> {
+fn step(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Option<Vec<f64>> {
     let (unknowns, target) = equations(body, shape, omega);
     let (mut square, mut rhs) = (unknowns.clone(), target.clone());
     match neutral_direction(body, shape).pop() {
@@ -200,7 +195,7 @@ impl RelativeEquilibrium {
     /// Returns `true` if these are one equilibrium of equations with this unit of shapes ([`Units`]), up to
     /// rotations.
     #[must_use]
-    pub fn is_same<B: Equivariant + ?Sized>(&self, body: &B, other: &Self, unit: f64) -> bool {
+    pub fn is_same(&self, body: &dyn Equivariant, other: &Self, unit: f64) -> bool {
         near(self.distance(body, &other.shape), &other.shape, unit)
     }
 }

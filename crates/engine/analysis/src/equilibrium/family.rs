@@ -50,7 +50,7 @@ impl RelativeEquilibrium {
     /// Newton's method takes the smallest step to an equilibrium: from a shape beside a member, along a
     /// direction in which nothing grows or decays, it goes to another member, and at a bifurcation it comes
     /// back. The family must have as many dimensions as there are eigenvalues 0.
-    pub(crate) fn across_family<B: Equivariant + ?Sized>(&self, body: &B) -> Option<Self> {
+    pub(crate) fn across_family(&self, body: &dyn Equivariant) -> Option<Self> {
         let size = norm(&self.shape);
         if self.vanishing_count() == 0 || size == 0.0 {
             return None;
@@ -74,7 +74,7 @@ impl RelativeEquilibrium {
 
     /// The dimension of the family of equilibria that it lies in; 0 where it is alone.
     #[must_use]
-    pub fn family_dimension<B: Equivariant + ?Sized>(&self, body: &B) -> usize {
+    pub fn family_dimension(&self, body: &dyn Equivariant) -> usize {
         self.across_family(body).map_or(0, |_| self.vanishing_count())
     }
 
@@ -83,7 +83,7 @@ impl RelativeEquilibrium {
     ///
     /// # Checked by  lab: tests/all/equilibria/families.rs: circles, tori, an ellipse, rotated copies; bifurcations, which are none
     #[must_use]
-    pub fn leads_to<B: Equivariant + ?Sized>(&self, body: &B, other: &Self) -> bool {
+    pub fn leads_to(&self, body: &dyn Equivariant, other: &Self) -> bool {
         if self.vanishing_count() == 0 || self.vanishing_count() != other.vanishing_count() {
             return false;
         }
@@ -106,7 +106,7 @@ impl RelativeEquilibrium {
 
     /// As [`RelativeEquilibrium::leads_to`], also by other ways, which begin with some steps in a random direction along the family.
     #[must_use]
-    pub fn is_in_family_of<B: Equivariant + ?Sized>(&self, body: &B, other: &Self) -> bool {
+    pub fn is_in_family_of(&self, body: &dyn Equivariant, other: &Self) -> bool {
         let ways = |seed: u64| {
             let begun = self.wandered(body, AROUND * (1 + seed / 2) / (1 + TRIES / 2), &mut SplitMix(seed));
             begun.leads_to(body, other)
@@ -115,7 +115,7 @@ impl RelativeEquilibrium {
     }
 
     /// The member of the family after so many steps in one direction, or where it ends.
-    fn wandered<B: Equivariant + ?Sized>(&self, body: &B, steps: u64, random: &mut SplitMix) -> Self {
+    fn wandered(&self, body: &dyn Equivariant, steps: u64, random: &mut SplitMix) -> Self {
         let step = STEP * norm(&self.shape);
         let mut here = self.clone();
         let mut way: Vec<f64> = here.shape.iter().map(|_| step * random.next()).collect();
@@ -133,7 +133,7 @@ impl RelativeEquilibrium {
     }
 
     /// The member of the family beside this one, towards `way`, at most `step` away; `None` where Newton's method leads elsewhere.
-    fn moved<B: Equivariant + ?Sized>(&self, body: &B, way: &[f64], step: f64) -> Option<Self> {
+    fn moved(&self, body: &dyn Equivariant, way: &[f64], step: f64) -> Option<Self> {
         let mut along = vec![0.0; way.len()];
         for direction in self.along_family(body)? {
             add(&mut along, dot(&direction, way), &direction);
@@ -147,7 +147,7 @@ impl RelativeEquilibrium {
     }
 
     /// The shape of `other`, turned to be near, minus this one.
-    fn way<B: Equivariant + ?Sized>(&self, body: &B, other: &Self) -> Vec<f64> {
+    fn way(&self, body: &dyn Equivariant, other: &Self) -> Vec<f64> {
         let mut way = other.shape.clone();
         body.rotate(align(body, &self.shape, &other.shape, false).angle, &mut way);
         add(&mut way, -1.0, &self.shape);
@@ -155,7 +155,7 @@ impl RelativeEquilibrium {
     }
 
     /// Unit vectors along the family, across the group.
-    fn along_family<B: Equivariant + ?Sized>(&self, body: &B) -> Option<Vec<Vec<f64>>> {
+    fn along_family(&self, body: &dyn Equivariant) -> Option<Vec<Vec<f64>>> {
         let mut directions = neutral_direction(body, &self.shape);
         let group = directions.len();
         let columns = linearisation(body, &self.shape, self.turning_rate);

@@ -54,7 +54,7 @@ pub struct RelativeEquilibrium {
 
 impl RelativeEquilibrium {
     /// The equilibrium at a solution of its equations, as far as Newton's method goes.
-    fn describe<B: Equivariant + ?Sized>(body: &B, shape: Vec<f64>, omega: f64) -> Option<Self> {
+    fn describe(body: &dyn Equivariant, shape: Vec<f64>, omega: f64) -> Option<Self> {
         let columns = linearisation(body, &shape, omega);
         let scale = columns.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
         let neutral = neutral_direction(body, &shape);
@@ -110,13 +110,13 @@ impl RelativeEquilibrium {
 
     /// Distance of `shape` from it, rotations divided out.
     #[must_use]
-    pub fn distance<B: Equivariant + ?Sized>(&self, body: &B, shape: &[f64]) -> f64 {
+    pub fn distance(&self, body: &dyn Equivariant, shape: &[f64]) -> f64 {
         align(body, shape, &self.shape, false).distance
     }
 }
 
 /// The columns of `Df - omega G`.
-fn linearisation<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Vec<Vec<f64>> {
+fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<Vec<f64>> {
     let dim = shape.len();
     let matrix = jacobian(body, shape);
     let mut unit = vec![0.0; dim];
@@ -133,7 +133,7 @@ fn linearisation<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -
 }
 
 /// The direction of the group orbit, as a unit vector; none for a circle.
-pub fn neutral_direction<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Vec<Vec<f64>> {
+pub fn neutral_direction(body: &dyn Equivariant, shape: &[f64]) -> Vec<Vec<f64>> {
     let mut spin = vec![0.0; shape.len()];
     body.spin(shape, &mut spin);
     let size = norm(&spin);
@@ -145,7 +145,7 @@ pub fn neutral_direction<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Ve
 }
 
 /// Unit vectors along the group and the flow at a shape: the directions in which nothing grows or decays along an orbit.
-pub(crate) fn along_group_and_flow<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Vec<Vec<f64>> {
+pub(crate) fn along_group_and_flow(body: &dyn Equivariant, shape: &[f64]) -> Vec<Vec<f64>> {
     let mut directions = neutral_direction(body, shape);
     let mut flow = shape.to_vec();
     VectorField::<f64>::eval(body, 0.0, shape, &mut flow);

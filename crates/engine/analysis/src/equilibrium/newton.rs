@@ -21,7 +21,7 @@ impl RelativeEquilibrium {
     ///
     /// # Checked by  tests/all/equilibrium.rs: the analytic states of the reduced model, eigenvalues against its formulas
     #[must_use]
-    pub fn find<B: Equivariant + ?Sized>(body: &B, guess: &[f64]) -> Option<Self> {
+    pub fn find(body: &dyn Equivariant, guess: &[f64]) -> Option<Self> {
         let mut shape = guess.to_vec();
         let mut rate = vec![0.0; shape.len()];
         VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
@@ -56,7 +56,7 @@ const ROUNDING: f64 = 0.5;
 
 /// Makes a circle (without rotations: nothing) of a shape that differs from it by no more than Newton's method would move it still: what is
 /// left of other modes is its error, which has no symmetry, but the motion has all. Whether it is one.
-fn round<B: Equivariant + ?Sized>(body: &B, shape: &mut [f64], step: &[f64]) -> bool {
+fn round(body: &dyn Equivariant, shape: &mut [f64], step: &[f64]) -> bool {
     let rotations = body.symmetry().rotations;
     let circle =
         if rotations { mean_over_rotations(body, shape, shape.len() + 1) } else { vec![0.0; shape.len()] };
@@ -70,11 +70,7 @@ fn round<B: Equivariant + ?Sized>(body: &B, shape: &mut [f64], step: &[f64]) -> 
 }
 
 /// The columns of `[Df - omega G, -Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation.
-pub(super) fn equations<B: Equivariant + ?Sized>(
-    body: &B,
-    shape: &[f64],
-    omega: f64,
-) -> (Vec<Vec<f64>>, Vec<f64>) {
+pub(super) fn equations(body: &dyn Equivariant, shape: &[f64], omega: f64) -> (Vec<Vec<f64>>, Vec<f64>) {
     let mut columns = linearisation(body, shape, omega);
     let mut spin = vec![0.0; shape.len()];
     body.spin(shape, &mut spin);

@@ -18,7 +18,7 @@ impl RelativeEquilibrium {
     ///
     /// # Checked by  tests/all/lyapunov.rs: runs that end at circles, straight and circular motion, families; lab's tests/all/naming.rs
     #[must_use]
-    pub fn reached<B: Equivariant + ?Sized>(body: &B, shape: &[f64], size: f64) -> Option<Self> {
+    pub fn reached(body: &dyn Equivariant, shape: &[f64], size: f64) -> Option<Self> {
         let found = Self::find(body, shape)?;
         let near = if found.is_stable() { REACHED } else { ON };
         (found.distance(body, shape) <= near * norm(&found.shape).max(size)).then_some(found)

@@ -42,7 +42,7 @@ impl RelativeEquilibrium {
     /// Source: Krupa, Melbourne (1995), Ergod. Theory Dyn. Syst. 15, 121; for 1:2 modes Armbruster, Guckenheimer, Holmes
     /// (1988), Physica D 29, 257.
     #[must_use]
-    pub fn saddle<B: Equivariant + ?Sized>(&self, body: &B) -> Option<Saddle> {
+    pub fn saddle(&self, body: &dyn Equivariant) -> Option<Saddle> {
         let growing = self.growing();
         let pair = growing == 2 && self.eigenvalues[0].1 != 0.0;
         if growing != 1 && !pair {
@@ -68,7 +68,7 @@ impl RelativeEquilibrium {
 
     /// Bases of the directions that break the shape's rotations, split into mirror-even and mirror-odd ones where it has
     /// a mirror axis.
-    fn classes<B: Equivariant + ?Sized>(&self, body: &B) -> Vec<Vec<Vec<f64>>> {
+    fn classes(&self, body: &dyn Equivariant) -> Vec<Vec<Vec<f64>>> {
         let dim = self.shape.len();
         let silent = self.silent(body);
         let heard = |x: &mut Vec<f64>| x.iter_mut().zip(&silent).filter(|x| *x.1).for_each(|x| *x.0 = 0.0);

@@ -17,7 +17,7 @@ impl RelativeEquilibrium {
     /// a neutral direction beside that of the rotations.
     ///
     /// # Checked by  apps/motiform/tests/all/free_phases.rs
-    pub(super) fn silent<B: Equivariant + ?Sized>(&self, body: &B) -> Vec<bool> {
+    pub(super) fn silent(&self, body: &dyn Equivariant) -> Vec<bool> {
         let dim = self.shape.len();
         let mut silent = vec![false; dim];
         if !body.symmetry().rotations || self.vanishing_count() == 0 {
@@ -41,13 +41,7 @@ impl RelativeEquilibrium {
 
     /// Returns `true` if another shape is an equilibrium too, with the same linearisation of the unknowns
     /// outside of `mode`.
-    fn acts_alike<B: Equivariant + ?Sized>(
-        &self,
-        body: &B,
-        matrix: &[Vec<f64>],
-        mode: &[bool],
-        shape: &[f64],
-    ) -> bool {
+    fn acts_alike(&self, body: &dyn Equivariant, matrix: &[Vec<f64>], mode: &[bool], shape: &[f64]) -> bool {
         let moved = linearisation(body, shape, self.turning_rate);
         let columns = matrix.iter().zip(&moved).zip(mode).filter(|(_, inside)| !**inside);
         let mut entries =
@@ -60,7 +54,7 @@ impl RelativeEquilibrium {
 
 /// The sets of unknowns that rotations mix, each as a mask; without rotations every unknown is one.
 #[must_use]
-pub fn modes<B: Equivariant + ?Sized>(body: &B, dim: usize) -> Vec<Vec<bool>> {
+pub fn modes(body: &dyn Equivariant, dim: usize) -> Vec<Vec<bool>> {
     let mut label: Vec<usize> = (0..dim).collect();
     let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);
     for j in 0..dim {

@@ -28,7 +28,7 @@ impl Uncertainty {
     ///
     /// A residual in a mode that decays fast moves nothing by much: it is divided by that mode's rate. Where
     /// M is singular the equilibrium is one of a family, and the distance is that to the nearest of them.
-    pub(super) fn of<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64, turns: bool) -> Self {
+    pub(super) fn of(body: &dyn Equivariant, shape: &[f64], omega: f64, turns: bool) -> Self {
         let dim = shape.len();
         let columns = linearisation(body, shape, omega);
         let mut spin = vec![0.0; dim];
@@ -70,9 +70,9 @@ impl Uncertainty {
     /// Bounds of the errors of `Df - omega G`: rounding against the largest entry of each row, and twice what
     /// some changes by the error of the shape make of it, with random signs: with signs of its own a change
     /// may be one along a family, which changes nothing.
-    pub(super) fn of_linearisation<B: Equivariant + ?Sized>(
+    pub(super) fn of_linearisation(
         &self,
-        body: &B,
+        body: &dyn Equivariant,
         found: (&[f64], f64),
         matrix: &DMatrix<f64>,
     ) -> DMatrix<f64> {
@@ -96,13 +96,13 @@ impl Uncertainty {
 impl RelativeEquilibrium {
     /// Bounds on its distance from the true one.
     #[must_use]
-    pub fn uncertainty<B: Equivariant + ?Sized>(&self, body: &B) -> Uncertainty {
+    pub fn uncertainty(&self, body: &dyn Equivariant) -> Uncertainty {
         Uncertainty::of(body, &self.shape, self.turning_rate, self.neutral > 0)
     }
 }
 
 /// `f - omega Gu`.
-pub(super) fn residual<B: Equivariant + ?Sized>(body: &B, shape: &[f64], omega: f64) -> Vec<f64> {
+pub(super) fn residual(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
     let (mut rate, mut spin) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
     VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
     body.spin(shape, &mut spin);

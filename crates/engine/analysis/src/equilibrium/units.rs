@@ -26,7 +26,7 @@ impl Units {
     /// The units of a field: along rays on which modes decay with the third power of their number, the median
     /// of the sizes at which terms balance, and the rate there.
     #[must_use]
-    pub fn of<B: Equivariant + ?Sized>(body: &B) -> Self {
+    pub fn of(body: &dyn Equivariant) -> Self {
         let rays = rays(body);
         let sizes = balances(body, &rays);
         let length = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
@@ -46,7 +46,7 @@ impl Units {
 
     /// The largest speed of the centre of mass of the shapes of the unit's size along those rays.
     #[must_use]
-    pub fn speed<B: Equivariant + ?Sized>(self, body: &B) -> f64 {
+    pub fn speed(self, body: &dyn Equivariant) -> f64 {
         let speed = |ray: Vec<f64>| {
             let shape: Vec<f64> = ray.iter().map(|w| self.length * w).collect();
             let velocity = model::velocity(body, &shape);
@@ -69,7 +69,7 @@ pub fn prefix(x: f64) -> f64 {
 }
 
 /// Directions of length 1 in general position.
-fn rays<B: Equivariant + ?Sized>(body: &B) -> Vec<Vec<f64>> {
+fn rays(body: &dyn Equivariant) -> Vec<Vec<f64>> {
     let dim = body.dim();
     let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);
     let mut part = |i: usize, ray: usize| {
@@ -89,7 +89,7 @@ fn rays<B: Equivariant + ?Sized>(body: &B) -> Vec<Vec<f64>> {
 }
 
 /// `sum_i |f_i w_i| / sum_i t w_i^2` at the shape `t w`.
-fn rate<B: Equivariant + ?Sized>(body: &B, ray: &[f64], t: f64) -> f64 {
+fn rate(body: &dyn Equivariant, ray: &[f64], t: f64) -> f64 {
     let shape: Vec<f64> = ray.iter().map(|w| t * w).collect();
     let mut rate = vec![0.0; shape.len()];
     VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);

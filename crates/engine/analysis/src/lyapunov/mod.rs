@@ -142,8 +142,8 @@ impl Lyapunov {
 /// # Errors    what the numerics refuse; a run that escapes is an [`Outcome`] without exponents
 /// # Not       not for noise-driven orbits; corrections of the state between steps (feedback of the cell) are not followed
 /// # Checked by  tests/all/lyapunov.rs: linear flow (exact), Lorenz-63 (published), coverage of the errors, both models
-pub fn lyapunov<B: Equivariant + ?Sized>(
-    body: &B,
+pub fn lyapunov(
+    body: &dyn Equivariant,
     start: &[f64],
     settings: &LyapunovSettings,
     watch: &dyn Watch,
@@ -177,8 +177,8 @@ impl SoFar<'_> {
 ///
 /// # Errors
 /// As [`lyapunov`].
-pub fn lyapunov_followed<B: Equivariant + ?Sized>(
-    body: &B,
+pub fn lyapunov_followed(
+    body: &dyn Equivariant,
     start: &[f64],
     settings: &LyapunovSettings,
     watch: &dyn Watch,
@@ -241,7 +241,7 @@ pub(crate) fn first_state(start: &[f64], count: usize) -> Vec<f64> {
 /// Number of neutral directions of the motion that a run ended on, from the shape at its end and the size of
 /// its first one: that of the rotations, that of the flow unless the body is at a steady motion, and those of
 /// a family of steady motions.
-fn neutral_directions<B: Equivariant + ?Sized>(body: &B, shape: &[f64], size: f64) -> usize {
+fn neutral_directions(body: &dyn Equivariant, shape: &[f64], size: f64) -> usize {
     match RelativeEquilibrium::reached(body, shape, size) {
         Some(found) => found.neutral + found.family_dimension(body),
         None => along_group_and_flow(body, shape).len(),

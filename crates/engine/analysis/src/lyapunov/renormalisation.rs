@@ -150,9 +150,9 @@ impl Renormalisation {
     }
 
     /// The exponents of a run that ended like this, at this shape, after so many steps in all.
-    pub(crate) fn result<B: Equivariant + ?Sized>(
+    pub(crate) fn result(
         self,
-        body: &B,
+        body: &dyn Equivariant,
         shape: &[f64],
         outcome: Outcome,
         steps: u64,

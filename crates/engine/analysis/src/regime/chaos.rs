@@ -16,8 +16,8 @@ const ORDER: f64 = 0.3;
 const DOUBT: f64 = 1.3;
 
 /// The largest exponent over `span`, after a fifth of it for the vector to turn its way.
-pub(super) fn exponent<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn exponent(
+    body: &dyn Equivariant,
     shape: &[f64],
     span: f64,
     settings: &Settings,

@@ -35,8 +35,8 @@ use motiform_dynamics::{Equivariant, Watch};
 /// Input that the numerics refuse (a start of the wrong length, say). Everything that happens to the orbit is a verdict.
 ///
 /// # Checked by  tests/all/regimes.rs (tensor: the analytic lines; cell: the known windows), tests/all/zoo.rs (known answers)
-pub fn classify<B: Equivariant + ?Sized>(
-    body: &B,
+pub fn classify(
+    body: &dyn Equivariant,
     start: &[f64],
     settings: &Settings,
     watch: &dyn Watch,
@@ -48,8 +48,8 @@ pub fn classify<B: Equivariant + ?Sized>(
 ///
 /// # Errors
 /// As [`classify()`].
-pub fn settle<B: Equivariant + ?Sized>(
-    body: &B,
+pub fn settle(
+    body: &dyn Equivariant,
     start: &[f64],
     settings: &Settings,
     watch: &dyn Watch,

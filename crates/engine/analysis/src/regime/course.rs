@@ -37,7 +37,7 @@ pub struct Direction {
 impl Direction {
     /// Of a motion of this turning rate (rad per model time) and this displacement (model length); 0 for none.
     #[must_use]
-    pub fn of<B: Equivariant + ?Sized>(body: &B, turning: Option<f64>, drift: [f64; 2]) -> Self {
+    pub fn of(body: &dyn Equivariant, turning: Option<f64>, drift: [f64; 2]) -> Self {
         let symmetry = body.symmetry();
         let heading = (!symmetry.rotations && drift != [0.0; 2]).then(|| libm::atan2(drift[1], drift[0]));
         let turning = turning.and_then(|rate| Course::of_turning(symmetry, rate));

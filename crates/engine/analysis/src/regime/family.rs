@@ -21,8 +21,8 @@ const OTHER: f64 = 0.03;
 ///
 /// Newton's method takes the smallest step to an orbit: from a shape beside an orbit of a family it goes to another one of them, and back
 /// to an orbit that is alone. The family must have as many dimensions as there are multipliers 1.
-pub(super) fn within_family<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn within_family(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     settings: &Settings,
     effort: &mut f64,

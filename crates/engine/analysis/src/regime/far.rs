@@ -35,9 +35,9 @@ impl Far {
     }
 
     /// Counts a step; the escape of an orbit that crawls far out and leaves soon.
-    pub(super) fn leaves<B: Equivariant + ?Sized>(
+    pub(super) fn leaves(
         &mut self,
-        body: &B,
+        body: &dyn Equivariant,
         orbit: &dyn Integration,
         request: &Request<'_>,
     ) -> Option<Outcome> {

@@ -19,8 +19,8 @@ const UNRESOLVED: f64 = 1e-3;
 const LOST: f64 = 0.5;
 
 /// The exponents of an orbit with those of its neutral directions, largest first.
-pub(super) fn exponents<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn exponents(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     settings: &Settings,
     watch: &dyn Watch,

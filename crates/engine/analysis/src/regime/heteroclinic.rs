@@ -33,7 +33,7 @@ const LONG: f64 = 8.0;
 ///
 /// The rests are those of all looks so far: near the end of a window one rest may be as long as a look. One of which only a part was
 /// seen counts as well, but its duration is not told.
-pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, rests: &[Rest]) -> Option<Cycle> {
+pub(super) fn cycle(body: &dyn Equivariant, rests: &[Rest]) -> Option<Cycle> {
     let longest = rests.iter().map(Rest::duration).fold(0.0, f64::max);
     let long: Vec<&Rest> = rests.iter().filter(|rest| LONG * rest.duration() >= longest).collect();
     let latest = &long[long.len().checked_sub(LEAST_RESTS)?..];
@@ -53,7 +53,7 @@ pub(super) fn cycle<B: Equivariant + ?Sized>(body: &B, rests: &[Rest]) -> Option
 /// The motionless saddle beside `shape` that a cycle could attract by, with the distance to it (against its size).
 ///
 /// No periodic orbit passes so near to one: the cycle itself attracts what does (Krupa and Melbourne 1995).
-pub(super) fn attracting_saddle<B: Equivariant + ?Sized>(body: &B, shape: &[f64]) -> Option<(Saddle, f64)> {
+pub(super) fn attracting_saddle(body: &dyn Equivariant, shape: &[f64]) -> Option<(Saddle, f64)> {
     let equilibrium = RelativeEquilibrium::find(body, shape)?;
     let size = norm(&equilibrium.shape);
     let distance = equilibrium.distance(body, shape) / size.max(f64::MIN_POSITIVE);

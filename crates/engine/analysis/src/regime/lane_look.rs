@@ -86,7 +86,7 @@ impl<L: Bundle, const N: usize> LaneObserver<L, N> {
     }
 
     /// Begins a look in one lane.
-    pub(super) fn begin<B: Equivariant + ?Sized>(&mut self, lane: usize, body: &B, t: f64, u: &[f64; N]) {
+    pub(super) fn begin(&mut self, lane: usize, body: &dyn Equivariant, t: f64, u: &[f64; N]) {
         let gauge = Gauge::of(body);
         let rate = gauge.rate(body, u);
         self.form = gauge.form().and_then(|form| form.try_into().ok());

@@ -46,8 +46,8 @@ pub(super) struct Change {
 impl Change {
     /// Over a run from `shape` that is as long as the look; `None` where it ends early, or has too few
     /// returns. The width of the returns is that of the look.
-    pub(super) fn along<B: Equivariant + ?Sized>(
-        body: &B,
+    pub(super) fn along(
+        body: &dyn Equivariant,
         shape: &[f64],
         look: &Look,
         settings: &Settings,

@@ -82,8 +82,8 @@ impl Look {
     ///
     /// In a large system extremes are looked for at the ends of steps only: its steps are those of its fast modes, a hundredth of the
     /// time between extremes, and eight points of each would take more evaluations of the field than the step.
-    pub(super) fn take<B: Equivariant + ?Sized>(
-        body: &B,
+    pub(super) fn take(
+        body: &dyn Equivariant,
         orbit: &mut dyn Integration,
         time: f64,
         request: &Request<'_>,
@@ -94,8 +94,8 @@ impl Look {
 
     /// As [`Look::take`]; it ends at a [`pause`] if `ends` says so of what was seen and of the shape. Steps
     /// are those of a look without pauses.
-    pub(super) fn take_until<B: Equivariant + ?Sized>(
-        body: &B,
+    pub(super) fn take_until(
+        body: &dyn Equivariant,
         orbit: &mut dyn Integration,
         (time, mut ends): (f64, Option<&mut Ends<'_>>),
         request: &Request<'_>,
@@ -147,7 +147,7 @@ impl Look {
     }
 
     /// The largest distance between reduced shapes that the look met, from the last extreme to the earlier ones.
-    pub(super) fn diameter<B: Equivariant + ?Sized>(&self, body: &B) -> f64 {
+    pub(super) fn diameter(&self, body: &dyn Equivariant) -> f64 {
         let Some(last) = self.extremes.last() else { return 0.0 };
         let others = self.extremes.iter().rev().skip(1).take(40);
         others.map(|other| align(body, &last.shape, &other.shape, false).distance).fold(0.0, f64::max)
@@ -257,13 +257,13 @@ impl Seen {
     }
 }
 
-struct Watcher<'w, B: ?Sized> {
-    body: &'w B,
+struct Watcher<'w> {
+    body: &'w dyn Equivariant,
     gauge: &'w Gauge,
     seen: Seen,
 }
 
-impl<B: Equivariant + ?Sized> Sink for Watcher<'_, B> {
+impl Sink for Watcher<'_> {
     fn crossing(&mut self, crossing: &Crossing<'_>) {
         self.seen.extreme(Extreme {
             t: crossing.t,

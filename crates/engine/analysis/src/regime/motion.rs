@@ -26,8 +26,8 @@ pub(super) struct Path {
 
 impl Path {
     /// The path from `shape` for `time`, in `steps` steps; shorter where the run ends early, by `stop` for one, or a velocity is undefined.
-    pub(super) fn follow<B: Equivariant + ?Sized>(
-        body: &B,
+    pub(super) fn follow(
+        body: &dyn Equivariant,
         shape: &[f64],
         time: f64,
         steps: usize,
@@ -177,13 +177,13 @@ fn time_mean(times: &[f64], values: &[f64]) -> f64 {
     parts.map(|(t, x)| 0.5 * (t[1] - t[0]) * (x[0] + x[1])).sum::<f64>() / span
 }
 
-struct Sampler<'b, B: ?Sized> {
-    body: &'b B,
+struct Sampler<'b> {
+    body: &'b dyn Equivariant,
     atol: f64,
     path: Path,
 }
 
-impl<B: Equivariant + ?Sized> Sink for Sampler<'_, B> {
+impl Sink for Sampler<'_> {
     fn sample(&mut self, t: f64, u: &[f64]) {
         self.path.times.push(t);
         self.path.velocities.push(velocity(self.body, u));

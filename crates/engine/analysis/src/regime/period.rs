@@ -47,9 +47,9 @@ impl Verdict {
     /// The periodic orbit of this motion near `shape`, over its first return, as Newton's method has it;
     /// `None` for a motion that does not repeat.
     #[must_use]
-    pub fn orbit<B: Equivariant + ?Sized>(
+    pub fn orbit(
         &self,
-        body: &B,
+        body: &dyn Equivariant,
         shape: &[f64],
         flow: &Flow,
         watch: &dyn Watch,

@@ -42,11 +42,7 @@ pub(super) struct Recurrence {
 }
 
 /// The shortest recurrences of the last minimum that are close, as many as are tried.
-pub(super) fn recurrences<B: Equivariant + ?Sized>(
-    body: &B,
-    minima: &[&Extreme],
-    diameter: f64,
-) -> Vec<Recurrence> {
+pub(super) fn recurrences(body: &dyn Equivariant, minima: &[&Extreme], diameter: f64) -> Vec<Recurrence> {
     let Some((last, earlier)) = minima.split_last() else { return Vec::new() };
     let mut found: Vec<Recurrence> = Vec::new();
     let images = if body.symmetry().mirror { &[true, false][..] } else { &[false] };
@@ -75,8 +71,8 @@ pub(super) fn recurrences<B: Equivariant + ?Sized>(
 ///
 /// Where the look is too short to tell, a small system may be tried. In a large one a try costs as much as hundreds of periods: it is
 /// asked for two close returns in a row. Chaos shows one close return in every look, and two of them as the square of that.
-fn settles<B: Equivariant + ?Sized>(
-    body: &B,
+fn settles(
+    body: &dyn Equivariant,
     minima: &[&Extreme],
     (returns, mirrored): (usize, bool),
     now: f64,
@@ -108,8 +104,8 @@ pub(super) enum Returns {
 ///
 /// In a large system a recurrence that passes a saddle by which cycles attract is not tried: what Newton's method might find would be
 /// an orbit of the tolerance ([`is_of_the_flow`]), after tangent vectors have grown by `e^(lambda_+ T)` in a rest of length T.
-pub(super) fn periodic<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn periodic(
+    body: &dyn Equivariant,
     look: &Look,
     rests: &[Rest],
     settings: &Settings,
@@ -159,8 +155,8 @@ const DECIDING: f64 = 1e-3;
 
 /// The orbit in a tighter tolerance, where its multipliers do not say at this one whether it is stable, or without the neutral ones of a
 /// family that it lies in.
-fn resolved<B: Equivariant + ?Sized>(
-    body: &B,
+fn resolved(
+    body: &dyn Equivariant,
     orbit: PeriodicOrbit,
     settings: &Settings,
     effort: &mut f64,
@@ -182,8 +178,8 @@ fn resolved<B: Equivariant + ?Sized>(
 
 /// Returns `true` if one of the rests between two times was at a saddle by which cycles attract
 /// ([`attracting_saddle`]).
-pub(super) fn passes_attracting_saddle<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn passes_attracting_saddle(
+    body: &dyn Equivariant,
     rests: &[Rest],
     (from, to): (f64, f64),
 ) -> bool {
@@ -194,8 +190,8 @@ pub(super) fn passes_attracting_saddle<B: Equivariant + ?Sized>(
 
 /// An orbit that is mirror symmetric at every moment is its own mirror image after any time: its period ends when the shape comes
 /// back as it was, not mirrored.
-fn unmirrored<B: Equivariant + ?Sized>(
-    body: &B,
+fn unmirrored(
+    body: &dyn Equivariant,
     orbit: PeriodicOrbit,
     recurrence: Recurrence,
     settings: &Settings,
@@ -214,8 +210,8 @@ fn unmirrored<B: Equivariant + ?Sized>(
 
 /// The symmetry that every shape of the orbit has: that of some moments, spread over the period. (A zigzag
 /// that rests near a straight motion is nearly symmetric there, and only there.)
-pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn symmetry_of(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     settings: &Settings,
     watch: &dyn Watch,
@@ -235,8 +231,8 @@ pub(super) fn symmetry_of<B: Equivariant + ?Sized>(
 
 /// Returns `true` if the orbit is one of the flow, and not of its tolerance: it passes no saddle that
 /// attracts as a cycle does.
-fn is_of_the_flow<B: Equivariant + ?Sized>(
-    body: &B,
+fn is_of_the_flow(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     settings: &Settings,
     watch: &dyn Watch,

@@ -37,8 +37,8 @@ pub struct Repeating {
 ///
 /// # Errors
 /// Input that the numerics refuse.
-pub fn repeating<B: Equivariant + ?Sized>(
-    body: &B,
+pub fn repeating(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     nodes: &[Vec<f64>],
     settings: &Settings,
@@ -69,7 +69,7 @@ pub fn repeating<B: Equivariant + ?Sized>(
 }
 
 /// The symmetry that every node has.
-fn symmetry<B: Equivariant + ?Sized>(body: &B, nodes: &[Vec<f64>]) -> Isotropy {
+fn symmetry(body: &dyn Equivariant, nodes: &[Vec<f64>]) -> Isotropy {
     let all = nodes.iter().map(|node| Isotropy::of(body, node, Isotropy::SAME));
     let common = |a: Isotropy, b: Isotropy| Isotropy {
         mirror: a.mirror.filter(|_| b.mirror.is_some()),

@@ -42,9 +42,9 @@ impl Verdict {
     ///
     /// # Errors
     /// Input that the numerics refuse.
-    pub fn resolved_by<B: Equivariant + ?Sized>(
+    pub fn resolved_by(
         mut self,
-        finer: &B,
+        finer: &dyn Equivariant,
         shape: &[f64],
         (parameter, value): (&str, f64),
         settings: &Settings,
@@ -83,7 +83,7 @@ impl Verdict {
 
     /// The verdict on a cycle with its resolution: the rates at the saddle beside `shape` in the finer model.
     /// Undetermined where a cycle does not attract by them.
-    fn at_saddle<B: Equivariant + ?Sized>(mut self, finer: &B, shape: &[f64], changed: (&str, f64)) -> Self {
+    fn at_saddle(mut self, finer: &dyn Equivariant, shape: &[f64], changed: (&str, f64)) -> Self {
         let found = RelativeEquilibrium::find(finer, shape);
         let (Some(own), Some(found)) = (self.saddle, found) else { return self };
         let Some(other) = found.saddle(finer).filter(Saddle::attracts) else {
@@ -99,9 +99,9 @@ impl Verdict {
     /// The verdict on chaos or a torus with its resolution: the largest exponent of a run in the finer model.
     /// Undetermined where the two differ by more than twice the sum of their errors; without a resolution
     /// where the run has no exponent.
-    fn averaged<B: Equivariant + ?Sized>(
+    fn averaged(
         mut self,
-        finer: &B,
+        finer: &dyn Equivariant,
         shape: &[f64],
         (parameter, value): (&str, f64),
         settings: &Settings,
@@ -151,9 +151,9 @@ impl Verdict {
     }
 
     /// The verdict on the periodic orbit that Newton's method finds from `shape`, if it is stable.
-    fn repeats<B: Equivariant + ?Sized>(
+    fn repeats(
         &self,
-        body: &B,
+        body: &dyn Equivariant,
         shape: &[f64],
         settings: &Settings,
         watch: &dyn Watch,

@@ -115,7 +115,7 @@ impl Search {
     /// Returns `true` if a look may end here, before its time: the orbit is close to a stable equilibrium. It
     /// is asked where the shape hardly changes any more, and again where it changes ten times slower: in a
     /// cycle between saddles it rests as well.
-    pub(super) fn arrives<B: Equivariant + ?Sized>(&mut self, body: &B, seen: &Seen, shape: &[f64]) -> bool {
+    pub(super) fn arrives(&mut self, body: &dyn Equivariant, seen: &Seen, shape: &[f64]) -> bool {
         let slow = (SETTLED * self.fastest.max(seen.fastest)).min(0.1 * self.sought);
         if !matches!(self.pending, Pending::Look) || seen.last_speed > slow {
             return false;
@@ -128,12 +128,7 @@ impl Search {
     }
 
     /// Takes in a look.
-    pub(super) fn looked<B: Equivariant + ?Sized>(
-        &mut self,
-        body: &B,
-        look: Look,
-        watch: &dyn Watch,
-    ) -> Result<Ask> {
+    pub(super) fn looked(&mut self, body: &dyn Equivariant, look: Look, watch: &dyn Watch) -> Result<Ask> {
         if let Some(outcome) = ended(&look.outcome) {
             return Ok(self.ended(&outcome, look.start));
         }
@@ -171,7 +166,7 @@ impl Search {
     }
 
     /// Is the orbit about to reach a stable relative equilibrium?
-    fn rests<B: Equivariant + ?Sized>(&mut self, body: &B, look: Look, watch: &dyn Watch) -> Result<Ask> {
+    fn rests(&mut self, body: &dyn Equivariant, look: Look, watch: &dyn Watch) -> Result<Ask> {
         self.fastest = self.fastest.max(look.fastest);
         self.largest = self.largest.max(look.sizes.1);
         // An orbit that began where it ends up was never fast: what is left of its changes is round-off.
@@ -218,9 +213,9 @@ impl Search {
 
     /// The orbit is at an unstable equilibrium: does it stay there? It is not asked whether neighbouring orbits separate: at a
     /// saddle they do, at its own rate.
-    fn stays<B: Equivariant + ?Sized>(
+    fn stays(
         &mut self,
-        body: &B,
+        body: &dyn Equivariant,
         mut look: Look,
         found: &RelativeEquilibrium,
         watch: &dyn Watch,
@@ -253,12 +248,7 @@ impl Search {
     }
 
     /// Does it rest near saddles, does its shape come back?
-    fn recurs<B: Equivariant + ?Sized>(
-        &mut self,
-        body: &B,
-        mut look: Look,
-        watch: &dyn Watch,
-    ) -> Result<Ask> {
+    fn recurs(&mut self, body: &dyn Equivariant, mut look: Look, watch: &dyn Watch) -> Result<Ask> {
         self.stay = Stay::default();
         let earlier = self.rests.len();
         self.remember(&mut look);
@@ -288,9 +278,9 @@ impl Search {
     }
 
     /// Takes in an exponent: do neighbouring orbits separate?
-    pub(super) fn measured<B: Equivariant + ?Sized>(
+    pub(super) fn measured(
         &mut self,
-        body: &B,
+        body: &dyn Equivariant,
         run: &Lyapunov,
         watch: &dyn Watch,
     ) -> Result<Ask> {
@@ -332,7 +322,7 @@ impl Search {
 
     /// Twice as long, or the end of the budget. In a large system, where model time costs most, looks do not grow while an exponent is
     /// nearly decided: it is asked for a little more time, not for as much again.
-    fn again<B: Equivariant + ?Sized>(&mut self, body: &B, watch: &dyn Watch) -> Result<Ask> {
+    fn again(&mut self, body: &dyn Equivariant, watch: &dyn Watch) -> Result<Ask> {
         self.first = false;
         // An exponent that is nearly that of chaos gets more time, once: its error shrinks, the limit stays.
         if self.time >= self.budget && !self.extended && chaos::is_near(&self.growth) {
@@ -360,10 +350,10 @@ impl Search {
         Ok(self.described(verdict, body, self.span, watch)?.into())
     }
 
-    fn described<B: Equivariant + ?Sized>(
+    fn described(
         &self,
         mut verdict: Verdict,
-        body: &B,
+        body: &dyn Equivariant,
         span: f64,
         watch: &dyn Watch,
     ) -> Result<Verdict> {

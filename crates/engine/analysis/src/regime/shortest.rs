@@ -15,8 +15,8 @@ const PARTS: usize = 8;
 const NEAR: f64 = 1e-2;
 
 /// The same orbit with its shortest period: more returns than one may have been tried first.
-pub(super) fn shortest<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn shortest(
+    body: &dyn Equivariant,
     orbit: PeriodicOrbit,
     recurrence: Recurrence,
     settings: &Settings,
@@ -34,8 +34,8 @@ pub(super) fn shortest<B: Equivariant + ?Sized>(
 }
 
 /// The same orbit, if its shape comes back after fewer returns to the section.
-fn of_fewer_returns<B: Equivariant + ?Sized>(
-    body: &B,
+fn of_fewer_returns(
+    body: &dyn Equivariant,
     orbit: PeriodicOrbit,
     recurrence: Recurrence,
     settings: &Settings,
@@ -71,8 +71,8 @@ fn of_fewer_returns<B: Equivariant + ?Sized>(
 }
 
 /// The orbit of a whole fraction of this one's time, if its shape is back after that, and the number of parts.
-fn divided<B: Equivariant + ?Sized>(
-    body: &B,
+fn divided(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     settings: &Settings,
     watch: &dyn Watch,

@@ -52,8 +52,8 @@ impl Curve {
 /// The stable periodic orbit that the returns of a look shrink onto, at least as fast as its multipliers say,
 /// and its recurrence. `None` where that is not seen: there is none, it is unstable, they stay away from it,
 /// or the look is too short to tell.
-pub(super) fn shrinking_onto<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn shrinking_onto(
+    body: &dyn Equivariant,
     look: &Look,
     settings: &Settings,
     watch: &dyn Watch,
@@ -80,8 +80,8 @@ pub(super) fn shrinking_onto<B: Equivariant + ?Sized>(
 }
 
 /// The periodic orbit in the middle of the returns, if Newton's method finds one: from the mean of those shapes that are alike.
-fn inside<B: Equivariant + ?Sized>(
-    body: &B,
+fn inside(
+    body: &dyn Equivariant,
     minima: &[&Extreme],
     settings: &Settings,
     watch: &dyn Watch,
@@ -118,8 +118,8 @@ fn inside<B: Equivariant + ?Sized>(
 }
 
 /// The minimum of the size on the orbit that is nearest to `near`.
-fn minimum_of<B: Equivariant + ?Sized>(
-    body: &B,
+fn minimum_of(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     near: &Extreme,
     settings: &Settings,

@@ -31,7 +31,7 @@ pub(super) struct SteadyTurns {
 
 impl SteadyTurns {
     /// The last turns of a look between rests at a saddle whose cycle repels: `None` where they differ, or the body does not rest.
-    pub(super) fn of<B: Equivariant + ?Sized>(body: &B, look: &Look) -> Option<Self> {
+    pub(super) fn of(body: &dyn Equivariant, look: &Look) -> Option<Self> {
         let minima = look.minima();
         let last = &minima[minima.len().checked_sub(TURNS + 1)?..];
         let mut rate = look.slowest.clone();

@@ -257,12 +257,7 @@ pub struct Verdict {
 impl Verdict {
     /// Notes the direction of a motion of this turning rate (rad per model time) and this drift (model length), as far as the
     /// symmetry of the model distinguishes directions.
-    pub(super) fn directed<B: Equivariant + ?Sized>(
-        &mut self,
-        body: &B,
-        turning: Option<f64>,
-        drift: [f64; 2],
-    ) {
+    pub(super) fn directed(&mut self, body: &dyn Equivariant, turning: Option<f64>, drift: [f64; 2]) {
         Direction { course: self.course, heading: self.heading } = Direction::of(body, turning, drift);
     }
 

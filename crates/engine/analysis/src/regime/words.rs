@@ -43,8 +43,8 @@ fn what(steady: &SteadyMotion) -> String {
 }
 
 /// A verdict with the numbers of an equilibrium.
-fn at_equilibrium<B: Equivariant + ?Sized>(
-    body: &B,
+fn at_equilibrium(
+    body: &dyn Equivariant,
     (found, steady): (&RelativeEquilibrium, &SteadyMotion),
     attractor: Attractor,
     why: String,
@@ -67,8 +67,8 @@ fn at_equilibrium<B: Equivariant + ?Sized>(
 }
 
 /// A stable relative equilibrium, reached up to `distance` (against its size).
-pub(super) fn equilibrium<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn equilibrium(
+    body: &dyn Equivariant,
     found: &RelativeEquilibrium,
     distance: f64,
     time: f64,
@@ -93,12 +93,7 @@ pub(super) fn equilibrium<B: Equivariant + ?Sized>(
 
 /// An unstable relative equilibrium that the orbit never leaves, after a stay of `stay`. It has no margin: what is decided is where this
 /// orbit is, not what the body does from a typical start.
-pub(super) fn unstable<B: Equivariant + ?Sized>(
-    body: &B,
-    found: &RelativeEquilibrium,
-    stay: f64,
-    time: f64,
-) -> Verdict {
+pub(super) fn unstable(body: &dyn Equivariant, found: &RelativeEquilibrium, stay: f64, time: f64) -> Verdict {
     let steady = SteadyMotion::of(body, found);
     let why = format!(
         "{}, but unstable, growth rate {:.4e}: this start has an exact symmetry, and its orbit stayed for a \
@@ -110,8 +105,8 @@ pub(super) fn unstable<B: Equivariant + ?Sized>(
 }
 
 /// A heteroclinic cycle.
-pub(super) fn rectangular<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn rectangular(
+    body: &dyn Equivariant,
     cycle: &Cycle,
     shape: &[f64],
     settings: &Settings,
@@ -138,8 +133,8 @@ pub(super) fn rectangular<B: Equivariant + ?Sized>(
 }
 
 /// A stable relative periodic orbit.
-pub(super) fn periodic<B: Equivariant + ?Sized>(
-    body: &B,
+pub(super) fn periodic(
+    body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     recurrence: &Recurrence,
     settings: &Settings,
@@ -207,9 +202,9 @@ pub(super) fn not_stable(orbit: &PeriodicOrbit) -> String {
 }
 
 /// Speeds and turning along a stretch of an orbit that does not repeat.
-pub(super) fn along<B: Equivariant + ?Sized>(
+pub(super) fn along(
     verdict: &mut Verdict,
-    body: &B,
+    body: &dyn Equivariant,
     shape: &[f64],
     time: f64,
     settings: &Settings,

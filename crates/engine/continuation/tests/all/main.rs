@@ -2,6 +2,7 @@
 
 mod classics;
 mod codimension_2;
+#[path = "../../../analysis/tests/all/common/mod.rs"]
 mod common;
 mod connections;
 mod curves;

@@ -6,13 +6,13 @@ use motiform_analysis::{Ends, Estimate, PathSample, legs, series_mean};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::RK4;
 use motiform_dynamics::{
-    InPlane, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, Sink, StepControl, StopOnly,
+    InPlane, Model, Noise, NoisyOrbit, Normal, Orbit, Request, Shape, Sink, StepControl, StopOnly,
 };
 use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
+use motiform_models::ModelInfo;
 use motiform_models::tensor::reduced::Reduced;
-use motiform_models::tensor::{Tensor, TensorParameters};
-use motiform_study::Error;
+use motiform_study::{Error, Study};
 
 /// Seed of the noise.
 const SEED: u64 = 2010;
@@ -65,20 +65,18 @@ fn counted(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<No
 /// A path under noise.
 fn path(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<Vec<PathSample>, Error> {
     let Reduced { a1, b1, b3 } = Reduced::PAPER;
-    let parameters = TensorParameters {
-        kappa2: KAPPA2,
-        gamma: GAMMA,
-        kappa3: 1.0,
-        a1,
-        b1,
-        b3,
-        ..TensorParameters::default()
-    };
-    let model = Tensor::new(&parameters);
-    let body = InPlane(model.clone());
+    let mut study = Study::of_model(ModelInfo::find("tensor")?);
+    for (name, value) in
+        [("kappa2", KAPPA2), ("gamma", GAMMA), ("kappa3", 1.0), ("a1", a1), ("b1", b1), ("b3", b3)]
+    {
+        study.set(name, value)?;
+    }
+    let model = study.info()?.build(&study.values()?)?;
+    let model = model.as_ref();
+    let body = InPlane(model);
     let start = [0.01, 0.0, 0.005, 0.0015, 0.0, 0.0, 0.0, 0.0];
     let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step: STEP }, 0.0, &start)?;
-    let noise = Noise::on(&model, eta, eta, STEP);
+    let noise = Noise::on(model, eta, eta, STEP);
     let mut noisy = NoisyOrbit::new(orbit, noise, Normal::new(SEED, stream))?;
     let watch = &StopOnly(context.watch);
     let request = Request { sample_every: Some(STEP), watched: 6, watch, ..Request::until(time, 8) };
@@ -88,15 +86,15 @@ fn path(context: &Context<'_>, eta: f64, stream: u64, time: f64) -> Result<Vec<P
 }
 
 /// Keeps the path after the transient.
-struct Recorder {
-    model: Tensor,
+struct Recorder<'m> {
+    model: &'m dyn Model,
     path: Vec<PathSample>,
 }
 
-impl Sink for Recorder {
+impl Sink for Recorder<'_> {
     fn sample(&mut self, t: f64, u: &[f64]) {
         if t >= TRANSIENT {
-            let [vx, vy] = Shape::<f64>::velocity(&self.model, &u[..6]);
+            let [vx, vy] = Shape::<f64>::velocity(self.model, &u[..6]);
             self.path.push(PathSample { t, x: u[6], y: u[7], vx, vy });
         }
     }

@@ -4,8 +4,7 @@
 use super::super::context::Context;
 use super::lengths::study;
 use motiform_analysis::{RelativeEquilibrium, SteadyMotion};
-use motiform_dynamics::Model as _;
-use motiform_models::cell::{Cell, CellParameters};
+use motiform_dynamics::Model;
 use motiform_study::Error;
 
 /// First step in length, and the accuracy of an edge.
@@ -33,7 +32,7 @@ impl Branch {
         let cell = cell(length, modes)?;
         let mut guess = vec![0.0; last.len()];
         cell.encode(&last, &mut guess);
-        let shape = RelativeEquilibrium::find(&cell, &guess).ok_or_else(|| Error::Setting {
+        let shape = RelativeEquilibrium::find(cell.as_ref(), &guess).ok_or_else(|| Error::Setting {
             key: "length",
             value: length.to_string(),
             remedy: "no steady shape was reached there: settle for longer",
@@ -50,18 +49,18 @@ impl Branch {
     pub(super) fn refined(&self, modes: usize) -> Result<Option<Self>, Error> {
         let mut guess = self.shape.shape.clone();
         guess.resize(2 * modes, 0.0);
-        let found = RelativeEquilibrium::find(&cell(self.length, modes)?, &guess);
+        let found = RelativeEquilibrium::find(cell(self.length, modes)?.as_ref(), &guess);
         Ok(found.map(|shape| Self { modes, length: self.length, shape }))
     }
 
     /// The shape at a length near this one.
     pub(crate) fn at(&self, length: f64) -> Result<Option<Self>, Error> {
-        let found = RelativeEquilibrium::find(&cell(length, self.modes)?, &self.shape.shape);
+        let found = RelativeEquilibrium::find(cell(length, self.modes)?.as_ref(), &self.shape.shape);
         Ok(found.map(|shape| Self { modes: self.modes, length, shape }))
     }
 
     /// The model at its length.
-    pub(crate) fn cell(&self) -> Result<Cell, Error> {
+    pub(crate) fn cell(&self) -> Result<Box<dyn Model>, Error> {
         cell(self.length, self.modes)
     }
 
@@ -70,7 +69,7 @@ impl Branch {
     pub(crate) fn edge(
         &self,
         end: f64,
-        keeps: impl Fn(&Cell, &RelativeEquilibrium) -> bool,
+        keeps: impl Fn(&dyn Model, &RelativeEquilibrium) -> bool,
     ) -> Result<Option<f64>, Error> {
         let mut here = Self { modes: self.modes, length: self.length, shape: self.shape.clone() };
         let mut step = STEP.0.copysign(end - self.length);
@@ -80,7 +79,7 @@ impl Branch {
                 return Ok(None);
             }
             match here.at(next)? {
-                Some(branch) if keeps(&branch.cell()?, &branch.shape) => here = branch,
+                Some(branch) if keeps(branch.cell()?.as_ref(), &branch.shape) => here = branch,
                 _ => step *= 0.5,
             }
         }
@@ -89,21 +88,22 @@ impl Branch {
 
     /// Follows the branch while it is stable and of the same kind (number of folds, at rest or not).
     pub(crate) fn stable_until(&self, end: f64) -> Result<Option<f64>, Error> {
-        let kind = |cell: &Cell, found: &RelativeEquilibrium| {
+        let kind = |cell: &dyn Model, found: &RelativeEquilibrium| {
             let steady = SteadyMotion::of(cell, found);
             (steady.symmetry.folds, steady.moves())
         };
-        let own = kind(&self.cell()?, &self.shape);
+        let own = kind(self.cell()?.as_ref(), &self.shape);
         self.edge(end, |cell, found| found.is_stable() && kind(cell, found) == own)
     }
 
     /// The order of the rotations that leave its shape unchanged.
     pub(crate) fn folds(&self) -> Result<usize, Error> {
-        Ok(SteadyMotion::of(&self.cell()?, &self.shape).symmetry.folds)
+        Ok(SteadyMotion::of(self.cell()?.as_ref(), &self.shape).symmetry.folds)
     }
 }
 
 /// The cell of a length.
-fn cell(length: f64, modes: usize) -> Result<Cell, Error> {
-    Ok(Cell::new(&CellParameters { length, modes: modes as f64, ..CellParameters::default() })?)
+fn cell(length: f64, modes: usize) -> Result<Box<dyn Model>, Error> {
+    let study = study(length, modes)?;
+    Ok(study.info()?.build(&study.values()?)?)
 }

@@ -12,9 +12,9 @@ use motiform_dynamics::{Equivariant, Watch};
 impl Search {
     /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a
     /// torus, seen twice, that keeps its size.
-    pub(super) fn on_a_curve<B: Equivariant + ?Sized>(
+    pub(super) fn on_a_curve(
         &mut self,
-        body: &B,
+        body: &dyn Equivariant,
         look: &Look,
         (run, witness): (&Lyapunov, &chaos::Witness),
         watch: &dyn Watch,
@@ -38,10 +38,10 @@ impl Search {
     }
 
     /// The verdict on a torus that was seen twice and keeps its size; otherwise what is missing.
-    fn lasts<B: Equivariant + ?Sized>(
+    fn lasts(
         &mut self,
         torus: Verdict,
-        body: &B,
+        body: &dyn Equivariant,
         (look, again): (&Look, bool),
         watch: &dyn Watch,
     ) -> std::result::Result<Verdict, String> {

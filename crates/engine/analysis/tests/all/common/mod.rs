@@ -50,7 +50,7 @@ pub(crate) fn settings(model: &str) -> Settings {
 }
 
 /// Names the motion from `start`.
-pub(crate) fn named<B: Equivariant + ?Sized>(body: &B, start: &[f64], settings: &Settings) -> Verdict {
+pub(crate) fn named(body: &dyn Equivariant, start: &[f64], settings: &Settings) -> Verdict {
     classify(body, start, settings, &()).unwrap().unwrap()
 }
 
