@@ -35,6 +35,7 @@ pub(crate) fn observed(tracks: &[Track], scales: &Scales, mirrored: bool) -> Opt
     let [first, later] = pair(track, track.0.len() / 2)?;
     let mut state = coordinates([&first.y, &later.y], later.t - first.t, scales);
     OwnAxes::of(&state, mirrored).into_own(&mut state);
+    state[1] = 0.0; // without the round-off of the rotation
     Some(state)
 }
 
