@@ -12,7 +12,7 @@ pub use whiteness::{Channel, whiteness};
 use crate::field::{Field, Values};
 use crate::filter::Frame;
 use crate::identifiability::unbounded;
-use crate::{Fit, Result, StageVelocity, Track, observation, stage_velocities};
+use crate::{Fit, PValue, Result, StageVelocity, Track, observation, stage_velocities};
 use motiform_dynamics::Complex;
 use motiform_dynamics::order::ascending;
 use nalgebra::DMatrix;
@@ -117,15 +117,17 @@ impl std::fmt::Display for Warning {
             Self::Stretched { share, degrees, p_value } => write!(
                 f,
                 "outlines are elongated at {:.0} degrees from the x axis whatever the heading, by {:.0} % \
-                of their root mean square elongation (p = {p_value:.1e}): pixels are not square, or a \
+                of their root mean square elongation ({}): pixels are not square, or a \
                 direction of the surroundings acts on the shape",
                 degrees.round() + 0.0, // no minus before 0
-                100.0 * share
+                100.0 * share,
+                PValue(*p_value)
             ),
             Self::Carried { velocity: [x, y], errors: [dx, dy], p_value } => write!(
                 f,
-                "a velocity of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) does not turn with the cell (p = \
-                {p_value:.1e}): the stage drifts, or a flow carries it; `--correct drift` subtracts it"
+                "a velocity of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) does not turn with the cell ({}): \
+                the stage drifts, or a flow carries it; the correction 'drift' subtracts it",
+                PValue(*p_value)
             ),
             Self::ErrorsDiffer { ratio } => {
                 write!(

@@ -159,7 +159,7 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
         found => found?,
     };
     if fitted.is_handed() && cell.drifts {
-        fitted.doubt("it is handed, or carried by the drift that all cells of the field of view have; --correct drift subtracts it");
+        fitted.doubt("it is handed, or carried by the drift that all cells of the field of view have; the correction 'drift' subtracts it");
     }
     let companions = Companions { count: options.simulations, seed: options.seed };
     let prediction =

@@ -18,7 +18,7 @@ pub(crate) struct FolderOptions {
 }
 
 impl FolderOptions {
-    /// What becomes of an earlier result.
+    /// The opening of the folder: resumed, replaced, or refused where a result is there.
     pub(crate) fn opening(&self) -> Opening {
         Opening::of(self.resume, self.force)
     }

@@ -10,7 +10,7 @@ use motiform_cells::{
     Agreement, CellFit, CellTrack, Correction, FitOptions, FitWork, Fitted, Observation, Prediction, Sample,
     Units, fit_cells, fit_together, fits_json, fitted_population, observe,
 };
-use motiform_inference::{Estimate, Place, Placement, Symmetry};
+use motiform_inference::{Estimate, PValue, Place, Placement, Symmetry};
 use motiform_statistics::{four_digits, with_error};
 use motiform_store::Opening;
 use serde::{Serialize, Serializer};
@@ -161,17 +161,11 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
         Symmetry::Mirror => "mirror symmetric",
         Symmetry::Undecided => "not decidable whether it is handed",
     };
-    let p_value = handedness.p_value;
-    let p = match p_value {
-        0.0 => "below 1e-300".to_owned(),
-        p if p < 0.01 => format!("{p:.1e}"),
-        p => format!("{p:.2}"),
-    };
-    let equals = if p_value == 0.0 { "" } else { "= " };
+    let p = PValue(handedness.p_value);
     let excluded = 100.0 * handedness.excluded;
     writeln!(
         text,
-        "symmetry       {symmetry}, p {equals}{p}; imaginary parts above {excluded:.0} % of the largest coefficient of \
+        "symmetry       {symmetry}, {p}; imaginary parts above {excluded:.0} % of the largest coefficient of \
          their equation are excluded"
     )?;
     let model = fitted.model();
@@ -297,7 +291,7 @@ fn simulated(prediction: &Prediction) -> String {
     let agree = prediction.count(Agreement::Agrees);
     let others = prediction.comparisons.iter().filter(|one| one.envelope.agreement != Agreement::Agrees);
     let others: Vec<String> = others
-        .map(|one| format!("{} (p = {:.3})", one.statistic.kind.name(), one.envelope.p_value))
+        .map(|one| format!("{} ({})", one.statistic.kind.name(), PValue(one.envelope.p_value)))
         .collect();
     let but = if others.is_empty() { String::new() } else { format!("; not {}", others.join(", ")) };
     format!("{agree} of {} statistics agree with {cells} simulated cells{but}", prediction.comparisons.len())

@@ -5,6 +5,9 @@ use super::mixture::{Mixture, Scatter, over_sets};
 use crate::Fit;
 use serde::{Deserialize, Serialize};
 
+/// Part of the distribution beyond one end of an interval of 95 %.
+const TAIL: f64 = 0.025;
+
 /// A coefficient over the tied sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Averaged {
@@ -12,7 +15,8 @@ pub struct Averaged {
     pub name: String,
     /// The mean of the mixture, in the units of the data.
     pub value: f64,
-    /// 2.5 % and 97.5 % quantiles of the mixture of the normal distributions of all sets, each with the term.
+    /// 2.5 % and 97.5 % quantiles of the mixture of the normal distributions of all sets, each with the term; reaching to 0 where sets
+    /// without the term have more than 2.5 % of the weight.
     pub interval: [f64; 2],
     /// Weight of the sets that have it, 0 to 1; 0: no set asks for it, and the interval says how large it may be.
     pub weight: f64,
@@ -25,7 +29,13 @@ pub struct Averaged {
 /// A set that is dropped by a hair still counts: errors of the best set alone leave its choice out, and are
 /// too small. That a set does without the term is no evidence that it is 0: a term of two standard errors is
 /// dropped, and may be what it is estimated to be. So its interval is what the data say of it beside the
-/// others of the set. The error of a set is the larger one of the expected and the robust one: errors with
+/// others of the set.
+///
+/// Where the sets without a term have more than a tail of the weight, 0 is among what the data allow, and the interval reaches to it. A
+/// term is listed because its estimate is large beside its error: of terms that are 0, intervals which leave that selection out hold the
+/// truth in 81 % of cases only, since each of them is listed from 1.2 errors on, and 0 is outside from 1.96 errors on.
+///
+/// The error of a set is the larger one of the expected and the robust one: errors with
 /// heavy tails raise the robust one, and in short records either may be too small by chance.
 ///
 /// Source: Schwarz's criterion as a weight: Raftery (1995), Sociol. Methodol. 25, 111; Hoeting et al. (1999),
@@ -45,14 +55,17 @@ pub fn averaged(whole: &Fit, subsets: &Subsets) -> Vec<Averaged> {
     let one = |(i, parts): (usize, Vec<(f64, [f64; 2])>)| {
         let coefficient = &whole.coefficients[i];
         let unit = whole.scales.coefficient(&coefficient.term);
-        let mixture = Mixture::new(parts.into_iter().map(|(weight, [m, s])| [weight, m, s]).collect());
-        let ends = mixture.interval().map(|end| unit * end);
         let with = subsets.ties.iter().filter(|set| set.kept.contains(&i));
+        let weight = with.fold(0.0, |sum, set| sum + libm::exp(-0.5 * set.excess) / total);
+        let mixture = Mixture::new(parts.into_iter().map(|(weight, [m, s])| [weight, m, s]).collect());
+        let [low, high] = mixture.interval();
+        let [low, high] = if 1.0 - weight > TAIL { [low.min(0.0), high.max(0.0)] } else { [low, high] };
+        let ends = [unit * low, unit * high];
         Averaged {
             name: format!("{}{}", if coefficient.imaginary { "i " } else { "" }, coefficient.name),
             value: unit * mixture.mean(),
             interval: [ends[0].min(ends[1]), ends[0].max(ends[1])],
-            weight: with.fold(0.0, |sum, set| sum + libm::exp(-0.5 * set.excess) / total),
+            weight,
         }
     };
     parts.into_iter().enumerate().map(one).collect()

@@ -1,24 +1,24 @@
 //! The search for a verdict: the questions of [`super::classify()`] in their order, independent of how the orbits are computed.
 
+mod exponent;
 mod on_curve;
 
 use super::ask::Ask;
-use super::growth::{Growth, in_motion};
+use super::growth::Growth;
 use super::heteroclinic::cycle;
-use super::look::{Look, RESTS, Rest, Seen};
+use super::look::{Look, Rest, Seen};
 use super::recurrence::{Returns, periodic};
 use super::repeats::Repeats;
-use super::settings::{EXACT, NEARLY, Settings, ended};
+use super::settings::{NEARLY, Settings, ended};
 use super::shrinking::Curve;
 use super::stay::Stay;
 use super::steady_turns::SteadyTurns;
 use super::verdict::{Attractor, Regime, Verdict};
 use super::{chaos, words};
+use crate::Result;
 use crate::equilibrium::{REACHED, RelativeEquilibrium};
-use crate::isotropy::Isotropy;
 use crate::linear::norm;
 use crate::periodic::is_small;
-use crate::{Lyapunov, Result};
 use motiform_dynamics::{Equivariant, Outcome, Watch};
 
 /// An equilibrium is sought during a look where the reduced shape changes slower than this, against its fastest.
@@ -275,49 +275,6 @@ impl Search {
         }
         self.pending = Pending::Exponent(Box::new(look));
         Ok(Ask::Exponent(self.span))
-    }
-
-    /// Takes in an exponent: do neighbouring orbits separate?
-    pub(super) fn measured(
-        &mut self,
-        body: &dyn Equivariant,
-        run: &Lyapunov,
-        watch: &dyn Watch,
-    ) -> Result<Ask> {
-        if let Some(outcome) = ended(&run.outcome) {
-            return Ok(self.ended(&outcome, 0.0));
-        }
-        let Pending::Exponent(look) = std::mem::replace(&mut self.pending, Pending::Look) else {
-            return self.again(body, watch); // nothing was asked
-        };
-        self.time += run.time + run.transient;
-        self.shape.clone_from(&run.shape);
-        let run = match in_motion(run, RESTS, look.fastest) {
-            Ok(run) => run,
-            Err(none) => {
-                self.repeats.measured(none.cancels);
-                self.missing = none.why;
-                return self.again(body, watch);
-            }
-        };
-        self.repeats.measured(false);
-        let witness = chaos::Witness::of(&look);
-        self.growth.extend(Growth::of(&run, self.time));
-        let chaos = chaos::chaotic(&self.growth, &run, &witness, self.time)?;
-        // Out of a subspace of exact symmetry neighbouring orbits may separate at a rate that no chaos has made.
-        let symmetric = chaos.is_some() && !Isotropy::of(body, &self.shape, EXACT).is_trivial();
-        if let Some(verdict) = chaos.filter(|_| !symmetric) {
-            return Ok(self.described(verdict, body, look.end - look.start, watch)?.into());
-        }
-        self.missing = if symmetric {
-            "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
-        } else {
-            chaos::missing(&self.growth, &witness)
-        };
-        if let Some(verdict) = self.on_a_curve(body, &look, (&run, &witness), watch)? {
-            return Ok(verdict.into());
-        }
-        self.again(body, watch)
     }
 
     /// Twice as long, or the end of the budget. In a large system, where model time costs most, looks do not grow while an exponent is

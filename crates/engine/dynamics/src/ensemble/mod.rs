@@ -9,17 +9,17 @@
 
 mod adaptive;
 mod dense;
+mod extent;
 mod lane;
 mod noisy;
+mod noisy_track;
 mod propagate;
 mod tangent;
 
 pub use adaptive::run_adaptive;
 pub use dense::LaneDense;
+pub use extent::{Extent, ShapeAlone, WithPosition};
 pub use lane::{AfterStep, Entry, LaneTask, Leaving, Pace, Stepped, Then, Why};
-pub use noisy::{
-    Extent, NoisyMember, NoisyQueue, NoisySpan, NoisyTrack, ShapeAlone, WithPosition, propagate_noisy,
-    propagate_noisy_on,
-};
+pub use noisy::{NoisyMember, NoisyQueue, NoisySpan, NoisyTrack, propagate_noisy, propagate_noisy_on};
 pub use propagate::{InLanes, Member, Propagation, Queue, propagate, propagate_on};
 pub use tangent::LaneTangent;

@@ -1,72 +1,15 @@
 //! Members under noise, from their starts to one end, in lanes.
 
+use super::extent::Extent;
 use super::lane::{AfterStep, Stepped};
+use super::noisy_track::Track;
 use super::propagate::InLanes;
 use super::{Entry, LaneTask, Leaving, Then, Why, run_adaptive};
-use crate::escape::norm;
 use crate::noise_steps::NoiseSteps;
 use crate::scalar::MOST_LANES;
 use crate::simd::{InstructionSet, LaneKernel, run_lanes_on, run_wide};
 use crate::steppers::unrolled::{Dop853, LaneStep, StepSlopes};
-use crate::{Bundle, InPlane, Mask, VectorField, Watch};
-
-/// The extent of a member's state: the shape alone, or the shape and the position.
-pub trait Extent {
-    /// Numbers of the position behind the shape.
-    const POSITION: usize;
-
-    /// `true` if rows are recorded. (A kernel without rows takes half as long to compile.)
-    const ROWS: bool;
-
-    /// The field of such states.
-    type Field<F: InLanes, B: Bundle>: VectorField<B>;
-
-    /// The field of states whose shape has this one.
-    fn field<F: InLanes, B: Bundle>(shape: F::Field<B>) -> Self::Field<F, B>;
-
-    /// The field of the shape.
-    fn shape<F: InLanes, B: Bundle>(field: &mut Self::Field<F, B>) -> &mut F::Field<B>;
-}
-
-/// The shape alone: for a stretch whose path is not needed.
-#[derive(Clone, Copy, Debug)]
-pub struct ShapeAlone;
-
-impl Extent for ShapeAlone {
-    const POSITION: usize = 0;
-    const ROWS: bool = false;
-    type Field<F: InLanes, B: Bundle> = F::Field<B>;
-
-    #[inline(always)]
-    fn field<F: InLanes, B: Bundle>(shape: F::Field<B>) -> Self::Field<F, B> {
-        shape
-    }
-
-    #[inline(always)]
-    fn shape<F: InLanes, B: Bundle>(field: &mut Self::Field<F, B>) -> &mut F::Field<B> {
-        field
-    }
-}
-
-/// The shape, then the position.
-#[derive(Clone, Copy, Debug)]
-pub struct WithPosition;
-
-impl Extent for WithPosition {
-    const POSITION: usize = 2;
-    const ROWS: bool = true;
-    type Field<F: InLanes, B: Bundle> = InPlane<F::Field<B>>;
-
-    #[inline(always)]
-    fn field<F: InLanes, B: Bundle>(shape: F::Field<B>) -> Self::Field<F, B> {
-        InPlane(shape)
-    }
-
-    #[inline(always)]
-    fn shape<F: InLanes, B: Bundle>(field: &mut Self::Field<F, B>) -> &mut F::Field<B> {
-        &mut field.0
-    }
-}
+use crate::{Bundle, Mask, Watch};
 
 /// One member under noise.
 pub struct NoisyMember<F, const D: usize> {
@@ -160,53 +103,6 @@ impl<F: InLanes, E: Extent, const D: usize> LaneKernel for NoisyKernel<'_, '_, F
             steps: 0,
         };
         run_adaptive::<Dop853, B, D, _>(&mut lanes, (span.rtol, span.atol));
-    }
-}
-
-/// A member in its lane.
-struct Track<const D: usize> {
-    key: usize,
-    noise: NoiseSteps,
-    rows: Vec<[f64; D]>,
-    /// Number of the next row.
-    next: u64,
-    /// The state of the path at the end of the last step.
-    path: [f64; D],
-}
-
-impl<const D: usize> Track<D> {
-    fn new(member: NoisyMember<impl Sized, D>, span: &NoisySpan) -> Self {
-        let NoisyMember { key, start, noise, .. } = member;
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of rows")]
-        let count = span.every.map_or(0, |every| ((span.times.1 - span.times.0) / every) as usize + 2);
-        let mut rows = Vec::with_capacity(count);
-        if span.every.is_some() {
-            rows.push(start);
-        }
-        Self { key, noise, rows, next: 1, path: start }
-    }
-
-    /// The time of the next row, if it is in a step that ends at `end`; that time itself where they meet up to rounding.
-    fn next_row(&self, span: &NoisySpan, end: f64) -> Option<f64> {
-        let every = span.every?;
-        let t = span.times.0 + every * self.next as f64;
-        let t = if (t - end).abs() <= 1e-9 * every { end } else { t };
-        (t <= end).then_some(t)
-    }
-
-    fn record(&mut self, state: [f64; D]) {
-        self.rows.push(state);
-        self.next += 1;
-    }
-
-    /// The path follows the flow to the end of a step; `false` if the first `watched` entries have escaped.
-    fn land(&mut self, span: &NoisySpan, end: f64, flow: [f64; D], watched: usize) -> bool {
-        self.path = flow;
-        self.noise.add(end, &mut self.path);
-        if self.next_row(span, end).is_some() {
-            self.record(self.path);
-        }
-        norm(&self.path[..watched]) <= span.escape_norm
     }
 }
 

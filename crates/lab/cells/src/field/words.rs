@@ -2,6 +2,7 @@
 
 use super::{Correction, FieldOfView};
 use crate::Units;
+use motiform_inference::PValue;
 use motiform_statistics::{four_digits, with_error};
 use motiform_study::Dimension;
 
@@ -19,12 +20,12 @@ impl FieldOfView {
                 (false, _) => "none is seen",
                 (true, true) => "subtracted",
                 (true, false) => {
-                    "the cells drift together (stage, flow, or a common direction); --correct drift subtracts it"
+                    "the cells drift together (stage, flow, or a common direction); the correction 'drift' subtracts it"
                 }
             };
             rows.push((
                 "drift",
-                format!("({x}, {y}) {}, p = {:.1e}: {verdict}", units.unit(Dimension::SPEED), drift.p_value),
+                format!("({x}, {y}) {}, {}: {verdict}", units.unit(Dimension::SPEED), PValue(drift.p_value)),
             ));
         }
         if !self.jumps.is_empty() {
@@ -37,11 +38,11 @@ impl FieldOfView {
                     format!("{:.0} % of its variance subtracted", 100.0 * jitter.recovered.min(1.0))
                 }
                 (true, false) => {
-                    "outlines of a frame move together; --correct jitter subtracts it".to_owned()
+                    "outlines of a frame move together; the correction 'jitter' subtracts it".to_owned()
                 }
             };
             let size = four_digits(jitter.deviation);
-            rows.push(("jitter", format!("{size} {}, p = {:.3}: {verdict}", units.length, jitter.p_value)));
+            rows.push(("jitter", format!("{size} {}, {}: {verdict}", units.length, PValue(jitter.p_value))));
         }
         if let Some(pixel) = self.pixel {
             let words = format!("outlines follow pixels of {} {}", four_digits(pixel), units.length);
@@ -61,7 +62,7 @@ impl FieldOfView {
         }
         let verdict = match self.is_corrected(Correction::Jumps) {
             true => "subtracted; fits use the pieces between them",
-            false => "names and fits use the pieces between them; --correct jumps subtracts them",
+            false => "names and fits use the pieces between them; the correction 'jumps' subtracts them",
         };
         format!("{words}: {verdict}")
     }

@@ -1,7 +1,7 @@
 //! Doubts that leave a fit without motion, place and symmetry.
 
 use crate::regime::FittedRegime;
-use motiform_inference::{COLOURED, HANDED_RATE, Handedness, Stretch, Symmetry, Track, Warning};
+use motiform_inference::{COLOURED, HANDED_RATE, Handedness, PValue, Stretch, Symmetry, Track, Warning};
 
 /// Serious warnings, and what speaks against the test of handedness; `beside`: its p-values beside a velocity of the stage, and in
 /// stretched images.
@@ -14,35 +14,42 @@ pub(super) fn doubts(
     let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
     let handed = handedness.symmetry == Symmetry::Handed;
     if handedness.p_value < HANDED_RATE && !handed {
+        let robust = PValue(handedness.robust_p_value);
+        let but = match handedness.robust_p_value < HANDED_RATE {
+            true => "but the fit with imaginary parts, or the one without, did not converge".to_owned(),
+            false => format!("but its imaginary parts are within their robust errors ({robust})"),
+        };
         doubts.push(format!(
-            "whether the cell is handed is not decided: its likelihood says so (p = {:.1e}), but its imaginary parts \
-             are within their robust errors (p = {:.1e}), or the fit did not converge",
-            handedness.p_value, handedness.robust_p_value
+            "whether the cell is handed is not decided: its likelihood says so ({}), {but}",
+            PValue(handedness.p_value)
         ));
     } else if handedness.is_doubted() && !handed {
         doubts.push(format!(
-            "whether the cell is handed is not decided: a mirror-symmetric one has such a likelihood ratio with p = {:.1e}",
-            handedness.p_value
+            "whether the cell is handed is not decided: a mirror-symmetric one has such a likelihood ratio with {}",
+            PValue(handedness.p_value)
         ));
     }
     if let Some(p) = beside_stage.filter(|p| *p >= HANDED_RATE) {
         doubts.push(format!(
             "it is handed, or the stage drifts: beside a velocity that does not turn with the cell, a \
-         mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"
+         mirror-symmetric one has such a likelihood ratio with {}",
+            PValue(p)
         ));
     }
     if let Some(p) = beside_stretch.filter(|p| *p >= HANDED_RATE) {
         doubts.push(format!(
             "it is handed, or the images are stretched: beside a strain of the path and an elongation \
-         that do not turn with the cell, a mirror-symmetric one has such a likelihood ratio with p = {p:.1e}"
+         that do not turn with the cell, a mirror-symmetric one has such a likelihood ratio with {}",
+            PValue(p)
         ));
     }
     let suspected = |found: &Stretch| found.is_suspected(tracks.len()) && !found.is_clear(tracks.len());
     if let Some(found) = tracks.iter().filter_map(Stretch::of).find(suspected).filter(|_| handed) {
         doubts.push(format!(
             "it is handed, or the images are stretched: beside what turns with the cell, outlines have a constant \
-             elongation of {:.1} % of the mean size of z2 (p = {:.1e} without a stretch)",
-            100.0 * found.share, found.p_value
+             elongation of {:.1} % of the mean size of z2 ({} without a stretch)",
+            100.0 * found.share,
+            PValue(found.p_value)
         ));
     }
     doubts

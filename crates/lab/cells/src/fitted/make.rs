@@ -8,7 +8,7 @@ use crate::{Checks, FitOptions, Result};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
 use motiform_inference::{
-    Beside, Fit, Ladder, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, Warning,
+    Beside, Fit, Ladder, PValue, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, Warning,
     averaged, drift, fit, handed_beside, handedness, identifiability, ladder, place_among, select,
     walk_p_value, warnings,
 };
@@ -111,7 +111,8 @@ fn walk_not_excluded(
     let p = walk_p_value(tracks, whole, selection, watch)?;
     let doubt = || {
         format!(
-            "a persistent random walk, whose velocity decays and is renewed by noise, is not excluded (p = {p:.1e})"
+            "a persistent random walk, whose velocity decays and is renewed by noise, is not excluded ({})",
+            PValue(p)
         )
     };
     Ok((p >= WALK_RATE).then(doubt))

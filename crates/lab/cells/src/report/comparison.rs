@@ -7,6 +7,7 @@ use crate::report::{Case, Setting};
 use crate::{Agreement, Axis, Comparison, Kind, Prediction};
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart, TrackPanels};
+use motiform_inference::PValue;
 use motiform_lab::draw::{Picture, files};
 use motiform_study::{Dimension, Error};
 
@@ -122,7 +123,7 @@ fn curve(one: &Comparison, setting: &Setting<'_>) -> Result<ReportFigure, Error>
         BandCurve { label: "observed".to_owned(), points: own.collect() },
     ]);
     let caption =
-        format!("{}: {}, p = {:.3}.", statistic.kind.name(), envelope.agreement.name(), envelope.p_value);
+        format!("{}: {}, {}.", statistic.kind.name(), envelope.agreement.name(), PValue(envelope.p_value));
     setting.figure(figure, caption)
 }
 

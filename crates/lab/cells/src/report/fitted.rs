@@ -7,7 +7,7 @@ use crate::report::terms::{typeset, unit};
 use crate::{CellFit, Fitted};
 use motiform_figures::literal;
 use motiform_figures::report::{Cell, Section, Table};
-use motiform_inference::{Coefficient, EquationKnowledge, Rung, paper};
+use motiform_inference::{Coefficient, EquationKnowledge, PValue, Rung, paper};
 use motiform_study::Dimension;
 
 pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
@@ -37,9 +37,9 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
 fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
     let model = fitted.model();
     let noise = &model.noise;
-    let (symmetry, p) = (fitted.symmetry().name(), plain(fitted.handedness.p_value));
+    let (symmetry, p) = (fitted.symmetry().name(), PValue(fitted.handedness.p_value));
     vec![
-        ("symmetry".to_owned(), format!("{symmetry}, p = {p}")),
+        ("symmetry".to_owned(), format!("{symmetry}, {p}")),
         (
             "imaginary parts excluded".to_owned(),
             format!(
