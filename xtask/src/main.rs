@@ -82,8 +82,12 @@ fn run() -> Result<()> {
         Some("quick") => cargo("tests", TESTS),
         Some("checks") => with_parts(all(CHECKS)),
         // Steps of `test`, begun by it.
-        Some("beside-tests") => with_parts(all(CHECKS).and_then(|()| explorer::build())),
-        Some("beside-chromium") => with_parts(python::test().and_then(|()| explorer::test_part_in_firefox())),
+        Some("beside-tests") => {
+            with_parts(all(CHECKS).and_then(|()| explorer::build()).and_then(|()| python::build()))
+        }
+        Some("beside-chromium") => {
+            with_parts(python::test_built().and_then(|()| explorer::test_part_in_firefox()))
+        }
         Some("explorer") => explorer::test(),
         Some("firefox") => explorer::test_in_firefox(),
         Some("python") => with_parts(python::test()),
@@ -123,8 +127,8 @@ fn everything() -> Result<()> {
     book::build() // in the environment of the Python tests
 }
 
-/// The tests leave a quarter of two processors idle, because each binary ends with its longest test: lints and documentation are checked
-/// and the page is built meanwhile, as soon as cargo is done with building, which only one cargo can do at a time.
+/// The tests leave a quarter of two processors idle, because each binary ends with its longest test: lints and documentation are checked,
+/// and the page and the Python package are built meanwhile, as soon as cargo is done with building, which only one cargo can do at a time.
 fn tests_beside_checks() -> Result<()> {
     let mut checks = None;
     let tests = parts::timed("tests", || -> Result<_> {

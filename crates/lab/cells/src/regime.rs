@@ -134,11 +134,7 @@ pub fn regime_of(
     }
     counts.sort_by_key(|entry| std::cmp::Reverse(entry.1));
     let draws = counts.iter().map(|entry| entry.1).sum::<usize>();
-    let (first, share, lost) = most_frequent(&counts);
-    let named = share >= LEAST_SHARE
-        && lost <= MOST_LOST * draws as f64
-        && first == Some(best)
-        && best != Regime::Undetermined;
+    let (share, named) = agreement(&counts, best);
     // the speed of a cell that rests is within its errors, and its equations are not identifiable
     let moves = selection.fit.scales.signal.first().is_some_and(|signal| *signal >= 1.0);
     let carried = named && best == Regime::Motionless && moves;
@@ -157,15 +153,16 @@ pub fn regime_of(
     })
 }
 
-/// The most frequent motion of these in descending order, blow-up left out, its share among the models that do not blow up, and the number
-/// of those that do.
-fn most_frequent(counts: &[(Regime, usize)]) -> (Option<Regime>, f64, f64) {
-    let lost = |entry: &&(Regime, usize)| entry.0 == Regime::BlowUp;
-    let all = counts.iter().map(|entry| entry.1).sum::<usize>() as f64;
-    let blown = counts.iter().find(lost).map_or(0.0, |entry| entry.1 as f64);
-    let first = counts.iter().find(|entry| !lost(entry));
-    let share = first.map_or(0.0, |entry| entry.1 as f64 / (all - blown));
-    (first.map(|entry| entry.0), share, blown)
+/// The share of the most frequent of these motions, in descending order, among the models that do not blow up; `true` if they agree on the
+/// motion of the best model, and at most [`MOST_LOST`] of all blow up.
+fn agreement(counts: &[(Regime, usize)], best: Regime) -> (f64, bool) {
+    let blown = |entry: &&(Regime, usize)| entry.0 == Regime::BlowUp;
+    let all: usize = counts.iter().map(|entry| entry.1).sum();
+    let lost: usize = counts.iter().filter(blown).map(|entry| entry.1).sum();
+    let Some((first, most)) = counts.iter().find(|entry| !blown(entry)) else { return (0.0, false) };
+    let share = *most as f64 / (all - lost) as f64;
+    let agree = share >= LEAST_SHARE && lost as f64 <= MOST_LOST * all as f64;
+    (share, agree && *first == best && best != Regime::Undetermined)
 }
 
 /// The motion that a record shows of one that the equations end in: a steady one that they reach after its end is undetermined.
@@ -217,4 +214,21 @@ pub(crate) fn begin(
         study.set_initial(name, value)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::agreement;
+    use motiform_analysis::regime::Regime::{BlowUp, Chaotic, Undetermined, Zigzag};
+
+    #[test]
+    fn blow_ups_neither_agree_nor_object_up_to_a_tenth() {
+        assert_eq!(agreement(&[(Chaotic, 36), (Zigzag, 4)], Chaotic), (0.9, true));
+        assert_eq!(agreement(&[(Chaotic, 35), (BlowUp, 3), (Zigzag, 2)], Chaotic), (35.0 / 37.0, true));
+        assert_eq!(agreement(&[(Chaotic, 33), (BlowUp, 3), (Zigzag, 4)], Chaotic), (33.0 / 37.0, false));
+        assert_eq!(agreement(&[(Chaotic, 35), (BlowUp, 5)], Chaotic), (1.0, false));
+        assert_eq!(agreement(&[(BlowUp, 40)], BlowUp), (0.0, false));
+        assert_eq!(agreement(&[(Chaotic, 40)], Zigzag), (1.0, false));
+        assert_eq!(agreement(&[(Undetermined, 40)], Undetermined), (1.0, false));
+    }
 }

@@ -28,8 +28,8 @@ pub(crate) fn coordinates([first, later]: [&[f64]; 2], by: f64, scales: &Scales)
 }
 
 /// The state in the middle of the longest track, where transients are over: coordinates of the model in natural units; `None` without
-/// two frames. They are those along the cell's own axes: it moves to the right (`mirrored`: and its first mode turns to the left), so that
-/// the motion from there does not depend on the axes of the images.
+/// two frames. They are along the cell's own axes, so that the motion from there does not depend on those of the images: it moves to the
+/// right (`mirrored`: and the imaginary part of its first mode is positive).
 pub(crate) fn observed(tracks: &[Track], scales: &Scales, mirrored: bool) -> Option<Vec<f64>> {
     let track = tracks.iter().max_by_key(|track| track.0.len())?;
     let [first, later] = pair(track, track.0.len() / 2)?;
