@@ -2,6 +2,7 @@
 
 mod bifurcations;
 mod bodies;
+mod cameras;
 mod doubts;
 mod every_format;
 mod field;
