@@ -17,13 +17,20 @@ async function centre(page, { x, y }) {
   }, [x, y]);
 }
 
-/** How far the outline reaches to the right, in model lengths: where it crosses the axis through the position. */
-function reach({ outline }) {
-  const crossings = outline.map(([x, y], i) => {
-    const [u, v] = outline[(i + 1) % outline.length];
+/** How far the outline reaches from the position in this direction (a unit vector), in model lengths. */
+function reach({ outline }, [c, s]) {
+  const turned = outline.map(([x, y]) => [c * x + s * y, c * y - s * x]);
+  const crossings = turned.map(([x, y], i) => {
+    const [u, v] = turned[(i + 1) % turned.length];
     return y * v <= 0 && y !== v ? x + ((u - x) * y) / (y - v) : -Infinity;
   });
   return Math.max(...crossings);
+}
+
+/** The direction of the outline's farthest point. In others a bent body may have its position outside, and nothing to be caught. */
+function farthest({ outline }) {
+  const [x, y] = outline.reduce((best, point) => (Math.hypot(...point) > Math.hypot(...best) ? point : best));
+  return [x / Math.hypot(x, y), y / Math.hypot(x, y)];
 }
 
 /** A paused page, and the frame it stands at. */
@@ -39,14 +46,16 @@ for (const preset of ["fig5a", "fig6a"]) {
   test(`${preset}: the outline is pulled, and the position stays`, upon(it, { hash: preset === "fig5a" ? LIGHT : "preset=fig6a&x=length:6:7&y=none" }, async ({ page, wire }) => {
     const before = await paused(page, wire);
     const [x, y, scale] = await centre(page, before);
-    const from = reach(before);
-    await page.mouse.move(x + from * scale, y);
+    const [c, s] = farthest(before);
+    const from = reach(before, [c, s]);
+    const toward = (length, options) => page.mouse.move(x + c * length * scale, y - s * length * scale, options);
+    await toward(from);
     await page.waitForFunction(() => document.getElementById("body").dataset.under === "pull");
     await page.mouse.down();
     const to = from + 0.25 * before.radius;
-    await page.mouse.move(x + to * scale, y, { steps: 6 });
+    await toward(to, { steps: 6 });
     await page.mouse.up();
-    await until(() => wire.frame.revision > before.revision && Math.abs(reach(wire.frame) - to) < 0.1 * before.radius, "the outline to follow");
+    await until(() => wire.frame.revision > before.revision && Math.abs(reach(wire.frame, [c, s]) - to) < 0.1 * before.radius, "the outline to follow");
     assert.deepEqual([wire.frame.t, wire.frame.x, wire.frame.y], [before.t, before.x, before.y]);
     await shoot(page, `pulled-${preset}`);
   }));
