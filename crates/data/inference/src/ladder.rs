@@ -1,9 +1,9 @@
 //! Models from the simplest to the richest, compared by frames that their fits did not see.
 
 use crate::filter::{Problem, Theta, Want, evaluate};
-use crate::fit::{problem, refit};
+use crate::fit::{WithMemory, problem, refit};
 use crate::observation::{LEAST_FRAMES, Track};
-use crate::{Error, Fit, Result, Settings, Term, observation, refit_with, subsets, with_stage};
+use crate::{Error, Fit, MOST_MODES, Result, Settings, Term, observation, refit_with, subsets, with_stage};
 use motiform_dynamics::Watch;
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +32,8 @@ pub enum LadderModel {
     Handed,
     /// The terms that the frames of the fit ask for, and a velocity of the stage for each track.
     Drifting,
+    /// The terms that the frames of the fit ask for, and noise of the velocity with a memory instead of white noise; of at most three modes.
+    Coloured,
 }
 
 impl LadderModel {
@@ -48,6 +50,7 @@ impl LadderModel {
             Self::Selected => "terms that the data ask for",
             Self::Handed => "terms that the data ask for, handed",
             Self::Drifting => "terms that the data ask for, and a drift of the stage",
+            Self::Coloured => "terms that the data ask for, and noise of the velocity with a memory",
         }
     }
 
@@ -56,6 +59,7 @@ impl LadderModel {
         let mut all = vec![Self::PassiveWalk, Self::PolarWalk, Self::Speed, Self::TwoModes];
         all.extend([Self::ThreeModes, Self::FourModes].into_iter().take(modes.saturating_sub(2)));
         all.extend([Self::Selected, Self::Handed, Self::Drifting]);
+        all.extend((modes < MOST_MODES).then_some(Self::Coloured)); // the noise takes the place of z4
         all
     }
 
@@ -66,7 +70,7 @@ impl LadderModel {
         let relaxes = term.order() == 1;
         relaxes
             || match self {
-                Self::PassiveWalk | Self::Selected | Self::Handed | Self::Drifting => false,
+                Self::PassiveWalk | Self::Selected | Self::Handed | Self::Drifting | Self::Coloured => false,
                 Self::PolarWalk => of_velocity && term.order() == 2,
                 Self::Speed => of_velocity && term.degree(0) == 3,
                 Self::TwoModes => among(2),
@@ -158,7 +162,7 @@ impl Ladder {
 /// Source: Stone (1974), J. R. Stat. Soc. B 36, 111; blocks of records: Burman, Chow and Nolan (1994), Biometrika 81, 351.
 ///
 /// # Errors    of the input; [`Error::TooShort`] for tracks whose blocks are too short to be fitted; [`Error::Interrupted`]
-/// # Checked by  `tests/all/ladder.rs`: walks, chaos of three modes, handed chaos, a drift of the stage, short records
+/// # Checked by  `tests/all/ladder.rs`: walks, chaos of three modes, handed chaos, a drift of the stage, noise with a memory, short records
 pub fn ladder(tracks: &[Track], whole: &Fit, watch: &dyn Watch) -> Result<Ladder> {
     observation::check(tracks, whole.library.modes)?;
     let least = BLOCKS * LEAST_FRAMES;
@@ -238,6 +242,11 @@ impl Parts {
                 Ok(Block::of(&self.left_out, &refit(&self.seen, &settings, &selected.scales, &start, watch)?))
             }
             LadderModel::Drifting => self.drifting(selected, watch),
+            LadderModel::Coloured => {
+                let fitted = WithMemory::of(&self.seen, selected, watch)?;
+                let (value, frames) = fitted.likelihood(&self.left_out);
+                Ok(Block { value, frames, coefficients: fitted.coefficients() })
+            }
             _ => {
                 let has = |&i: &usize| model.has(&all.coefficients[i].term);
                 let kept: Vec<usize> = every(all).into_iter().filter(has).collect();

@@ -58,7 +58,7 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> 
                 made.centre[block] = made.centre[block].with_lane(lane, by_centre);
             }
             for i in 2..STATE {
-                if (parameter == 1 && i < 4) || (parameter == 2 && i >= 4) {
+                if parameter == problem.noise[i / 2 - 1].by {
                     made.q[block][i] = made.q[block][i].with_lane(lane, 2.0 * q[i]);
                 }
             }

@@ -43,11 +43,15 @@ pub(crate) struct Evaluation {
 /// Evaluates the likelihood; innovations and scores of frames are kept if `keep`.
 pub(crate) fn evaluate(problem: &Problem, theta: &Theta, want: Want, keep: bool) -> Evaluation {
     let work = Work { problem, theta, want, keep };
-    match problem.modes() {
+    let mut found = match problem.modes() {
         2 => run_lanes(Kernel::<4, 6>(work)),
         4 => run_lanes(Kernel::<8, 10>(work)),
         _ => run_lanes(Kernel::<6, 8>(work)),
+    };
+    if problem.unseen > 0 {
+        problem.without_unseen(theta, &mut found);
     }
+    found
 }
 
 /// The work on states of one size: `STATE = SHAPE + 2`.

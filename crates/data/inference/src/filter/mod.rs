@@ -32,7 +32,9 @@ mod sums;
 mod tangent;
 
 pub(crate) use evaluate::{Evaluation, Want, evaluate};
-pub(crate) use problem::{Frame, NO_CENTRE_NOISE, NOISES, Problem, Theta};
+pub(crate) use problem::{
+    ETA_SHAPE, ETA_V, Frame, NO_CENTRE_NOISE, NOISES, Problem, ProcessNoise, Theta, UNSEEN,
+};
 
 /// Longest step of the integration, in natural units of time. At 0.25 the factor `s` of the measurement errors came out 6 % too large
 /// (chaotic motion, process noise 0.02), at 0.125 it agrees with that of 0.05.

@@ -1,12 +1,15 @@
 //! The arguments of the likelihood: frames in natural units and the parameters.
 
-use super::{LONGEST_GAP, LONGEST_STRIDE};
+use super::{Evaluation, LONGEST_GAP, LONGEST_STRIDE};
 use crate::field::{Field, Part};
 use motiform_dynamics::Complex;
 use motiform_dynamics::order::ascending;
 
 /// Parameters of the noise: see [`Theta::logs`].
 pub(crate) const NOISES: usize = 4;
+
+/// Variance, in natural units, of the errors of numbers that say nothing: of values about 1 they have 1e-8 of the information of errors of 1.
+pub(crate) const UNSEEN: f64 = 1e8;
 
 /// The least logarithm of the centre's own noise: there it is 0.
 pub(crate) const NO_CENTRE_NOISE: f64 = -std::f64::consts::LN_10;
@@ -25,15 +28,31 @@ pub(crate) struct Problem {
     pub(crate) field: Field,
     /// The coefficients that are parameters.
     pub(crate) parts: Vec<Part>,
-    /// Number of terms.
-    pub(crate) terms: usize,
+    /// Coefficients of all terms, 0 where they are parameters.
+    pub(crate) given: Vec<Complex<f64>>,
     /// Frames of each stretch without a long gap.
     pub(crate) stretches: Vec<Vec<Frame>>,
-    /// Variances of the process noise of `z1, z2, ..` for amplitudes 1, in natural units.
-    pub(crate) noise: Vec<f64>,
+    /// The process noise of `z1, z2, ..`.
+    pub(crate) noise: Vec<ProcessNoise>,
     /// Mean variance of a coordinate of the centre, as stated, in natural units: the unit of the centre's own noise.
     pub(crate) centre: f64,
+    /// Numbers of each frame, its last ones, that say nothing: their errors are [`UNSEEN`].
+    pub(crate) unseen: usize,
 }
+
+/// The process noise of an amplitude.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ProcessNoise {
+    /// The parameter that it is in proportion to: the place in [`Theta::logs`].
+    pub(crate) by: usize,
+    /// Its variance, per natural time, where that parameter is 1.
+    pub(crate) variance: f64,
+}
+
+/// The place of `eta_v` in [`Theta::logs`].
+pub(crate) const ETA_V: usize = 1;
+/// The place of `eta_shape`.
+pub(crate) const ETA_SHAPE: usize = 2;
 
 /// Values of the parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +92,7 @@ impl Problem {
 
     /// Complex coefficients of all terms.
     pub(crate) fn complex(&self, theta: &Theta) -> Vec<Complex<f64>> {
-        let mut c = vec![Complex::new(0.0, 0.0); self.terms];
+        let mut c = self.given.clone();
         for (part, &value) in self.parts.iter().zip(&theta.coefficients) {
             let place = if part.imaginary { &mut c[part.term].im } else { &mut c[part.term].re };
             *place = value;
@@ -88,12 +107,20 @@ impl Problem {
 
     /// Variances of the process noise, per natural time, of the entries of the state.
     pub(crate) fn process<const STATE: usize>(&self, theta: &Theta) -> [f64; STATE] {
-        let [_, v, shape, _] = theta.logs.map(|log| libm::exp(2.0 * log));
-        std::array::from_fn(|i| match i {
-            0 | 1 => 0.0,
-            2 | 3 => self.noise[0] * v,
-            _ => self.noise[i / 2 - 1] * shape,
-        })
+        let squares = theta.logs.map(|log| libm::exp(2.0 * log));
+        let of = |noise: &ProcessNoise| noise.variance * squares[noise.by];
+        std::array::from_fn(|i| if i < 2 { 0.0 } else { of(&self.noise[i / 2 - 1]) })
+    }
+
+    /// Takes the part of the numbers that say nothing out of an evaluation: `- ln(2 pi s^2 U)/2` for each with its variance `U`.
+    pub(crate) fn without_unseen(&self, theta: &Theta, found: &mut Evaluation) {
+        let count = (self.unseen * self.frames()) as f64;
+        let s = self.parts.len();
+        found.value += count * (0.5 * libm::log(std::f64::consts::TAU * UNSEEN) + theta.logs[0]);
+        if !found.gradient.is_empty() {
+            found.gradient[s] += count;
+            found.information[(s, s)] -= 2.0 * count;
+        }
     }
 
     /// Variance of a coordinate's error that all outlines of a frame may have beside that of the contour, and its derivative by `l`:

@@ -3,6 +3,7 @@
 mod ascend;
 mod covariance;
 mod likelihood;
+mod memory;
 mod optimise;
 mod result;
 mod setup;
@@ -16,6 +17,7 @@ use crate::filter::{NO_CENTRE_NOISE, Problem, Theta};
 use crate::{Error, Library, Result, Scales, Track};
 pub(crate) use ascend::MOST;
 use ascend::{polish, polish_within};
+pub(crate) use memory::WithMemory;
 use motiform_dynamics::Watch;
 use optimise::{Point, climb, prior, roughly};
 use serde::{Deserialize, Serialize};

@@ -2,9 +2,10 @@
 
 use super::Settings;
 use crate::field::Field;
-use crate::filter::Problem;
+use crate::filter::{ETA_SHAPE, ETA_V, Problem, ProcessNoise};
 use crate::library::LEAST_MODES;
 use crate::{Error, Library, MOST_MODES, Result, Scales, Track, observation};
+use motiform_dynamics::Complex;
 
 /// Checks that the filter can take a library.
 pub(crate) fn check_library(library: &Library) -> Result<()> {
@@ -51,9 +52,15 @@ pub(crate) fn problem(tracks: &[Track], settings: &Settings, scales: &Scales) ->
     Problem {
         field: Field::new(library),
         parts: Field::parts(&library.terms, settings.handed),
-        terms: library.terms.len(),
+        given: vec![Complex::new(0.0, 0.0); library.terms.len()],
         stretches: tracks.iter().flat_map(|track| Problem::cut(scales.frames(track))).collect(),
-        noise: scales.noise_of_modes(),
+        noise: scales.noise_of_modes().into_iter().enumerate().map(process).collect(),
         centre: scales.centre / (scales.length() * scales.length()),
+        unseen: 0,
     }
+}
+
+/// The noise of an amplitude, from 0, by its variance for amplitude 1.
+fn process((amplitude, variance): (usize, f64)) -> ProcessNoise {
+    ProcessNoise { by: if amplitude == 0 { ETA_V } else { ETA_SHAPE }, variance }
 }

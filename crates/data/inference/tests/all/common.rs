@@ -120,6 +120,8 @@ pub(crate) struct Experiment {
     pub(crate) frames: usize,
     /// Process noise of the velocity and the shape.
     pub(crate) eta: [f64; 2],
+    /// Rate at which the noise of the velocity forgets, of models without z4, whose place it takes; 0: white noise.
+    pub(crate) memory: f64,
     /// Standard deviations of the errors of x and y, and of the parts of the modes.
     pub(crate) errors: [f64; 2],
     pub(crate) seed: u64,
@@ -151,6 +153,7 @@ impl Experiment {
             interval,
             frames,
             eta: [eta, 0.5 * eta],
+            memory: 0.0,
             errors: VERTEX_NOISE,
             seed,
         }
@@ -181,21 +184,37 @@ impl Experiment {
     /// Heun's method: of second order in the drift, and the noise is additive.
     fn step(&self, r: &mut [f64; 2], z: &mut Shape, h: f64, kicks: &mut [Normal; 2]) {
         let before = *z;
-        let first = rates(&self.equations, z);
+        let first = self.rates(z);
         let kick: Shape = std::array::from_fn(|n| {
-            if n == self.modes() {
+            let white = self.memory == 0.0;
+            let size = match n {
+                0 if !white => 0.0,
+                3 if !white => self.memory * self.eta[0],
+                _ if n == self.modes() => 0.0,
+                _ => self.eta[n.min(1)],
+            };
+            if size == 0.0 {
                 return ZERO;
             }
-            let (size, normal) = (self.eta[n.min(1)] * h.sqrt(), &mut kicks[n / 3]);
+            let (size, normal) = (size * h.sqrt(), &mut kicks[n / 3]);
             Complex::new(size * normal.next(), size * normal.next())
         });
         let guess: Shape = std::array::from_fn(|n| before[n] + first[n] * h + kick[n]);
-        let second = rates(&self.equations, &guess);
+        let second = self.rates(&guess);
         for n in 0..4 {
             z[n] = before[n] + (first[n] + second[n]) * (0.5 * h) + kick[n];
         }
         r[0] += 0.5 * h * (before[0].re + z[0].re);
         r[1] -= 0.5 * h * (before[0].im + z[0].im);
+    }
+
+    fn rates(&self, z: &Shape) -> Shape {
+        let mut rates = rates(&self.equations, z);
+        if self.memory > 0.0 {
+            rates[0] += z[3];
+            rates[3] = z[3] * -self.memory;
+        }
+        rates
     }
 
     fn observe(&self, t: f64, r: [f64; 2], z: Shape, slips: &mut [Normal; 2]) -> Observation {

@@ -80,6 +80,22 @@ fn a_stage_that_drifts_is_told_from_the_cell() {
     assert!(!is_as_good(&found, LadderModel::Selected) && !is_as_good(&found, LadderModel::ThreeModes));
 }
 
+/// The same chaos with noise of the velocity that forgets in two model times: white noise predicts worse. With white noise a memory does not
+/// predict better.
+#[test]
+fn noise_with_a_memory_is_told_from_white_noise() {
+    let white = experiment(full(0.5, 0.1), 0.02, 400, 31);
+    let coloured = Experiment { eta: [0.06, 0.01], memory: 0.5, ..white.clone() };
+    let found = of(&[coloured.track()]);
+    assert_eq!(found.best().map(|rung| rung.model), Some(LadderModel::Coloured));
+    assert!(!is_as_good(&found, LadderModel::Selected) && !is_as_good(&found, LadderModel::ThreeModes));
+    let found = of(&[white.track()]);
+    assert!(
+        is_as_good(&found, LadderModel::Selected) && is_as_good(&found, LadderModel::Coloured),
+        "{found:?}"
+    );
+}
+
 /// Two modes of a record that is seen: the ladder has no third one. Records that are too short to be cut are refused.
 #[test]
 fn the_ladder_has_the_modes_of_the_fit_and_records_of_forty_frames() {
@@ -91,7 +107,9 @@ fn the_ladder_has_the_modes_of_the_fit_and_records_of_forty_frames() {
     let found = ladder(&tracks, &whole, &()).expect("a ladder");
     let models: Vec<LadderModel> = found.rungs.iter().map(|rung| rung.model).collect();
     assert!(
-        models.contains(&LadderModel::TwoModes) && !models.contains(&LadderModel::ThreeModes),
+        models.contains(&LadderModel::TwoModes)
+            && !models.contains(&LadderModel::ThreeModes)
+            && models.contains(&LadderModel::Coloured),
         "{models:?}"
     );
     let short = [Track(tracks[0].0[..39].to_vec())];
