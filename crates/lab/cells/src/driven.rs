@@ -2,9 +2,9 @@
 
 use crate::natural::{STEP, model, noise};
 use motiform_dynamics::order::ascending;
-use motiform_dynamics::steppers::RK4;
-use motiform_dynamics::{InPlane, Integration, Model, Noise, NoisyOrbit, Normal, Orbit, StepControl};
+use motiform_dynamics::{Model, Noise, Normal};
 use motiform_inference::Fit;
+use motiform_lab::sample_path::{Looks, sample_path};
 use serde::{Deserialize, Serialize};
 
 /// Time that is looked at, in natural times; the first half is left to transients.
@@ -86,22 +86,16 @@ pub(crate) fn states(
     let mut state = vec![0.0; model.dim()];
     model.encode(start, &mut state);
     state.extend([0.0; 2]);
-    let body = InPlane(model);
-    let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step: STEP }, 0.0, &state).ok()?;
-    let mut orbit = NoisyOrbit::new(orbit, noise, normal).ok()?;
+    let looks = Looks { step: STEP, steps: 1, count: steps + 1 };
     let mut all = Vec::with_capacity(steps);
-    for step in 1..=steps {
-        let t = step as f64 * STEP;
-        while orbit.t() < t {
-            orbit.advance(t).ok()?;
-        }
+    let whole = sample_path(model, &state, (noise, normal), looks, &mut |look, state| {
         let mut coordinates = vec![0.0; start.len()];
-        model.decode(&orbit.state()[..model.dim()], &mut coordinates);
+        model.decode(&state[..model.dim()], &mut coordinates);
         let square = coordinates[0] * coordinates[0] + coordinates[1] * coordinates[1];
-        if square.is_nan() || square > BOUND * BOUND {
-            return None;
+        if look > 0 {
+            all.push(coordinates);
         }
-        all.push(coordinates);
-    }
-    Some(all)
+        square <= BOUND * BOUND
+    });
+    whole.then_some(all)
 }

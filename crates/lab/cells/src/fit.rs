@@ -18,11 +18,11 @@ pub struct FitOptions {
     /// Amplitudes of the model: 2, 3, or 4 with z4. Of 3 the third is left out of cells whose z3 does not exceed its errors.
     #[serde(default = "three")]
     pub modes: usize,
-    /// Models drawn from the estimate.
+    /// Most models drawn from the estimate; fewer where the first ones decide on the motion.
     pub draws: usize,
     /// Seed of the draws and of the simulated cells.
     pub seed: u64,
-    /// Cells simulated by the fit, to be compared with the observed one; 0 for none.
+    /// Most cells simulated by the fit, to be compared with the observed one; 0 for none.
     pub simulations: usize,
     /// `true` if the nearest bifurcations are looked for.
     pub bifurcations: bool,
@@ -59,7 +59,7 @@ impl Default for FitOptions {
         Self {
             order: 3,
             modes: 3,
-            draws: 40,
+            draws: 160,
             seed: 1,
             simulations: 199,
             bifurcations: false,

@@ -7,6 +7,7 @@
 
 mod envelope;
 mod record;
+mod series;
 mod simulated;
 mod statistics;
 
@@ -23,11 +24,15 @@ use simulated::Simulator;
 
 /// Simulated cells that are kept for drawing.
 const SHOWN: usize = 3;
+/// Simulated cells after which the comparison may end: half of the default number.
+const EARLY: usize = 99;
+/// A p-value of them from which on that of twice as many is above .05, so that the statistic agrees.
+const CLEAR: f64 = 0.12;
 
 /// The number of simulated cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Companions {
-    /// Simulated cells: the least p-value is 1/(count + 1).
+    /// Most simulated cells: the least p-value is 1/(count + 1). Where the first 99 leave no doubt, these are all.
     pub count: usize,
     /// Seed of their noise.
     pub seed: u64,
@@ -108,19 +113,27 @@ impl Prediction {
 /// Simulates cells by a fit and compares them with the track of the observed one; `None` if the watch stopped the work, or where there
 /// are too few frames.
 ///
+/// Where all p-values of the first 99 cells are above .12, no more are simulated: those of 199 would be above .05.
+///
+/// Source: Besag and Clifford (1991), Biometrika 78, 301 (sequential Monte Carlo p-values).
+///
 /// # Checked by  tests/all/prediction.rs: p-values of the true model are uniform; wrong models are found
 #[must_use]
 pub fn predict(track: &Track, fit: &Fit, companions: Companions, watch: &dyn Watch) -> Option<Prediction> {
     let observed = Record::of(track, fit.library.modes)?;
     let asked = statistics::Asked::of(&observed, track);
-    let mut found = Vec::new();
-    let (mut shown, mut lost) = (Vec::new(), 0);
+    let (mut found, mut lost) = (Vec::new(), 0);
+    let mut shown = Vec::new();
     let axes = start::axes(track, !fit.handed)?;
     let own = axes.track(track);
     let simulator = Simulator::new(fit, (&own, &observed), companions.seed);
+    let own = asked.all(&observed);
     for (number, drawn) in draws(fit, companions.count, companions.seed).into_iter().enumerate() {
         if watch.stopped() {
             return None;
+        }
+        if number == EARLY && lost == 0 && compared(&own, &found).iter().all(is_clear) {
+            break;
         }
         match simulator.record(&drawn, number as u64 + 1) {
             Some(mut record) => {
@@ -133,25 +146,32 @@ pub fn predict(track: &Track, fit: &Fit, companions: Companions, watch: &dyn Wat
             None => lost += 1,
         }
     }
-    let cells = found.len();
-    let mut prediction = Prediction { cells, lost, comparisons: Vec::new(), shown };
+    let mut prediction = Prediction { cells: found.len(), lost, comparisons: Vec::new(), shown };
     if !prediction.is_unstable() {
-        let own = asked.all(&observed);
-        let compare = |(place, statistic): (usize, Statistic)| {
-            let others: Vec<&[f64]> = found.iter().map(|all| all[place].values.as_slice()).collect();
-            let there = |k: &usize| {
-                others.iter().all(|curve| curve[*k].is_finite()) && statistic.values[*k].is_finite()
-            };
-            let places: Vec<usize> = (0..statistic.at.len()).filter(there).collect();
-            let kept = |values: &[f64]| places.iter().map(|&k| values[k]).collect::<Vec<f64>>();
-            let others: Vec<Vec<f64>> = others.into_iter().map(kept).collect();
-            let others: Vec<&[f64]> = others.iter().map(Vec::as_slice).collect();
-            let statistic =
-                Statistic { at: kept(&statistic.at), values: kept(&statistic.values), ..statistic };
-            let envelope = Envelope::of(&statistic.values, &others)?;
-            Some(Comparison { statistic, envelope })
-        };
-        prediction.comparisons = own.into_iter().enumerate().filter_map(compare).collect();
+        prediction.comparisons = compared(&own, &found);
     }
     Some(prediction)
+}
+
+/// Returns `true` if a statistic agrees whatever the cells show that are not simulated yet: of as many again, at least these would be as far off.
+fn is_clear(one: &Comparison) -> bool {
+    one.envelope.p_value > CLEAR
+}
+
+/// The statistics of a cell among those of simulated ones.
+fn compared(own: &[Statistic], found: &[Vec<Statistic>]) -> Vec<Comparison> {
+    let compare = |(place, statistic): (usize, &Statistic)| {
+        let others: Vec<&[f64]> = found.iter().map(|all| all[place].values.as_slice()).collect();
+        let there =
+            |k: &usize| others.iter().all(|curve| curve[*k].is_finite()) && statistic.values[*k].is_finite();
+        let places: Vec<usize> = (0..statistic.at.len()).filter(there).collect();
+        let kept = |values: &[f64]| places.iter().map(|&k| values[k]).collect::<Vec<f64>>();
+        let others: Vec<Vec<f64>> = others.into_iter().map(kept).collect();
+        let others: Vec<&[f64]> = others.iter().map(Vec::as_slice).collect();
+        let Statistic { kind, at, values } = statistic;
+        let statistic = Statistic { kind: *kind, at: kept(at), values: kept(values) };
+        let envelope = Envelope::of(&statistic.values, &others)?;
+        Some(Comparison { statistic, envelope })
+    };
+    own.iter().enumerate().filter_map(compare).collect()
 }

@@ -1,17 +1,19 @@
 //! The motion of the models that the data allow.
 
 mod allowed;
+mod tally;
 
 use crate::driven::{Driven, driven_share};
 use crate::settled::{settles, time_left};
 use crate::{Result, start};
-use allowed::{drawn, ends, sets};
+use allowed::{Drawn, drawn, ends, sets};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
 use motiform_inference::{Fit, Library, MOST_MODES, Selection, Track, equations, fastest_rate};
 use motiform_models::amplitudes::info;
 use motiform_study::Study;
 use serde::{Deserialize, Serialize};
+use tally::{Tally, looks};
 
 /// A motion is named if this share of the models that do not blow up has it.
 pub const LEAST_SHARE: f64 = 0.9;
@@ -98,8 +100,9 @@ impl FittedRegime {
     }
 }
 
-/// Classifies models drawn from the estimate: from the sets of terms that the data do not tell apart, each with the share of its weight
-/// `exp(-excess/2)`, and from the normal distribution of each set's coefficients. Noise is left out: the motion is that of the
+/// Classifies models drawn from the estimate, at most `count`: from the sets of terms that the data do not tell apart, each with the share
+/// of its weight `exp(-excess/2)`, and from the normal distribution of each set's coefficients. Fewer are drawn where the first ones decide
+/// ([`Tally::is_clear`]). Noise is left out: the motion is that of the
 /// equations, from a state that the cell had in the middle of its record. Equations with several motions, or with states that blow up,
 /// have that of the cell. A steady motion that equations reach only after the end of the record counts as undetermined: the cell did
 /// not show it.
@@ -116,25 +119,25 @@ pub fn regime_of(
     let start = start::observed(tracks, &selection.fit.scales, !whole.handed).unwrap_or_default();
     let left = time_left(tracks, &selection.fit);
     let sets = sets(tracks, whole, selection, watch)?;
-    let drawn = drawn(&sets, count, seed);
-    let (best, ends) = ends((whole, &sets), &drawn, &start, watch)?;
-    let mut counts: Vec<(Regime, usize)> = Vec::new();
-    let mut shares = Vec::new();
-    for (one, end) in drawn.iter().zip(ends) {
-        let at = (one.values.as_slice(), start.as_slice());
-        let regime = shown(end, || settles(one.fit, at, left));
-        // every second or later one, so that all sets have their part
-        if one.place % count.div_ceil(MOST_SHARES).max(1) == 0 {
-            shares.extend(driven_share(one.fit, at, seed.wrapping_add(shares.len() as u64)));
+    let own = Drawn { fit: &sets[0].0, values: sets[0].0.natural.coefficients.clone() };
+    let models: Vec<Drawn<'_>> = std::iter::once(own).chain(drawn(&sets, count, seed)).collect();
+    let mut tally = Tally::default();
+    for look in looks(models.len()) {
+        let more = &models[tally.seen()..look];
+        for (one, end) in more.iter().zip(ends((whole, &sets), more, &start, watch)?) {
+            tally.add(end, |end| shown(end, || settles(one.fit, (&one.values, &start), left)));
         }
-        match counts.iter_mut().find(|entry| entry.0 == regime) {
-            Some(entry) => entry.1 += 1,
-            None => counts.push((regime, 1)),
+        if tally.is_clear() {
+            break;
         }
     }
-    counts.sort_by_key(|entry| std::cmp::Reverse(entry.1));
-    let draws = counts.iter().map(|entry| entry.1).sum::<usize>();
-    let (share, named) = agreement(&counts, best);
+    let driven = |(number, one): (usize, &Drawn<'_>)| {
+        driven_share(one.fit, (&one.values, &start), seed.wrapping_add(number as u64))
+    };
+    let shares = models.iter().enumerate().skip(1).take(MOST_SHARES).filter_map(driven).collect();
+    let (best, (share, named)) = (tally.best(), tally.agreement());
+    let draws = tally.models();
+    let counts = tally.counts();
     // the speed of a cell that rests is within its errors, and its equations are not identifiable
     let moves = selection.fit.scales.signal.first().is_some_and(|signal| *signal >= 1.0);
     let carried = named && best == Regime::Motionless && moves;
@@ -151,18 +154,6 @@ pub fn regime_of(
         coarse: best == Regime::Motionless && moves && is_coarse(tracks, &selection.fit),
         driven: Driven::of(shares),
     })
-}
-
-/// The share of the most frequent of these motions, in descending order, among the models that do not blow up; `true` if they agree on the
-/// motion of the best model, and at most [`MOST_LOST`] of all blow up.
-fn agreement(counts: &[(Regime, usize)], best: Regime) -> (f64, bool) {
-    let blown = |entry: &&(Regime, usize)| entry.0 == Regime::BlowUp;
-    let all: usize = counts.iter().map(|entry| entry.1).sum();
-    let lost: usize = counts.iter().filter(blown).map(|entry| entry.1).sum();
-    let Some((first, most)) = counts.iter().find(|entry| !blown(entry)) else { return (0.0, false) };
-    let share = *most as f64 / (all - lost) as f64;
-    let agree = share >= LEAST_SHARE && lost as f64 <= MOST_LOST * all as f64;
-    (share, agree && *first == best && best != Regime::Undetermined)
 }
 
 /// The motion that a record shows of one that the equations end in: a steady one that they reach after its end is undetermined.
@@ -214,21 +205,4 @@ pub(crate) fn begin(
         study.set_initial(name, value)?;
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::agreement;
-    use motiform_analysis::regime::Regime::{BlowUp, Chaotic, Undetermined, Zigzag};
-
-    #[test]
-    fn blow_ups_neither_agree_nor_object_up_to_a_tenth() {
-        assert_eq!(agreement(&[(Chaotic, 36), (Zigzag, 4)], Chaotic), (0.9, true));
-        assert_eq!(agreement(&[(Chaotic, 35), (BlowUp, 3), (Zigzag, 2)], Chaotic), (35.0 / 37.0, true));
-        assert_eq!(agreement(&[(Chaotic, 33), (BlowUp, 3), (Zigzag, 4)], Chaotic), (33.0 / 37.0, false));
-        assert_eq!(agreement(&[(Chaotic, 35), (BlowUp, 5)], Chaotic), (1.0, false));
-        assert_eq!(agreement(&[(BlowUp, 40)], BlowUp), (0.0, false));
-        assert_eq!(agreement(&[(Chaotic, 40)], Zigzag), (1.0, false));
-        assert_eq!(agreement(&[(Undetermined, 40)], Undetermined), (1.0, false));
-    }
 }

@@ -22,6 +22,7 @@ pub mod readings;
 pub mod recorder;
 pub mod registry;
 pub mod saddle;
+pub mod sample_path;
 pub mod samples;
 pub mod scan;
 pub mod section;

@@ -88,13 +88,14 @@ pub(crate) struct FitCellsOptions {
     /// square mode of the outline (45 terms of order 3)
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(2..=4))]
     pub(crate) modes: u32,
-    /// Models drawn from the estimate, whose motions decide the name
-    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    /// Most models drawn from the estimate, whose motions decide the name; 23 of one motion are enough
+    #[arg(long, value_name = "N", default_value_t = 160, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) draws: u32,
     /// Seed of the draws and of the simulated cells
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Cells simulated by each fit, to be compared with the observed one (0 for none); the least p-value is 1/(N + 1)
+    /// Most cells simulated by each fit, to be compared with the observed one (0 for none): the least p-value is 1/(N + 1); 99 are enough
+    /// where none of its statistics is in doubt
     #[arg(long, value_name = "N", default_value_t = 199, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     pub(crate) simulations: u32,
     /// Also look for the nearest bifurcations along gamma, kappa2 and kappa3 of each fit (may take minutes a cell)

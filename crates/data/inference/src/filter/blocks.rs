@@ -10,7 +10,8 @@ use super::sums::Sums;
 use super::tangent::{self, Forcing, Scratch, Tangent, depth, forcing_of};
 use motiform_dynamics::Bundle;
 
-/// Blocks of coefficients, then those of the noise ([`super::Theta`]).
+/// Blocks of coefficients, then the noise ([`super::Theta`]): in blocks of its own where the covariances are fixed for coefficients, otherwise
+/// from the next lane on.
 pub(crate) struct Blocks<B, const SHAPE: usize, const STATE: usize> {
     tangents: Vec<Tangent<B, STATE>>,
     /// Derivatives of the process noise, for each block.
@@ -25,19 +26,22 @@ pub(crate) struct Blocks<B, const SHAPE: usize, const STATE: usize> {
     rows: Vec<[usize; 2]>,
     scratch: Scratch<B, STATE>,
     coefficients: usize,
-    /// Number of blocks of coefficients.
+    /// Number of blocks of coefficients alone.
     first_noise: usize,
+    /// Place of the first parameter of the noise among the padded ones.
+    noise: usize,
 }
 
 impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> {
     const FORCING: usize = forcing_of(SHAPE);
 
     #[inline(always)]
-    pub(crate) fn new(problem: &Problem, wanted: bool, q: &[f64; STATE], by_centre: f64) -> Self {
-        let coefficients = if wanted { problem.parts.len() } else { 0 };
-        let first_noise = coefficients.div_ceil(B::LANES);
-        let noise = if wanted { NOISES.div_ceil(B::LANES) } else { 0 };
-        let (blocks, zero) = (first_noise + noise, B::splat(0.0));
+    pub(crate) fn new(problem: &Problem, want: Want, q: &[f64; STATE], by_centre: f64) -> Self {
+        let (coefficients, noises) = if want == Want::Value { (0, 0) } else { (problem.parts.len(), NOISES) };
+        let own = coefficients.next_multiple_of(B::LANES);
+        let noise = if want == Want::Exact { coefficients } else { own };
+        let (first_noise, blocks) = (noise / B::LANES, (noise + noises).div_ceil(B::LANES));
+        let zero = B::splat(0.0);
         let mut made = Self {
             tangents: vec![Tangent::zero(); blocks],
             q: vec![[zero; STATE]; blocks],
@@ -48,9 +52,10 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> 
             scratch: Scratch::new(),
             coefficients,
             first_noise,
+            noise,
         };
-        for parameter in 0..if wanted { NOISES } else { 0 } {
-            let (block, lane) = (first_noise + parameter / B::LANES, parameter % B::LANES);
+        for parameter in 0..noises {
+            let (block, lane) = ((noise + parameter) / B::LANES, (noise + parameter) % B::LANES);
             if parameter == 0 {
                 made.s[block] = made.s[block].with_lane(lane, 2.0);
             }
@@ -174,9 +179,8 @@ impl<B: Bundle, const SHAPE: usize, const STATE: usize> Blocks<B, SHAPE, STATE> 
 
     /// The places of the parameters among the padded ones.
     pub(crate) fn places(&self) -> Vec<usize> {
-        let noise = self.first_noise * B::LANES;
         let noises = if self.len() == 0 { 0 } else { NOISES };
-        (0..self.coefficients).chain(noise..noise + noises).collect()
+        (0..self.coefficients).chain(self.noise..self.noise + noises).collect()
     }
 
     /// A vector over the padded parameters without the padding.

@@ -116,12 +116,12 @@ impl<const SHAPE: usize, const STATE: usize> simd::Kernel for Step<'_, '_, SHAPE
 impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, STATE> {
     #[inline(always)]
     fn new(work: &'a Work<'a>, c: &'a [Complex<f64>]) -> Self {
-        let (problem, wanted) = (work.problem, work.want != Want::Value);
+        let problem = work.problem;
         let second = work.want == Want::Exact;
         let stage = Stage::new(&problem.field);
         let law = Law { field: &problem.field, c, q: problem.process(work.theta), second };
         let [centre, by_centre] = problem.own_noise(work.theta);
-        let blocks = Blocks::new(problem, wanted, &law.q, by_centre);
+        let blocks = Blocks::new(problem, work.want, &law.q, by_centre);
         Self {
             work,
             law,

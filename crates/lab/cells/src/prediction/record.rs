@@ -38,15 +38,4 @@ impl Record {
     pub(super) fn modes(&self) -> usize {
         self.frames.iter().flatten().next().map_or(0, |y| y.len() / 2)
     }
-
-    /// `true` if a frame is there, frame by frame.
-    pub(super) fn mask(&self) -> impl Iterator<Item = bool> + '_ {
-        self.frames.iter().map(Option::is_some)
-    }
-
-    /// Pairs of frames `lag` apart.
-    pub(super) fn pairs(&self, lag: usize) -> impl Iterator<Item = (&Vec<f64>, &Vec<f64>)> {
-        let later = self.frames.get(lag..).unwrap_or_default();
-        self.frames.iter().zip(later).filter_map(|(a, b)| Some((a.as_ref()?, b.as_ref()?)))
-    }
 }

@@ -3,9 +3,9 @@
 use super::record::Record;
 use crate::natural::{STEP, model, noise};
 use crate::start::{coordinates, pair};
-use motiform_dynamics::steppers::RK4;
-use motiform_dynamics::{InPlane, Integration, Model, NoisyOrbit, Normal, Orbit, StepControl};
-use motiform_inference::{Coefficient, Fit, Observation, Scales, Track};
+use motiform_dynamics::{Model, Normal};
+use motiform_inference::{Coefficient, Fit, MOST_MODES, Observation, Scales, Track};
+use motiform_lab::sample_path::{Looks, sample_path};
 
 /// A state larger than this, in natural units, has left all bounds.
 const BOUND: f64 = 30.0;
@@ -34,28 +34,19 @@ impl<'a> Simulator<'a> {
             fit.coefficients.iter().zip(coefficients).map(|(c, value)| value / unit(c)).collect();
         let model = model(fit, &natural)?;
         let mut normal = Normal::new(*seed, 2 * number);
-        let mut state = start(model.as_ref(), track, &units, errors, &mut normal)?;
+        let start = start(model.as_ref(), track, &units, errors, &mut normal)?;
         let dt = observed.dt / units.0.time;
         let steps = (dt / STEP).ceil().max(1.0);
-        let step = dt / steps;
-        let body = InPlane(model.as_ref());
-        let orbit = Orbit::new(&body, &RK4, StepControl::Fixed { step }, 0.0, &state).ok()?;
-        let noise = noise(fit, model.as_ref(), step);
-        let mut orbit = NoisyOrbit::new(orbit, noise, Normal::new(*seed, 2 * number + 1)).ok()?;
+        let looks = Looks { step: dt / steps, steps: steps as usize, count: observed.frames.len() };
+        let noise = (noise(fit, model.as_ref(), looks.step), Normal::new(*seed, 2 * number + 1));
         let mut frames = Vec::with_capacity(observed.frames.len());
-        for (place, wanted) in observed.mask().enumerate() {
-            let t = step * (place as f64 * steps); // as the orbit counts
-            while orbit.t() < t {
-                orbit.advance(t).ok()?;
-            }
-            state.copy_from_slice(orbit.state());
-            if state[..model.dim()].iter().any(|x| x.is_nan() || x.abs() > BOUND) {
-                return None;
-            }
-            let seen = errors.add(place, units.observed(model.as_ref(), &state), &mut normal);
-            frames.push(wanted.then_some(seen));
-        }
-        Some(Record { dt: observed.dt, frames })
+        let whole = sample_path(model.as_ref(), &start, noise, looks, &mut |place, state| {
+            let mut seen = units.observed(model.as_ref(), state);
+            errors.add(place, &mut seen, &mut normal);
+            frames.push(observed.frames[place].is_some().then_some(seen));
+            state[..model.dim()].iter().all(|x| x.abs() <= BOUND)
+        });
+        whole.then_some(Record { dt: observed.dt, frames })
     }
 }
 
@@ -69,8 +60,9 @@ fn start(
 ) -> Option<Vec<f64>> {
     let [first, later] = pair(track, 0)?;
     let own = |frame: &Observation| frame.y[..2 * units.0.amplitudes.len()].to_vec();
-    let y = errors.add(0, own(first), normal);
-    let end = errors.add(0, own(later), normal);
+    let [mut y, mut end] = [first, later].map(own);
+    errors.add(0, &mut y, normal);
+    errors.add(0, &mut end, normal);
     let coordinates = coordinates([&y, &end], later.t - first.t, units.0);
     let mut state = vec![0.0; model.dim()];
     model.encode(&coordinates, &mut state);
@@ -116,15 +108,15 @@ impl Errors {
         Self { roots, factor: fit.noise.s.value, centre: fit.noise.centre.value }
     }
 
-    fn add(&self, place: usize, mut y: Vec<f64>, normal: &mut Normal) -> Vec<f64> {
-        let Some(root) = &self.roots[place] else { return y };
-        let deviates: Vec<f64> = y.iter().map(|_| normal.next()).collect();
+    fn add(&self, place: usize, y: &mut [f64], normal: &mut Normal) {
+        let Some(root) = &self.roots[place] else { return };
+        let mut deviates = [0.0; 2 * MOST_MODES];
+        deviates[..y.len()].fill_with(|| normal.next());
         for (value, row) in y.iter_mut().zip(root) {
             *value += self.factor * row.iter().zip(&deviates).map(|(l, z)| l * z).sum::<f64>();
         }
         if self.centre > 0.0 {
             y[..2].iter_mut().for_each(|value| *value += self.centre * normal.next());
         }
-        y
     }
 }

@@ -4,6 +4,7 @@
 //! `motiform_statistics` computes for records without gaps.
 
 use super::record::Record;
+use super::series::{Series, dot};
 use crate::observe::step_of;
 use motiform_dynamics::order::ascending;
 use motiform_inference::Track;
@@ -124,62 +125,45 @@ impl Asked {
 
     /// All statistics of a record, always in the same order and at the same places.
     pub(super) fn all(&self, record: &Record) -> Vec<Statistic> {
-        let moves = Moves::of(record, self.step);
-        let shape = |at: usize| {
-            let sizes = record.frames.iter().flatten().map(move |y| libm::hypot(y[at], y[at + 1]));
-            sizes.collect::<Vec<f64>>()
-        };
-        let part = |y: &Vec<f64>, at: usize| [y[at], y[at + 1]];
-        let mode = |at: usize| {
-            let parts = record.frames.iter().map(|y| y.as_ref().map(|y| part(y, at)));
-            parts.collect::<Vec<_>>()
-        };
-        let second = mode(2);
-        let speeds: Vec<f64> = moves.0.iter().flatten().map(|v| libm::hypot(v[0], v[1])).collect();
+        let number =
+            |at: usize| Series::of(record.frames.iter().map(move |y| y.as_ref().map(|y| [y[at], y[at + 1]])));
+        let sizes = |of: &Series| of.iter().map(|z| libm::hypot(z[0], z[1])).collect::<Vec<f64>>();
+        let (place, second) = (number(0), number(2));
+        let moves = Moves::of(&place, record.dt, self.step);
         let mut all = vec![
-            self.over_lags(Kind::Displacement, |lag| square(record, lag)),
-            self.over_lags(Kind::Velocity, |lag| correlation(&moves.0, lag)),
-            self.over_lags(Kind::SecondMode, |lag| correlation(&second, lag)),
+            self.over_lags(Kind::Displacement, self.lags.iter().map(|&lag| place.mean_square(lag)).collect()),
+            self.over_lags(Kind::Velocity, moves.0.correlations(&self.lags)),
+            self.over_lags(Kind::SecondMode, second.correlations(&self.lags)),
             self.alignment(&moves, &second),
-            quantiles(Kind::Speed, speeds),
+            quantiles(Kind::Speed, sizes(&moves.0)),
             quantiles(Kind::Turning, moves.turns(self.step)),
-            quantiles(Kind::SecondSize, shape(2)),
+            quantiles(Kind::SecondSize, sizes(&second)),
         ];
-        if record.modes() > 2 {
-            let third = mode(4);
-            all.push(self.over_lags(Kind::ThirdMode, |lag| correlation(&third, lag)));
-            all.push(quantiles(Kind::ThirdSize, shape(4)));
-        }
-        if record.modes() > 3 {
-            let fourth = mode(6);
-            all.push(self.over_lags(Kind::FourthMode, |lag| correlation(&fourth, lag)));
-            all.push(quantiles(Kind::FourthSize, shape(6)));
+        let higher = [(Kind::ThirdMode, Kind::ThirdSize), (Kind::FourthMode, Kind::FourthSize)];
+        for (n, (mode, size)) in (2..record.modes()).zip(higher) {
+            let series = number(2 * n);
+            all.push(self.over_lags(mode, series.correlations(&self.lags)));
+            all.push(quantiles(size, sizes(&series)));
         }
         all
     }
 
-    fn over_lags(&self, kind: Kind, value: impl Fn(usize) -> f64) -> Statistic {
-        let at = self.lags.iter().map(|&lag| lag as f64 * self.dt).collect();
-        Statistic { kind, at, values: self.lags.iter().map(|&lag| value(lag)).collect() }
+    fn over_lags(&self, kind: Kind, values: Vec<f64>) -> Statistic {
+        Statistic { kind, at: self.lags.iter().map(|&lag| lag as f64 * self.dt).collect(), values }
     }
 
     /// `<Re z2(t + lag) exp(2 i heading(t))> / <|z2|>`: whether, and how long before or after, the body is elongated along (1) or across
     /// (-1) its motion.
-    fn alignment(&self, moves: &Moves, shape: &[Option<[f64; 2]>]) -> Statistic {
+    fn alignment(&self, moves: &Moves, shape: &Series) -> Statistic {
         let side = SIDE.min(shape.len() / 8).cast_signed();
-        let size = mean(shape.iter().flatten().map(|z| libm::hypot(z[0], z[1])));
-        let value = |lag: isize| {
-            let pairs = (0..moves.0.len()).filter_map(|at| {
-                // the middle of the displacement
-                let place = at.checked_add_signed(lag)? + self.step / 2;
-                Some((moves.0[at]?, (*shape.get(place)?)?))
-            });
-            mean(pairs.map(|(v, z)| {
-                let square = (v[0] * v[0] + v[1] * v[1]).max(f64::MIN_POSITIVE);
-                let double = [(v[0] * v[0] - v[1] * v[1]) / square, 2.0 * v[0] * v[1] / square];
-                z[0] * double[0] - z[1] * double[1]
-            })) / size
-        };
+        let size = mean(shape.iter().map(|z| libm::hypot(z[0], z[1])));
+        let double = moves.0.map(|v| {
+            let square = dot(v, v).max(f64::MIN_POSITIVE);
+            [(v[0] * v[0] - v[1] * v[1]) / square, 2.0 * v[0] * v[1] / square]
+        });
+        let middle = (self.step / 2).cast_signed(); // of the displacement
+        let value =
+            |lag: isize| double.mean_with(shape, lag + middle, |d, z| z[0] * d[0] - z[1] * d[1]) / size;
         let lags: Vec<isize> = (-side..=side).collect();
         let at = lags.iter().map(|&lag| lag as f64 * self.dt).collect();
         let values = lags.into_iter().map(value).collect();
@@ -198,44 +182,26 @@ fn quantiles(kind: Kind, mut samples: Vec<f64>) -> Statistic {
 }
 
 /// Velocities by displacements over some frames, from each frame on.
-struct Moves(Vec<Option<[f64; 2]>>);
+struct Moves(Series);
 
 impl Moves {
-    fn of(record: &Record, step: usize) -> Self {
-        let time = step as f64 * record.dt;
-        let later = record.frames.get(step..).unwrap_or_default();
-        let velocity = |(a, b): (&Option<Vec<f64>>, &Option<Vec<f64>>)| {
-            let (a, b) = (a.as_ref()?, b.as_ref()?);
+    fn of(place: &Series, dt: f64, step: usize) -> Self {
+        let time = step as f64 * dt;
+        let velocity = |at: usize| {
+            let (a, b) = (place.get(at)?, place.get(at + step)?);
             Some([(b[0] - a[0]) / time, (b[1] - a[1]) / time])
         };
-        Self(record.frames.iter().zip(later).map(velocity).collect())
+        Self(Series::of((0..place.len().saturating_sub(step)).map(velocity)))
     }
 
     /// Angles between displacements that follow one another (rad, positive anticlockwise).
     fn turns(&self, step: usize) -> Vec<f64> {
-        let later = self.0.get(step..).unwrap_or_default();
-        let angle = |(a, b): (&Option<[f64; 2]>, &Option<[f64; 2]>)| {
-            let (a, b) = ((*a)?, (*b)?);
-            Some(libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]))
+        let angle = |at: usize| {
+            let (a, b) = (self.0.get(at)?, self.0.get(at + step)?);
+            Some(libm::atan2(a[0] * b[1] - a[1] * b[0], dot(a, b)))
         };
-        self.0.iter().zip(later).filter_map(angle).collect()
+        (0..self.0.len()).filter_map(angle).collect()
     }
-}
-
-/// Mean-square displacement; its errors are in it.
-fn square(record: &Record, lag: usize) -> f64 {
-    mean(record.pairs(lag).map(|(a, b)| {
-        let [x, y] = [b[0] - a[0], b[1] - a[1]];
-        x * x + y * y
-    }))
-}
-
-/// `<a(t) . a(t + lag)> / <a^2>`.
-fn correlation(series: &[Option<[f64; 2]>], lag: usize) -> f64 {
-    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-    let later = series.get(lag..).unwrap_or_default();
-    let pairs = series.iter().zip(later).filter_map(|(a, b)| Some(dot((*a)?, (*b)?)));
-    mean(pairs) / mean(series.iter().flatten().map(|a| dot(*a, *a)))
 }
 
 /// Mean; NaN of nothing.

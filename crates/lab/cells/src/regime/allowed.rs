@@ -41,56 +41,48 @@ pub(super) fn sets(
 pub(super) struct Drawn<'f> {
     /// The fit of its set of terms.
     pub(super) fit: &'f Fit,
-    /// Its place among the draws of that set.
-    pub(super) place: usize,
     /// Its coefficients, in natural units.
     pub(super) values: Vec<f64>,
 }
 
-/// Models drawn from these fits: `count` altogether by their shares, but at least one of each.
+/// Models drawn from these fits, in an order in which the sets have their shares from the beginning on: `count` altogether.
 pub(super) fn drawn(sets: &[(Fit, f64)], count: usize, seed: u64) -> Vec<Drawn<'_>> {
-    let of = |(number, (fit, share)): (usize, &'_ (Fit, f64))| {
-        let here = ((share * count as f64).round() as usize).max(1);
+    let mut all = Vec::new();
+    for (number, (fit, share)) in sets.iter().enumerate() {
         let units: Vec<f64> = fit.coefficients.iter().map(|c| fit.scales.coefficient(&c.term)).collect();
-        draws(fit, here, seed.wrapping_add(number as u64))
-            .into_iter()
-            .map(|drawn| drawn.iter().zip(&units).map(|(value, unit)| value / unit).collect())
-            .collect::<Vec<Vec<f64>>>()
-    };
-    let all = sets.iter().enumerate().flat_map(|one| {
-        let models = of(one).into_iter().enumerate();
-        models.map(|(place, values)| Drawn { fit: &one.1.0, place, values })
-    });
-    all.collect()
+        let here = (share * count as f64).ceil() as usize;
+        for (k, drawn) in draws(fit, here, seed.wrapping_add(number as u64)).into_iter().enumerate() {
+            let values = drawn.iter().zip(&units).map(|(value, unit)| value / unit).collect();
+            all.push(((k as f64 + 0.5) / share, Drawn { fit, values }));
+        }
+    }
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all.into_iter().map(|(_, model)| model).take(count).collect()
 }
 
-/// The motions in which the equations of the first set's fit, and those of each drawn model, end from this start. All are equations with
-/// the terms of any set, those that a set leaves out with the coefficient 0, so that they are classified together.
+/// The motions in which the equations of these models end from this start. All are equations with the terms of any set, those that a set
+/// leaves out with the coefficient 0, so that they are classified together.
 pub(super) fn ends(
     (whole, sets): (&Fit, &[(Fit, f64)]),
-    drawn: &[Drawn<'_>],
+    models: &[Drawn<'_>],
     start: &[f64],
     watch: &dyn Watch,
-) -> Result<(Regime, Vec<Regime>)> {
-    let first = &sets[0].0;
-    let all = if sets.len() == 1 { first } else { whole };
+) -> Result<Vec<Regime>> {
+    let all = if sets.len() == 1 { &sets[0].0 } else { whole };
     let same = |a: &Coefficient, b: &Coefficient| a.term == b.term && a.imaginary == b.imaginary;
     let of = |fit: &Fit, c: &Coefficient| fit.coefficients.iter().position(|own| same(own, c));
     let common = |c: &&Coefficient| sets.iter().any(|(fit, _)| of(fit, c).is_some());
     let common: Vec<&Coefficient> = all.coefficients.iter().filter(common).collect();
     let terms = common.iter().filter(|c| !c.imaginary).map(|c| c.term.clone()).collect();
     let library = Library { modes: all.library.modes, terms };
-    let plan = |(fit, values): (&Fit, &[f64])| {
+    let plan = |Drawn { fit, values }: &Drawn<'_>| {
         let values: Vec<f64> = common.iter().map(|c| of(fit, c).map_or(0.0, |i| values[i])).collect();
         let mut study = natural_study((&library, all.handed), (&values, start))?;
         study.run.max_steps = MOST_STEPS;
         RunPlan::new(&study)
     };
-    let best = (first, first.natural.coefficients.as_slice());
-    let models = std::iter::once(best).chain(drawn.iter().map(|one| (one.fit, one.values.as_slice())));
-    let plans = models.map(plan).collect::<std::result::Result<Vec<RunPlan>, motiform_study::Error>>()?;
+    let plans =
+        models.iter().map(plan).collect::<std::result::Result<Vec<RunPlan>, motiform_study::Error>>()?;
     let verdicts = many::classify(&plans, 0.0, watch)?.ok_or(motiform_study::Error::Interrupted)?;
-    let mut regimes = verdicts.into_iter().map(|verdict| verdict.regime);
-    let best = regimes.next().unwrap_or(Regime::Undetermined);
-    Ok((best, regimes.collect()))
+    Ok(verdicts.into_iter().map(|verdict| verdict.regime).collect())
 }

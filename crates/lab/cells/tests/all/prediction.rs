@@ -54,6 +54,20 @@ fn simulated_cells_have_the_noise_of_the_observed_one_in_each_mode() {
     }
 }
 
+/// 99 simulated cells where none of their p-values is near .05, otherwise all; the first ones are the same.
+#[test]
+fn simulation_ends_where_more_cells_cannot_change_a_verdict() {
+    let (chaotic, _) = fitted("fig5b", 0.02);
+    let (zigzag, fit) = fitted("fig5a", 0.02);
+    for (cell, is_clear) in [(&zigzag, true), (&chaotic, false)] {
+        let of = |count| predict(&cell.track, &fit, Companions { count, seed: 1 }, &()).unwrap();
+        let (few, all) = (of(99), of(199));
+        let clear = few.lost == 0 && few.comparisons.iter().all(|one| one.envelope.p_value > 0.12);
+        assert_eq!((clear, all.cells + all.lost), (is_clear, if is_clear { 99 } else { 199 }));
+        assert_eq!(few.shown, all.shown);
+    }
+}
+
 #[test]
 fn the_same_seed_gives_the_same_cells_and_the_watch_stops_the_work() {
     struct Stop;
