@@ -25,12 +25,12 @@ pub(crate) fn run() -> Result<()> {
     // `manylinux: auto`: the wheel gets the oldest tag that maturin's own audit of its symbols allows
     let mut maturin = Command::new(&python);
     maturin
-        .args(["-m", "maturin", "build", "--release", "--strip", "--compatibility", "pypi", "--out"])
+        .args(["-m", "maturin", "build", "--profile", "small", "--strip", "--compatibility", "pypi", "--out"])
         .arg(&folder);
     step("wheel", &mut maturin)?;
-    step("program", cargo_command().args(["build", "--release", "-p", "motiform"]))?;
+    step("program", cargo_command().args(["build", "--profile", "small", "-p", "motiform"]))?;
     let program = folder.join("motiform");
-    fs::copy(target(&root).join("release/motiform"), &program)
+    fs::copy(target(&root).join("small/motiform"), &program)
         .context("the program is not where cargo builds")?;
     step("strip", Command::new("strip").arg(&program))?;
     page(&root, &folder)?;

@@ -3,7 +3,7 @@
 //! Here, beside [`crate::welch`]: the transforms are generic, and a second crate that called them would compile all of them again.
 
 use crate::Result;
-use realfft::RealFftPlanner;
+use crate::transforms::planned;
 
 /// sum_t a(t) . a(t + k) for k = 0 .. `longest`, the scalar product over the components; 0 beyond the series.
 ///
@@ -14,8 +14,7 @@ use realfft::RealFftPlanner;
 pub fn lagged_sums(components: &[Vec<f64>], longest: usize) -> Result<Vec<f64>> {
     let samples = components.first().map_or(0, Vec::len);
     let size = (samples + longest + 1).next_power_of_two();
-    let mut planner = RealFftPlanner::new();
-    let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
+    let (forward, inverse) = planned(|plans| (plans.plan_fft_forward(size), plans.plan_fft_inverse(size)));
     let (mut input, mut total) = (forward.make_input_vec(), forward.make_output_vec());
     let mut output = forward.make_output_vec();
     for component in components {

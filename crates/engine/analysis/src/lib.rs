@@ -34,6 +34,7 @@ pub mod singular;
 mod spectrum;
 mod steady;
 pub mod symmetry;
+mod transforms;
 mod zero_one;
 
 pub use equilibrium::RelativeEquilibrium;

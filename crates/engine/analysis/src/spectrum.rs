@@ -1,7 +1,7 @@
 //! Power spectral density of evenly spaced samples.
 
+use crate::transforms::planned;
 use crate::{Error, Result, checks};
-use realfft::RealFftPlanner;
 use std::f64::consts::TAU;
 
 /// Shortest segment whose Hann window has more than one value above a half.
@@ -80,7 +80,7 @@ pub fn welch(samples: &[f64], dt: f64, segment: usize) -> Result<Spectrum> {
 /// sum over segments of |sum_j w_j (x_j - m) exp(-2 pi i j k/N)|^2, and the number of segments.
 fn squares(samples: &[f64], window: &[f64]) -> Result<(Vec<f64>, usize)> {
     let segment = window.len();
-    let transform = RealFftPlanner::new().plan_fft_forward(segment);
+    let transform = planned(|plans| plans.plan_fft_forward(segment));
     let (mut input, mut output) = (transform.make_input_vec(), transform.make_output_vec());
     let mut scratch = transform.make_scratch_vec();
     let mut power = vec![0.0; output.len()];

@@ -66,6 +66,7 @@ struct Work<'a> {
 
 impl<const SHAPE: usize, const STATE: usize> LaneKernel for Kernel<'_, SHAPE, STATE> {
     type Output = Evaluation;
+    const WIDE: bool = SHAPE < 8; // z4 is rarely fitted
 
     #[inline(always)]
     fn run<B: Bundle>(self) -> Evaluation {

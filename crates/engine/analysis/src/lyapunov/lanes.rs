@@ -64,6 +64,7 @@ impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, cons
     for ExponentKernel<'_, B, F, N, K, D>
 {
     type Output = ();
+    const WIDE: bool = F::WIDE;
 
     #[inline(always)]
     fn run<L: Bundle>(self) {

@@ -192,6 +192,7 @@ struct Looks<'l, 'd, F, const N: usize> {
 
 impl<F: InLanes + Clone, const N: usize> LaneKernel for Looks<'_, '_, F, N> {
     type Output = ();
+    const WIDE: bool = F::WIDE;
 
     #[inline(always)]
     fn run<L: Bundle>(self) {

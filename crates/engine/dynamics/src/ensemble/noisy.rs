@@ -87,6 +87,7 @@ struct NoisyKernel<'s, 'q, F, E, const D: usize> {
 
 impl<F: InLanes, E: Extent, const D: usize> LaneKernel for NoisyKernel<'_, '_, F, E, D> {
     type Output = ();
+    const WIDE: bool = false; // most of the time goes into the noise, which is not in lanes
 
     #[inline(always)]
     fn run<B: Bundle>(self) {

@@ -9,6 +9,9 @@ use crate::{Bundle, InPlane, Mask, Shape, VectorField};
 
 /// A field of one orbit that has a form over lanes, each lane with its own parameters.
 pub trait InLanes: VectorField<f64> + Sync {
+    /// See [`LaneKernel::WIDE`].
+    const WIDE: bool = true;
+
     /// The field of a bundle.
     type Field<B: Bundle>: Shape<B>;
 
@@ -86,6 +89,7 @@ struct PropagationKernel<'h, 'q, F, const D: usize> {
 
 impl<F: InLanes, const D: usize> LaneKernel for PropagationKernel<'_, '_, F, D> {
     type Output = ();
+    const WIDE: bool = F::WIDE;
 
     #[inline(always)]
     fn run<B: Bundle>(self) {

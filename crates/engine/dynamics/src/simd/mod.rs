@@ -36,6 +36,10 @@ pub trait LaneKernel {
     /// The result of the kernel.
     type Output;
 
+    /// `false` where registers of 512 bits would save little: then there is one kernel to compile for x86-64 instead of two, for those of
+    /// 256 bits. The bits of results are the same.
+    const WIDE: bool = true;
+
     /// Does the work with bundles of type `B`.
     fn run<B: Bundle>(self) -> Self::Output;
 }

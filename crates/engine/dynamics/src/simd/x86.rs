@@ -48,11 +48,12 @@ fn loops<K: Kernel>(kernel: K) -> K::Output {
 
 /// Runs a lane kernel with the instructions of `set`, or the widest available; one of the two must not be portable.
 pub(super) fn run_lanes<K: LaneKernel>(set: InstructionSet, kernel: K) -> K::Output {
-    match set.min(widest()) {
-        // SAFETY: `widest` has found the instructions of both functions.
-        InstructionSet::Avx512 => unsafe { avx512(kernel) },
-        _ => unsafe { avx2(kernel) },
+    if K::WIDE && set.min(widest()) == InstructionSet::Avx512 {
+        // SAFETY: `widest` has found the instructions.
+        return unsafe { avx512(kernel) };
     }
+    // SAFETY: as above.
+    unsafe { avx2(kernel) }
 }
 
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]

@@ -65,6 +65,9 @@ fn put<B: Bundle>(values: &[[f64; 2]], lane: usize, lanes: &mut [[B; 2]]) {
 
 /// All fields of a bundle must have the same equations; their parameters may differ.
 impl<const N: usize> InLanes for AmplitudesField<f64, N> {
+    /// Most models have two or three modes.
+    const WIDE: bool = N == 4 || N == 6;
+
     type Field<B: Bundle> = AmplitudesField<B, N>;
     type Tangent<B: Bundle, const K: usize> = LaneTangent<AmplitudesField<B, N>, N, K>;
 
