@@ -32,7 +32,7 @@ pub enum LadderModel {
     Handed,
     /// The terms that the frames of the fit ask for, and a velocity of the stage for each track.
     Drifting,
-    /// The terms that the frames of the fit ask for, and noise of the velocity with a memory instead of white noise; of at most three modes.
+    /// The terms that the frames of the fit ask for, and noise of the velocity with a memory; of at most three modes.
     Coloured,
 }
 

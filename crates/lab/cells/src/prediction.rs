@@ -153,7 +153,7 @@ pub fn predict(track: &Track, fit: &Fit, companions: Companions, watch: &dyn Wat
     Some(prediction)
 }
 
-/// Returns `true` if a statistic agrees whatever the cells show that are not simulated yet: of as many again, at least these would be as far off.
+/// Returns `true` if a statistic agrees, whatever cells show that are not simulated yet.
 fn is_clear(one: &Comparison) -> bool {
     one.envelope.p_value > CLEAR
 }

@@ -102,7 +102,7 @@ impl FittedRegime {
 
 /// Classifies models drawn from the estimate, at most `count`: from the sets of terms that the data do not tell apart, each with the share
 /// of its weight `exp(-excess/2)`, and from the normal distribution of each set's coefficients. Fewer are drawn where the first ones decide
-/// ([`Tally::is_clear`]). Noise is left out: the motion is that of the
+/// (`Tally::is_clear`). Noise is left out: the motion is that of the
 /// equations, from a state that the cell had in the middle of its record. Equations with several motions, or with states that blow up,
 /// have that of the cell. A steady motion that equations reach only after the end of the record counts as undetermined: the cell did
 /// not show it.

@@ -10,8 +10,8 @@ use super::sums::Sums;
 use super::tangent::{self, Forcing, Scratch, Tangent, depth, forcing_of};
 use motiform_dynamics::Bundle;
 
-/// Blocks of coefficients, then the noise ([`super::Theta`]): in blocks of its own where the covariances are fixed for coefficients, otherwise
-/// from the next lane on.
+/// Blocks of coefficients, then the noise ([`super::Theta`]): in blocks of its own where covariances are fixed for coefficients,
+/// otherwise from the next lane on.
 pub(crate) struct Blocks<B, const SHAPE: usize, const STATE: usize> {
     tangents: Vec<Tangent<B, STATE>>,
     /// Derivatives of the process noise, for each block.

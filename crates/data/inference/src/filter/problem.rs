@@ -8,7 +8,7 @@ use motiform_dynamics::order::ascending;
 /// Parameters of the noise: see [`Theta::logs`].
 pub(crate) const NOISES: usize = 4;
 
-/// Variance, in natural units, of the errors of numbers that say nothing: of values about 1 they have 1e-8 of the information of errors of 1.
+/// Variance, in natural units, of the errors of numbers that say nothing: 1e-8 of the information of errors of 1.
 pub(crate) const UNSEEN: f64 = 1e8;
 
 /// The least logarithm of the centre's own noise: there it is 0.

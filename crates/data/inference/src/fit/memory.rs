@@ -5,8 +5,8 @@
 //! ```
 //!
 //! w is an Ornstein-Uhlenbeck process with the correlation time 1/k that turns with the plane as z1 does, and takes the place of the white
-//! noise of z1: that is its limit for large k with `eta/k` kept. For the filter w is one more amplitude, which is never seen: each frame has
-//! a value 0 for it with an error so large that it says nothing ([`UNSEEN`]), whose part of the likelihood is taken out again
+//! noise of z1: that is its limit for large k with `eta/k` kept. For the filter w is one more amplitude, which is never seen: each frame
+//! has a value 0 for it with an error so large that it says nothing ([`UNSEEN`]), whose part of the likelihood is taken out again
 //! ([`Problem::without_unseen`]).
 //!
 //! Source: Uhlenbeck and Ornstein (1930), Phys. Rev. 36, 823; states that are not seen, for noise that is not white: Bryson and Johansen

@@ -80,8 +80,8 @@ fn a_stage_that_drifts_is_told_from_the_cell() {
     assert!(!is_as_good(&found, LadderModel::Selected) && !is_as_good(&found, LadderModel::ThreeModes));
 }
 
-/// The same chaos with noise of the velocity that forgets in two model times: white noise predicts worse. With white noise a memory does not
-/// predict better.
+/// The same chaos with noise of the velocity that forgets in two model times: white noise predicts worse. With white noise a memory does
+/// not predict better.
 #[test]
 fn noise_with_a_memory_is_told_from_white_noise() {
     let white = experiment(full(0.5, 0.1), 0.02, 400, 31);
