@@ -8,7 +8,7 @@ thread_local! {
     static PLANNER: RefCell<RealFftPlanner<f64>> = RefCell::new(RealFftPlanner::new());
 }
 
-/// What `of` takes from the plans of this thread.
+/// The result of `of` with the plans of this thread.
 pub(crate) fn planned<T>(of: impl FnOnce(&mut RealFftPlanner<f64>) -> T) -> T {
     PLANNER.with_borrow_mut(of)
 }
