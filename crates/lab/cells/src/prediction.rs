@@ -24,15 +24,16 @@ use simulated::Simulator;
 
 /// Simulated cells that are kept for drawing.
 const SHOWN: usize = 3;
-/// Simulated cells after which the comparison may end: half of the default number.
+/// Simulated cells after which the comparison may end, and the most that may be asked for then: who asks for more wants all of them.
 const EARLY: usize = 99;
+const MOST_EARLY: usize = 199;
 /// A p-value of them from which on that of twice as many is above .05, so that the statistic agrees.
 const CLEAR: f64 = 0.12;
 
 /// The number of simulated cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Companions {
-    /// Most simulated cells: the least p-value is 1/(count + 1). Where the first 99 leave no doubt, these are all.
+    /// Most simulated cells: the least p-value is 1/(count + 1). Of at most 199 the first 99 are all where they leave no doubt.
     pub count: usize,
     /// Seed of their noise.
     pub seed: u64,
@@ -113,7 +114,8 @@ impl Prediction {
 /// Simulates cells by a fit and compares them with the track of the observed one; `None` if the watch stopped the work, or where there
 /// are too few frames.
 ///
-/// Where all p-values of the first 99 cells are above .12, no more are simulated: those of 199 would be above .05.
+/// Of at most 199 cells no more than 99 are simulated where all their p-values are above .12: 12 of them are at least as far off as the
+/// cell, so that p-values of 199 would be above .05, but for the change of the mean and the spread of the curves.
 ///
 /// Source: Besag and Clifford (1991), Biometrika 78, 301 (sequential Monte Carlo p-values).
 ///
@@ -132,7 +134,11 @@ pub fn predict(track: &Track, fit: &Fit, companions: Companions, watch: &dyn Wat
         if watch.stopped() {
             return None;
         }
-        if number == EARLY && lost == 0 && compared(&own, &found).iter().all(is_clear) {
+        if number == EARLY
+            && companions.count <= MOST_EARLY
+            && lost == 0
+            && compared(&own, &found).iter().all(is_clear)
+        {
             break;
         }
         match simulator.record(&drawn, number as u64 + 1) {

@@ -94,8 +94,8 @@ pub(crate) struct FitCellsOptions {
     /// Seed of the draws and of the simulated cells
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Most cells simulated by each fit, to be compared with the observed one (0 for none): the least p-value is 1/(N + 1); 99 are enough
-    /// where none of its statistics is in doubt
+    /// Most cells simulated by each fit, to be compared with the observed one (0 for none): the least p-value is 1/(N + 1). Of up to 199
+    /// the first 99 are enough where none of its statistics is in doubt
     #[arg(long, value_name = "N", default_value_t = 199, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     pub(crate) simulations: u32,
     /// Also look for the nearest bifurcations along gamma, kappa2 and kappa3 of each fit (may take minutes a cell)

@@ -65,6 +65,8 @@ fn simulation_ends_where_more_cells_cannot_change_a_verdict() {
         let clear = few.lost == 0 && few.comparisons.iter().all(|one| one.envelope.p_value > 0.12);
         assert_eq!((clear, all.cells + all.lost), (is_clear, if is_clear { 99 } else { 199 }));
         assert_eq!(few.shown, all.shown);
+        let more = of(210); // asked for, so simulated
+        assert_eq!(more.cells + more.lost, 210);
     }
 }
 

@@ -94,8 +94,8 @@ class Cells(Sequence["Cell"]):
         seed
             Seed of the draws and of the simulated cells.
         simulations
-            Most cells simulated by each fit, to be compared with the observed one (``CellFit.simulated``); 0 for none. 99 where these leave
-            no doubt.
+            Most cells simulated by each fit, to be compared with the observed one (``CellFit.simulated``); 0 for none. Of up to
+            199 the first 99 where these leave no doubt.
         ladder
             Also compare models, from a persistent random walk on, by frames that their fits did not see (``CellFit.ladder``).
 
