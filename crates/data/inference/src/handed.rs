@@ -40,6 +40,18 @@ impl Handedness {
     pub fn is_doubted(&self) -> bool {
         self.p_value < DOUBTED_RATE
     }
+
+    /// Which imaginary parts the intervals exclude, as a clause.
+    #[must_use]
+    pub fn excluded_parts(&self) -> String {
+        if !(self.excluded > 0.0 && self.excluded < 1.0) {
+            return "imaginary parts as large as the coefficients themselves are not excluded".to_owned();
+        }
+        format!(
+            "imaginary parts above {:.0} % of the largest coefficient of their equation are excluded",
+            100.0 * self.excluded
+        )
+    }
 }
 
 impl Symmetry {

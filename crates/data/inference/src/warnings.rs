@@ -73,10 +73,9 @@ pub enum Warning {
     },
     /// The cell has a velocity that does not turn with it: the stage drifts, or a flow carries the cell.
     Carried {
-        /// The velocity of highest likelihood, to first order (length/time).
-        velocity: [f64; 2],
-        /// Its standard errors.
-        errors: [f64; 2],
+        /// The velocity of highest likelihood, to first order, with its standard errors (length/time); `None` where it exceeds the
+        /// speed of the cell, and first order is not enough.
+        velocity: Option<[[f64; 2]; 2]>,
         /// Its significance.
         p_value: f64,
     },
@@ -123,12 +122,17 @@ impl std::fmt::Display for Warning {
                 100.0 * share,
                 PValue(*p_value)
             ),
-            Self::Carried { velocity: [x, y], errors: [dx, dy], p_value } => write!(
-                f,
-                "a velocity of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) does not turn with the cell ({}): \
-                the stage drifts, or a flow carries it; the correction 'drift' subtracts it",
-                PValue(*p_value)
-            ),
+            Self::Carried { velocity, p_value } => {
+                let size = velocity.map_or_else(String::new, |[[x, y], [dx, dy]]| {
+                    format!(" of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}), in the units of the record,")
+                });
+                write!(
+                    f,
+                    "a velocity{size} does not turn with the cell ({}): the stage drifts, or a flow carries it; the \
+                    correction 'drift' subtracts it",
+                    PValue(*p_value)
+                )
+            }
             Self::ErrorsDiffer { ratio } => {
                 write!(
                     f,
@@ -197,12 +201,11 @@ fn carried(tracks: &[Track], fit: &Fit) -> Result<Option<Warning>> {
         let size = libm::hypot(found.velocity[0], found.velocity[1]);
         found.p_value * (tracks.len() as f64) < CARRIED && size > least
     };
-    let clear = clearest.filter(is_clear);
-    Ok(clear.map(|StageVelocity { velocity, errors, p_value }| Warning::Carried {
-        velocity,
-        errors,
-        p_value,
-    }))
+    let warning = |StageVelocity { velocity, errors, p_value }: StageVelocity| {
+        let is_small = libm::hypot(velocity[0], velocity[1]) <= fit.scales.amplitudes[0];
+        Warning::Carried { velocity: is_small.then_some([velocity, errors]), p_value }
+    };
+    Ok(clearest.filter(is_clear).map(warning))
 }
 
 fn errors_differ(fit: &Fit) -> Option<Warning> {

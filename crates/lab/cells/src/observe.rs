@@ -222,7 +222,7 @@ fn full(circles: i64) -> String {
 }
 
 fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
-    let Repeats { period, periods, likeness, rotation, rotation_error } = repeats;
+    let Repeats { period, periods, likeness, rotation, rotation_error, .. } = repeats;
     let (period, turn) = (four_digits(*period), with_error(*rotation, *rotation_error));
     if *periods < LEAST_REPEATS {
         let why = format!(
@@ -237,8 +237,15 @@ fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
     let left = with_error(net, *rotation_error);
     let clear = net.abs() > CLEAR * rotation_error;
     match (*rotation_error < 0.5 * NO_TURN && net.abs() < NO_TURN, circles) {
-        _ if clear && net.abs() > NO_TURN => {
+        _ if clear && net.abs() > NO_TURN && repeats.is_sustained() => {
             (Some(Regime::QuasiPeriodic), format!("{seen}, turned by {left} rad each time"))
+        }
+        _ if clear && net.abs() > NO_TURN => {
+            let why = format!(
+                "{seen}, turned by {left} rad each time: quasi-periodic motion, or oscillations that noise sustains about a steady \
+                 one; equations fitted to them can decide"
+            );
+            (None, why)
         }
         (true, 0) => (Some(Regime::Zigzag), format!("{seen} without net rotation: {turn} rad each time")),
         (true, _) if !clear => {

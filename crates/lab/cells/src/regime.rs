@@ -164,11 +164,11 @@ fn shown(end: Regime, settles: impl Fn() -> bool) -> Regime {
     }
 }
 
-/// `true` if a linear rate has less than three e-foldings in this many natural times.
+/// `true` if a linear rate has less than three e-foldings in this many natural times. Imaginary parts turn the mode, and may be any small.
 fn is_slow(fit: &Fit, time: f64) -> bool {
     let linear = |name: &str| (1..=MOST_MODES).any(|n| name == format!("z{n}: z{n}"));
     let mut all = fit.coefficients.iter().zip(&fit.natural.coefficients);
-    all.any(|(c, rate)| linear(&c.name) && rate.abs() * time < LEAST_FOLDINGS)
+    all.any(|(c, rate)| !c.imaginary && linear(&c.name) && rate.abs() * time < LEAST_FOLDINGS)
 }
 
 /// `true` if frames are further apart than the fastest rate takes.

@@ -35,7 +35,7 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
         options.cells.style.refuse_unless(false, remedy)?;
         let text = format!("complete       {}: nothing left to compute", work.path().display());
         print(&if options.cells.json { summary.to_string() } else { text })?;
-        return Ok(End::Done);
+        return Ok(end(summary_names(&summary)));
     }
     let found = compute(options, &cells, &settings, work.as_mut()).map_err(plain_error)?;
     let fits: Vec<CellFit> = found.into_iter().flatten().collect();
@@ -66,8 +66,18 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     if !drawn {
         return Ok(End::Interrupted);
     }
-    let named = |fit: &CellFit| fit.fitted.as_ref().is_ok_and(|fitted| regime(fitted) != "undecided");
-    Ok(if fits.iter().all(named) { End::Done } else { End::NotAsAsked })
+    Ok(end(fits.iter().map(|fit| fit.fitted.as_ref().map_or("undecided", |fitted| regime(fitted)))))
+}
+
+/// The end of a command that found motions of these names: not as asked for, where one is undecided.
+fn end<'a>(mut names: impl Iterator<Item = &'a str>) -> End {
+    if names.all(|name| name != "undecided") { End::Done } else { End::NotAsAsked }
+}
+
+/// The names of the motions in a written summary.
+fn summary_names(summary: &serde_json::Value) -> impl Iterator<Item = &str> {
+    let cells = summary["cells"].as_array().into_iter().flatten();
+    cells.map(|cell| cell["regime"].as_str().unwrap_or("undecided"))
 }
 
 fn settings(options: &FitCellsOptions) -> FitOptions {
@@ -162,12 +172,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
         Symmetry::Undecided => "not decidable whether it is handed",
     };
     let p = PValue(handedness.p_value);
-    let excluded = 100.0 * handedness.excluded;
-    writeln!(
-        text,
-        "symmetry       {symmetry}, {p}; imaginary parts above {excluded:.0} % of the largest coefficient of \
-         their equation are excluded"
-    )?;
+    writeln!(text, "symmetry       {symmetry}, {p}; {}", handedness.excluded_parts())?;
     let model = fitted.model();
     for (place, coefficient) in model.coefficients.iter().enumerate() {
         let part = if coefficient.imaginary { "imaginary part of " } else { "" };

@@ -29,7 +29,7 @@ fn shim() -> &'static PathBuf {
 
 /// The number of calls from one that fails to the next.
 pub(crate) fn every() -> usize {
-    std::env::var("MOTIFORM_FAULTS").ok().and_then(|text| text.parse().ok()).unwrap_or(23)
+    std::env::var("MOTIFORM_FAULTS").ok().and_then(|text| text.parse().ok()).unwrap_or(47)
 }
 
 /// The program in the shim, with a fault of this kind at a call (see faults/shim.c).

@@ -99,11 +99,11 @@ fn during_the_transient() {
 fn bodies_that_are_finished_are_measured() {
     let folder = Folder::new();
     let words =
-        "statistics tensor --set gamma=1 --set kappa2=2 --noise 0.1 --t-end 50 --bodies 100000 --threads 2";
+        "statistics tensor --set gamma=1 --set kappa2=2 --noise 0.1 --t-end 20 --bodies 100000 --threads 2";
     let mut command = folder.command(&format!("{words} --out found"));
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     wait_until_it_listens(&child);
-    sleep(Duration::from_millis(5000)); // 64 bodies take a fifth of a second, or several on a busy machine
+    sleep(Duration::from_millis(2500)); // 64 bodies take a tenth of a second, or one on a busy machine
     interrupt_child(&child);
     let done = wait(child).expect(130);
     assert!(done.stderr.contains("of 100000 bodies were not finished and are left out"), "{}", done.stderr);

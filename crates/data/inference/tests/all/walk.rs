@@ -94,7 +94,7 @@ fn held(truth: [f64; 3], (dt, frames): (f64, u32), seen: f64, runs: u64) -> ([u6
 /// step; of short records; of small errors; sampled finely and coarsely.
 #[test]
 fn intervals_hold_the_truth() {
-    let runs = 150;
+    let runs = 60;
     for (truth, sampling, seen) in [
         ([4.0, 1.2, 0.4], (0.7, 280), 0.8),
         ([4.0, 1.2, 0.4], (0.7, 40), 0.8),
@@ -103,9 +103,9 @@ fn intervals_hold_the_truth() {
         ([0.5, 1.0, 0.2], (1.0, 300), 0.9),
     ] {
         let (held, described) = held(truth, sampling, seen, runs);
-        // 95 % of 150 are 142.5 -+ 2.7; ends that are open hold every value
-        assert!(held.iter().all(|&count| count >= 134), "{held:?}");
-        assert!(described >= 147, "{described}");
+        // 95 % of 60 are 57 -+ 1.7; ends that are open hold every value
+        assert!(held.iter().all(|&count| count >= 52), "{held:?}");
+        assert!(described >= 58, "{described}");
     }
 }
 

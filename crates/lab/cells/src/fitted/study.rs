@@ -31,7 +31,7 @@ impl Fitted {
         }
         study.title = format!("Cell {cell}");
         study.about = format!(
-            "Fitted to {} frames by maximum likelihood; lengths and times in the units of the data.",
+            "Fitted by maximum likelihood to {} steps from frame to frame; lengths and times in the units of the data.",
             fit.frames
         );
         study.display.plane = plane(&study);

@@ -10,6 +10,12 @@ const UNRESOLVED: f64 = 0.02;
 /// Longest period, as a part of the record.
 const LONGEST: f64 = 0.4;
 
+/// Least likeness and largest scatter of the amplitude of a motion that is regular within its errors.
+const REGULAR: (f64, f64) = (0.99, 0.02);
+/// Fewest memories of a record, and largest scatter of the amplitude, of an oscillation that sustains itself under noise.
+const MEMORIES: f64 = 8.0;
+const MOST_SCATTER: f64 = 0.25;
+
 /// A repetition.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Repeats {
@@ -23,6 +29,12 @@ pub struct Repeats {
     pub rotation: f64,
     /// See `rotation`.
     pub rotation_error: f64,
+    /// Scatter of the amplitude from period to period, relative to its mean.
+    #[serde(skip)]
+    scatter: f64,
+    /// Duration of the record over the time in which the likeness decays by a factor e.
+    #[serde(skip)]
+    memories: f64,
 }
 
 impl Repeats {
@@ -53,8 +65,36 @@ impl Repeats {
             likeness: like[lag],
             rotation: mean(turned.iter().copied()),
             rotation_error: scatter(&turned) / independent.sqrt(),
+            scatter: amplitude_scatter(&invariants, lag),
+            memories: memories(&like, lag) * independent,
         })
     }
+
+    /// `true` if the oscillation sustains itself: it is regular within the errors, or keeps its amplitude for many times longer than its
+    /// phase. One that noise sustains about a steady motion forgets both alike: then the amplitude scatters by half of its mean.
+    pub(super) fn is_sustained(&self) -> bool {
+        let regular = self.likeness >= REGULAR.0 && self.scatter <= REGULAR.1;
+        regular || (self.memories >= MEMORIES && self.scatter <= MOST_SCATTER)
+    }
+}
+
+/// Standard deviation of the root mean square of all series over a period, relative to its mean.
+fn amplitude_scatter(series: &[Vec<f64>], lag: usize) -> f64 {
+    let square = |period: usize| -> f64 {
+        series.iter().flat_map(|one| &one[period * lag..(period + 1) * lag]).map(|value| value * value).sum()
+    };
+    let count = series.first().map_or(0, |one| one.len() / lag);
+    let sizes: Vec<f64> = (0..count).map(|period| square(period).sqrt()).collect();
+    scatter(&sizes) / mean(sizes.iter().copied()).max(f64::MIN_POSITIVE)
+}
+
+/// Logarithm of the ratio of the likeness after one period to that after two, near their lags: errors of the samples lower both alike.
+fn memories(like: &[f64], lag: usize) -> f64 {
+    let near = |lag: usize| {
+        let within = lag - lag.div_ceil(8)..=(lag + lag.div_ceil(8)).min(like.len() - 1);
+        like[within].iter().copied().fold(f64::MIN_POSITIVE, f64::max)
+    };
+    if 2 * lag < like.len() { libm::log(near(lag) / near(2 * lag)).max(0.0) } else { 0.0 }
 }
 
 /// Invariants of rotations: speed, |z2|, and z2 against the direction of motion, along and across (which the mirror reverses).

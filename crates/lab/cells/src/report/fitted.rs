@@ -39,14 +39,7 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
     let noise = &model.noise;
     let (symmetry, p) = (fitted.symmetry().name(), PValue(fitted.handedness.p_value));
     vec![
-        ("symmetry".to_owned(), format!("{symmetry}, {p}")),
-        (
-            "imaginary parts excluded".to_owned(),
-            format!(
-                "above {:.0} % of the largest coefficient of their equation",
-                100.0 * fitted.handedness.excluded
-            ),
-        ),
+        ("symmetry".to_owned(), format!("{symmetry}, {p}; {}", fitted.handedness.excluded_parts())),
         ("frames with a likelihood".to_owned(), model.frames.to_string()),
         ("log-likelihood".to_owned(), plain(model.log_likelihood)),
         ("factor of the stated errors".to_owned(), estimate(&noise.s)),

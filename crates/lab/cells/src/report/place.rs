@@ -16,6 +16,8 @@ const SEED: u64 = 1;
 const ELLIPSE: usize = 90;
 /// 95 % of a normal distribution in the plane lie within this Mahalanobis distance: sqrt(-2 ln 0.05).
 const WITHIN: f64 = 2.447_746_830_680_816;
+/// 95 % of a normal distribution lie within so many standard deviations.
+const NORMAL: f64 = 1.959_963_984_540_054;
 
 pub(crate) const PLANES: [(Plane, &str); 2] =
     [(Plane::Full, "plane of Fig. 4"), (Plane::Reduced, "plane of Fig. 1")];
@@ -55,7 +57,7 @@ pub(crate) fn map(
     let one = |(name, place, fitted): &(&str, &Place, Option<&Fitted>)| MapPlace {
         name: literal(name),
         at: [place.coordinates[0].estimate.value, place.coordinates[1].estimate.value],
-        region: ellipse(place),
+        region: region(place),
         cloud: fitted.map_or_else(Vec::new, |fitted| cloud(fitted, plane)),
     };
     Ok(Some(PlaceMap {
@@ -73,6 +75,21 @@ pub(crate) fn map(
 fn cloud(fitted: &Fitted, plane: Plane) -> Vec<[f64; 2]> {
     let fit = fitted.model();
     draws(fit, CLOUD, SEED).iter().filter_map(|values| coordinates(fit, plane, values)).collect()
+}
+
+/// The boundary of the region that holds 95 % of a normal distribution with the place's covariance, each side of each axis in the
+/// proportion in which the 95 % interval of that parameter differs from 1.96 standard deviations: as the table has it.
+fn region(place: &Place) -> Vec<[f64; 2]> {
+    let sides = [0, 1].map(|k| {
+        let estimate = &place.coordinates[k].estimate;
+        let deviation = NORMAL * place.covariance[k][k].max(f64::MIN_POSITIVE).sqrt();
+        let side = |end: f64| if end.is_finite() { (end - estimate.value).abs() / deviation } else { 1.0 };
+        (estimate.value, estimate.interval.map(side))
+    });
+    let fitted = |(value, [below, above]): (f64, [f64; 2]), x: f64| {
+        value + (x - value) * if x < value { below } else { above }
+    };
+    ellipse(place).into_iter().map(|[x, y]| [fitted(sides[0], x), fitted(sides[1], y)]).collect()
 }
 
 /// The boundary of the region that holds 95 % of a normal distribution with the place's covariance.

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use super::bodies::{cell, preset, sampled};
+use super::bodies::{cell, cell_of, preset, sampled};
 use super::recordings::tracks;
 use motiform_analysis::regime::Regime;
 use motiform_cells::{Observation, Sample, observe};
@@ -80,6 +80,23 @@ fn a_full_circle_in_each_period_is_no_rotation() {
         let turned: f64 = turned.unwrap().parse().unwrap();
         assert!((turned - net).abs() < 1e-3, "{}", rosette.why);
     }
+}
+
+/// Oscillations that noise sustains about a stable circle (eigenvalues -0.005 +- 0.4 i) repeat as those of a quasi-periodic motion do in
+/// short records, with the likeness of 0.9. A quasi-periodic motion without noise has its name.
+#[test]
+fn oscillations_about_a_circle_are_not_quasi_periodic() {
+    let seen = |study: &Study, radius: f64| observe(&cell_of(study, radius, 0.01).cells[0]).motion;
+    for seed in 1..=20 {
+        let mut study = preset("fig5b", 0.01, (0.5, 100));
+        study.set("kappa2", 0.322_98).unwrap();
+        study.set("kappa3", 0.253_567).unwrap();
+        study.run.seed = seed;
+        let motion = seen(&study, 1.1);
+        assert!(matches!(motion.regime, None | Some(Regime::Circular)), "{seed}: {}", motion.why);
+    }
+    let motion = seen(&preset("fig3", 0.0, (1.0, 400)), 0.35);
+    assert_eq!(motion.regime, Some(Regime::QuasiPeriodic), "{}", motion.why);
 }
 
 /// A path is straight, but the long axis turns: no motion of these bodies does that.
