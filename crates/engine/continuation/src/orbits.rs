@@ -9,10 +9,13 @@ use super::problem::{Equations, Failure, Linear};
 use super::shooting::{Segment, segments};
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::neutral_direction;
-use motiform_analysis::linear::{add, apply, dot, eigenvalues, norm, restrict};
+use motiform_analysis::linear::{add, apply, basis, dot, eigenvalues, norm, restrict};
 use motiform_analysis::periodic::{Flow, back};
 use motiform_dynamics::{Equivariant, VectorField, Watch};
 use nalgebra::DMatrix;
+
+/// Part of the size of shapes below which a coordinate is known as well as a branch is.
+const STILL: f64 = 1e-6;
 
 /// `Phi_(T/m)(u_i) = u_(i+1)`, and the last one's image is `R(angle) [M] u_0`; unknowns `(u_0 .. u_(m-1), T, [angle], p)`. The nodes
 /// move normal to the flow and to the group. There is an angle where it is a neutral direction too: without the mirror, in a
@@ -61,19 +64,48 @@ impl Orbits<'_> {
         if self.turns { x[self.parts * self.dim + 1] } else { 0.0 }
     }
 
-    /// The eigenvalues of a relative equilibrium in the directions that keep the mirror axis of the orbit's shapes; none where the shapes
-    /// have rotations.
-    pub(super) fn kept_rates(&self, body: &dyn Equivariant, at: &RelativeEquilibrium) -> Vec<(f64, f64)> {
+    /// The eigenvalues of a relative equilibrium in the directions that keep the mirror axis of the orbit's shapes, without those of
+    /// coordinates in which the orbit rests; none where the shapes have rotations.
+    pub(super) fn kept_rates<'x>(
+        &self,
+        body: &dyn Equivariant,
+        at: &RelativeEquilibrium,
+        shapes: impl Iterator<Item = &'x [f64]>,
+    ) -> Vec<(f64, f64)> {
         if self.classes.folds > 1 || self.classes.circle {
             return Vec::new();
         }
-        if self.classes.axis.is_none() {
+        let matrix = linearisation(body, &at.shape, at.turning_rate);
+        let rests = self.rests(&matrix, &at.shape, shapes);
+        if self.classes.axis.is_none() && !rests.contains(&true) {
             return at.eigenvalues.clone();
         }
-        let matrix = linearisation(body, &at.shape, at.turning_rate);
         let classes = self.classes.without(&neutral_direction(body, &at.shape));
-        let even = classes.first().map(|basis| restrict(basis, |v| apply(&matrix, v)));
-        even.and_then(|columns| eigenvalues(&columns)).unwrap_or_default()
+        let columns = classes.into_iter().next().map(|mut within| {
+            for vector in &mut within {
+                vector.iter_mut().zip(&rests).filter(|(_, rests)| **rests).for_each(|(x, _)| *x = 0.0);
+            }
+            let kept = basis(&within.iter().map(Vec::as_slice).collect::<Vec<_>>(), STILL);
+            restrict(&kept, |v| apply(&matrix, v))
+        });
+        columns.and_then(|columns| eigenvalues(&columns)).unwrap_or_default()
+    }
+
+    /// For each coordinate, whether the orbit rests in it at its value in an equilibrium, and the others do not act on it there: how its
+    /// deviations decay says nothing about the orbit. All `false` where some coordinate that rests is acted on.
+    fn rests<'x>(&self, matrix: &[f64], at: &[f64], shapes: impl Iterator<Item = &'x [f64]>) -> Vec<bool> {
+        let mut rests = vec![true; self.dim];
+        for shape in shapes {
+            for (rests, (x, at)) in rests.iter_mut().zip(shape.iter().zip(at)) {
+                *rests &= (x - at).abs() <= STILL * self.size;
+            }
+        }
+        let largest = matrix.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
+        let mut moved = matrix.chunks_exact(self.dim).zip(&rests).filter(|(_, rests)| !**rests);
+        let acts = moved.any(|(column, _)| {
+            column.iter().zip(&rests).any(|(entry, rests)| *rests && entry.abs() > STILL * largest)
+        });
+        if acts || !rests.contains(&false) { vec![false; self.dim] } else { rests }
     }
 
     /// The node where the reduced shape changes most slowly.

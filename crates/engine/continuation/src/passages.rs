@@ -173,7 +173,7 @@ impl<'w> Way<'w> {
         let rate = |from: usize, to: usize| {
             libm::log(distances[to] / distances[from]) / ((to - from) as f64 * self.step)
         };
-        let rates = orbits.kept_rates(self.body, &at);
+        let rates = orbits.kept_rates(self.body, &at, self.shapes.iter().map(Vec::as_slice));
         let all = if rates.is_empty() { &at.eigenvalues } else { &rates };
         let has = |rate: f64| all.iter().any(|value| (value.0 / rate - 1.0).abs() < RATES);
         let is_clear = has(rate(begin, comes)) && has(rate(goes, end));

@@ -16,7 +16,7 @@ settings! {
         /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for stiff models ifrk4 (fixed step),
         /// etdrk4, hochbruck4, krogstad4 (adaptive). By default dop853 for tensor, krogstad4 for cell.
         pub stepper: String,
-        /// Relative tolerance of adaptive steppers, 1e-14 to 0.1: sets the accuracy of the run. By default 1e-9 for tensor, 1e-6 for cell.
+        /// Relative tolerance of adaptive steppers, 1e-14 to 1e-4: sets the accuracy of the run. By default 1e-9 for tensor, 1e-6 for cell.
         pub rtol: f64,
         /// Absolute tolerance of adaptive steppers. By default a thousandth of `rtol` for tensor, a tenth for cell.
         #[serde(skip_serializing_if = "Option::is_none")]

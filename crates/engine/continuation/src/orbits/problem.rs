@@ -171,7 +171,7 @@ impl Problem for Orbits<'_> {
     fn saddle(&self, x: &[f64], local: &Local) -> Option<Saddle> {
         let body = local.body.as_ref();
         let found = RelativeEquilibrium::find(body, self.node(x, self.slowest(local)?))?;
-        let rates = self.kept_rates(body, &found);
+        let rates = self.kept_rates(body, &found, (0..self.parts).map(|i| self.node(x, i)));
         Some(Saddle { found, rates })
     }
 

@@ -182,12 +182,14 @@ impl EscapeLimits {
         let Self { value, lower, upper, watched, .. } = self;
         if self.escapes == 0 {
             return format!(
-                "escape rate below {upper:.1e} (95 %; no escape in {watched:.0} model time): chaos stays {:.0} and more on average",
+                "rate of blow-up below {upper:.1e} (95 %; none in {watched:.0} model time): chaos blows up after {:.0} and more on \
+                 average, if at all; ends in regular motion do not count here",
                 1.0 / upper
             );
         }
         format!(
-            "escape rate {value:.1e} ({lower:.1e} to {upper:.1e}, 95 %): chaos stays {:.0} on average ({:.0} to {:.0})",
+            "rate of blow-up {value:.1e} ({lower:.1e} to {upper:.1e}, 95 %): chaos stays {:.0} on average ({:.0} to {:.0}) before it \
+             blows up",
             1.0 / value,
             1.0 / upper,
             1.0 / lower

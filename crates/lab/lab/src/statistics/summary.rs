@@ -160,8 +160,11 @@ fn diffusion(found: &Diffusion, units: &Shown) -> Vec<(&'static str, String)> {
     ];
     all.extend(found.difference.iter().map(|difference| {
         let agree = difference.value.abs() <= CHANCE * difference.half_width();
-        let meaning =
-            if agree { "they agree" } else { "sampled coarsely, or motion that is not in the velocity" };
+        let meaning = if agree {
+            "they agree within three standard errors"
+        } else {
+            "sampled coarsely, or motion that is not in the velocity"
+        };
         (
             "",
             format!(
