@@ -87,8 +87,8 @@ pub struct Connection {
     pub law: PeriodLaw,
     /// The relative equilibrium that the orbit passes closest by, at the last point.
     pub saddle: Option<RelativeEquilibrium>,
-    /// The eigenvalues `(re, im)` of the saddle in the directions that keep the symmetry of the orbit's shapes, without those of coordinates
-    /// in which the orbit rests; empty where these are not told from the others.
+    /// The eigenvalues `(re, im)` of the saddle in the directions that keep the symmetry of the orbit's shapes, without those of
+    /// coordinates in which the orbit rests; empty where these are not told from the others.
     #[serde(default)]
     pub rates: Vec<(f64, f64)>,
     /// The relation of the saddles that the orbit passes; `None` where the orbit is not seen to pass any: at a saddle-node there is none on
@@ -146,7 +146,8 @@ impl Connection {
         Some(grows.0 + decays.0)
     }
 
-    /// The saddle's leading eigenvalue: of `rates`, the one whose real part is closest to 0. The fitted rate of a logarithmic law is its modulus.
+    /// The saddle's leading eigenvalue: of `rates`, the one whose real part is closest to 0. The fitted rate of a
+    /// logarithmic law is its modulus.
     #[must_use]
     pub fn leading(&self) -> Option<f64> {
         let all = &self.saddle.as_ref()?.eigenvalues;

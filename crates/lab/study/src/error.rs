@@ -75,6 +75,21 @@ pub enum Error {
         /// All presets of the model.
         known: Vec<&'static str>,
     },
+    /// Neither a model nor a preset has this name, and a study file has another one.
+    #[error(
+        "{name:?} is no model, no preset and no study file{}: the models are {}, the presets {}; the name of a study file ends in .toml",
+        hint(.nearest), .models.join(", "), .presets.join(", ")
+    )]
+    UnknownSubject {
+        /// The name given.
+        name: String,
+        /// The most similar name.
+        nearest: Option<&'static str>,
+        /// All models.
+        models: Vec<&'static str>,
+        /// All presets.
+        presets: Vec<&'static str>,
+    },
     /// No stepper has this name.
     #[error("unknown stepper {name:?}{}: the steppers are {}", hint(.nearest), .known.join(", "))]
     UnknownStepper {

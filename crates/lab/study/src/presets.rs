@@ -61,6 +61,19 @@ pub fn find_any(name: &str, model: &'static str) -> Result<Study, Error> {
     }
 }
 
+/// A model by its name alone, where it might have been a preset of any model or a file.
+///
+/// # Errors
+/// [`Error::UnknownSubject`] with the nearest name.
+pub fn model_or_nearest(name: &str) -> Result<&'static ModelInfo, Error> {
+    ModelInfo::find(name).map_err(|error| {
+        let motiform_models::Error::UnknownModel { known: models, .. } = error else { return error.into() };
+        let presets: Vec<&'static str> = all().map(|preset| preset.name).collect();
+        let both: Vec<&'static str> = models.iter().chain(&presets).copied().collect();
+        Error::UnknownSubject { name: name.to_owned(), nearest: nearest_of(name, &both), models, presets }
+    })
+}
+
 /// The names of a model's presets.
 #[must_use]
 pub fn names_of(model: &str) -> Vec<&'static str> {

@@ -160,7 +160,10 @@ fn regime(fitted: &Fitted) -> &'static str {
 fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> {
     let fitted = match &fit.fitted {
         Ok(fitted) => fitted,
-        Err(why) => return Ok(format!("cell {:<9} undecided\nbecause        {why}\n", fit.name)),
+        Err(why) => {
+            let frames = quality(sample.cells.iter().find(|cell| cell.name == fit.name), fit.frames)?;
+            return Ok(format!("cell {:<9} undecided\nbecause        {why}\n{frames}", fit.name));
+        }
     };
     let mut text = format!("cell {:<9} {}\n", fit.name, regime(fitted));
     writeln!(text, "because        {}", fitted.why())?;

@@ -78,10 +78,9 @@ pub(crate) fn study(options: &SubjectOptions) -> Result<Study, Error> {
         if let (Some(named), None) = (find_preset(subject), preset) {
             return with(presets::find_any(named.name, named.model)?, parameters);
         }
-        let info = ModelInfo::find(subject)?;
         match preset {
-            Some(name) => presets::find(info, name)?,
-            None => Study::of_model(info),
+            Some(name) => presets::find(ModelInfo::find(subject)?, name)?,
+            None => Study::of_model(presets::model_or_nearest(subject)?),
         }
     };
     with(study, parameters)

@@ -84,6 +84,7 @@ fn numbers_out_of_range() {
             "simulate tensor --stepper rk4 --step 0",
             "simulate tensor --stepper rk4 --step -0.1",
             "simulate tensor --max-steps 0",
+            "simulate tensor --rtol 1e-3",
             "simulate tensor --set gamma=2e6",
             "simulate tensor --radius -1",
             "simulate tensor --scale -2",

@@ -68,3 +68,29 @@ fn a_parameter_cannot_have_the_name_of_a_column() {
         done.stderr
     );
 }
+
+/// A cycle between three saddles (Guckenheimer and Holmes 1988, rests that double) beside a variable that decays: soon the way out of a
+/// saddle is too small for a number, in every unit of time. That is neither rest nor a start of exact symmetry.
+#[test]
+fn a_cycle_whose_coordinates_vanish_is_not_at_rest() {
+    let folder = Folder::new();
+    let [x, y, z] =
+        ["(z1+conj(z1))/2", "(-i/2)*(z1-conj(z1))", "(z2+conj(z2))/2"].map(|text| format!("({text})"));
+    let rate = |u: &str, v: &str, w: &str| format!("{u}*(1-{u}^2-b*{v}^2-c*{w}^2)");
+    for per_time in [1, 10] {
+        let text = format!(
+            "[model.amplitudes]\nmodes = [1, 2]\nsymmetry = \"none\"\n[model.amplitudes.parameters]\nb = 0.5\nc = 2.0\n\
+             [model.amplitudes.equations]\n\
+             z1 = \"{per_time}*({}) + {per_time}*i*({})\"\nz2 = \"{per_time}*({}) - {per_time}*i*(-i/2)*(z2-conj(z2))\"\n",
+            rate(&x, &y, &z),
+            rate(&y, &z, &x),
+            rate(&z, &x, &y)
+        );
+        folder.write("cycle.toml", &text);
+        for seed in 1..=3 {
+            let found = folder.run(&format!("classify cycle.toml --random 1 --seed {seed} --json")).json();
+            let name = found["regime"].as_str().unwrap().to_owned();
+            assert!(["undetermined", "rectangular"].contains(&name.as_str()), "{per_time} {seed}: {found}");
+        }
+    }
+}

@@ -3,6 +3,7 @@
 mod balance;
 mod deflation;
 mod family;
+mod lost;
 mod newton;
 mod reached;
 mod saddle;

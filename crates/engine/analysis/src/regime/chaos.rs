@@ -103,12 +103,12 @@ pub(super) fn chaotic(
     let (_, fastest_escape) = escape_limits(0, lasted)?;
     let second = witness.zero_one.map_or(String::new(), |k| format!("; 0-1 test {k:.2}"));
     let why = format!(
-        "lambda_1 = {value:.4} +- {error:.4} over a time of {:.0} in {} runs, {:.4} +- {:.4} in the last{second}; no escape in a \
-         time of {lasted:.0}: if this is a transient, its mean life is above {:.0} (95 %)",
+        "lambda_1 = {} over a time of {:.0} in {} runs, {} in the last{second}; no escape in a time of {lasted:.0}: if this is \
+         a transient, its mean life is above {:.0} (95 %)",
+        stated(all.estimate),
         all.time,
         all.runs,
-        last.value,
-        last.error,
+        stated(last),
         1.0 / fastest_escape
     );
     let mut verdict = Verdict::new(Regime::Chaotic, Attractor::Chaotic, why, time);
@@ -119,6 +119,13 @@ pub(super) fn chaotic(
         *first = all.estimate;
     }
     Ok(Some(verdict))
+}
+
+/// An exponent with its error, to four decimals or to two digits of a smaller error.
+pub(super) fn stated(Estimate { value, error }: Estimate) -> String {
+    let needed = if error > 0.0 { 1.0 - libm::floor(libm::log10(error)) } else { 0.0 };
+    let places = if error < 1e-4 { needed.clamp(4.0, 15.0) as usize } else { 4 };
+    format!("{value:.places$} +- {error:.places$}")
 }
 
 /// An exponent above this many of its errors is worth more time.

@@ -115,7 +115,7 @@ impl Verdict {
         }
         let off = found.value - own.value;
         if off.abs() > APART * (found.error + own.error) {
-            let what = format!("lambda_1 = {:.4} +- {:.4}", found.value, found.error);
+            let what = format!("lambda_1 = {}", chaos::stated(found));
             return Ok(self.unresolved((parameter, value), &what));
         }
         let mut other = self.clone();

@@ -32,7 +32,8 @@ pub(super) struct Search {
     /// Length of the look under way, and whether it is the first.
     span: f64,
     first: bool,
-    /// The latest shape of the orbit.
+    /// The first and the latest shape of the orbit.
+    start: Vec<f64>,
     shape: Vec<f64>,
     /// Model time spent, and to be spent at most.
     time: f64,
@@ -81,6 +82,7 @@ impl Search {
             settings: *settings,
             span: settings.first_look.min(settings.budget),
             first: true,
+            start: start.to_vec(),
             shape: start.to_vec(),
             time: 0.0,
             budget: settings.budget,
@@ -222,6 +224,12 @@ impl Search {
     ) -> Result<Ask> {
         let still = look.is_still(self.settings.hovering());
         if self.stay.goes_on(look.end - look.start, still, found.growth()) {
+            if found.holds_what_was_lost(body, &self.start, &self.shape) {
+                let why = "the orbit rests at one saddle after the other, the longer the later, until its distance from the next \
+                           way out is smaller than every number: an orbit between saddles that is not followed further";
+                let why = why.to_owned();
+                return Ok(Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time).into());
+            }
             return Ok(words::unstable(body, found, self.stay.time(), self.time).into());
         }
         self.budget = self.budget.max(self.stay.budget(&self.settings, self.time, found.growth()));

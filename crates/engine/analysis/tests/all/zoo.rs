@@ -5,8 +5,9 @@
 use crate::common;
 
 use common::{ORDINARY, named, near};
+use motiform_analysis::regime::Settings;
 use motiform_analysis::{Attractor, Verdict};
-use motiform_dynamics::Equivariant;
+use motiform_dynamics::{Equivariant, Scalar, VectorField};
 use motiform_models::zoo::{Heteroclinic, Hopf, Linear, Lorenz, Rossler, Torus, VanDerPol};
 
 fn number(system: &str, key: &str) -> f64 {
@@ -100,6 +101,31 @@ fn a_heteroclinic_cycle_has_the_rates_of_its_saddles() {
     }
     // b + c < 2: the cycle repels, and the fixed point inside attracts
     verdict(&Heteroclinic { b: 0.55, c: 1.2 }, &[0.9, 0.2, 0.1], Attractor::Equilibrium);
+}
+
+/// A cycle beside a variable that decays as fast as the cycle's last way in.
+struct Beside(Heteroclinic);
+motiform_models::plain!(Beside, 4);
+impl<T: Scalar> VectorField<T> for Beside {
+    fn eval(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        self.0.eval(t, &u[..3], &mut du[..3]);
+        du[3] = -u[3];
+    }
+}
+
+/// Where rests double, the way out of a saddle is too small for a number after a few of them: this is no start of exact symmetry.
+#[test]
+fn an_orbit_whose_coordinates_vanish_between_saddles_is_not_at_rest() {
+    let body = Beside(Heteroclinic { b: 0.5, c: 2.0 });
+    for start in [[0.9, 0.2, 0.1, 0.3], [0.1, 0.5, -0.3, 0.2], [-0.4, 0.7, 0.2, 0.1], [0.3, -0.3, 0.6, 0.9]] {
+        for first_look in [ORDINARY.first_look, 2000.0] {
+            let seen = named(&body, &start, &Settings { first_look, ..ORDINARY });
+            println!("{:?} t {:.0}: {}", seen.attractor, seen.time, seen.why);
+            assert!(matches!(seen.attractor, Attractor::Heteroclinic | Attractor::Unknown), "{}", seen.why);
+        }
+    }
+    // a start in an invariant plane stays there
+    verdict(&body, &[0.9, 0.2, 0.0, 0.3], Attractor::Unstable);
 }
 
 #[test]

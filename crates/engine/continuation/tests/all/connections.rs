@@ -56,6 +56,37 @@ impl<T: Scalar> VectorField<T> for Pendulum {
     }
 }
 
+/// The pendulum beside a variable that neither acts on it nor is acted on, `z' = -rate (z - 0.3)`.
+struct Beside {
+    pendulum: Pendulum,
+    rate: f64,
+}
+motiform_models::plain!(Beside, 4);
+impl<T: Scalar> VectorField<T> for Beside {
+    fn eval(&self, t: T::Real, u: &[T], du: &mut [T]) {
+        self.pendulum.eval(t, &u[..3], &mut du[..3]);
+        du[3] = (u[3].constant(0.3) - u[3]) * self.rate;
+    }
+}
+
+/// The saddle quantity is that of the directions in which the orbit comes and goes.
+#[test]
+fn a_variable_in_which_the_orbit_rests_has_no_part_in_the_rates() {
+    let pendulum = |torque: f64| Pendulum { torque, damping: 0.1 };
+    let settings = Settings::over(1.5, 0.02);
+    let alone = whirling(0.1, 1.2, &settings);
+    for rate in [0.03, 5.0] {
+        let family = move |torque: f64| -> Body { Ok(Box::new(Beside { pendulum: pendulum(torque), rate })) };
+        let shape = settled(&Beside { pendulum: pendulum(1.2), rate }, &[1.0, 0.0, 12.0, 0.3], 60.0);
+        let guess =
+            PeriodicGuess { shape: &shape, time: std::f64::consts::TAU / 12.0, angle: 0.0, mirrored: false };
+        let found = connection(&family, 1.2, &guess, &settings).1;
+        near(found.parameter, alone.parameter, 1e-8);
+        near(found.quantity().unwrap(), alone.quantity().unwrap(), 1e-6);
+        assert_eq!(found.kind(), alone.kind(), "{found}");
+    }
+}
+
 fn whirling(damping: f64, from: f64, settings: &Settings) -> Connection {
     let family = move |torque: f64| -> Body { Ok(Box::new(Pendulum { torque, damping })) };
     let shape = settled(&Pendulum { torque: from, damping }, &[1.0, 0.0, from / damping], 60.0);

@@ -220,7 +220,7 @@ fn judged(point: &Point, next: impl Fn() -> Option<&'static str>) -> (Option<&'s
     let known = match normal_form(point).map(|form| form.1) {
         Some(NormalForm::Coefficient(found)) => match found.is_negative() {
             Some(is_negative) => Ok(critical(is_negative)),
-            None => Err("the coefficient is smaller than its error".to_owned()),
+            None => Err("the coefficient is not three times its error".to_owned()),
         },
         Some(NormalForm::Undetermined(why)) => next().ok_or_else(|| why.to_string()),
         None => next().ok_or_else(|| "no coefficient is computed for it".to_owned()),
