@@ -113,3 +113,29 @@ fn the_larger_error_counts() {
         assert!((width / (2.0 * 1.959_964 * error) - 1.0).abs() < 1e-3, "{i}: {width}");
     }
 }
+
+/// A zigzag, in which `z3: z1 z2` does nearly the same as `z3: z1^3`: where the only set lacks the second one, its error of the first is a
+/// small part of what is known of both; the interval holds the estimate beside it, too.
+#[test]
+fn a_term_that_stands_for_another_one_has_the_interval_of_both() {
+    let experiment = Experiment {
+        errors: vertex_noise(1.2),
+        frames: 250,
+        interval: 0.5,
+        ..Experiment::new(full(0.9, 0.1), 0.01, 300)
+    };
+    let library = motiform_inference::Library::tensor().select(&FULL).expect("terms");
+    let settings = Settings { library, ..Settings::default() };
+    let whole = fit(&[experiment.track()], &settings, &()).expect("it converges");
+    let kept: Vec<usize> = (0..FULL.len()).filter(|&i| whole.coefficients[i].name != "z3: z1^3").collect();
+    let names = kept.iter().map(|&i| whole.coefficients[i].name.clone()).collect();
+    let only = Subsets { ties: vec![Subset { names, kept, excess: 0.0 }], ..subsets(&whole) };
+    let all = averaged(&whole, &only);
+    let [low, high] = all.iter().find(|one| one.name == "z3: z1 z2").expect("the term").interval;
+    let beside = whole.coefficient("z3: z1 z2").expect("the term").estimate;
+    println!("{low} to {high}; beside the other one {beside:?}");
+    assert!(
+        low < beside.value && beside.value < high && high - low > beside.error,
+        "{low} {high} {beside:?}"
+    );
+}
