@@ -41,7 +41,7 @@ impl Handedness {
         self.p_value < DOUBTED_RATE
     }
 
-    /// Which imaginary parts the intervals exclude, as a clause.
+    /// The imaginary parts that the intervals exclude, as a clause.
     #[must_use]
     pub fn excluded_parts(&self) -> String {
         if !(self.excluded > 0.0 && self.excluded < 1.0) {

@@ -4,7 +4,7 @@ use super::{RelativeEquilibrium, linearisation};
 use crate::linear::eigenvalues;
 use motiform_dynamics::Equivariant;
 
-/// What starts have at least, and what has been lost at most: far above and below everything between.
+/// Least size of a coordinate at the start, and largest size of one that has been lost.
 const SIZES: [f64; 2] = [1e-200, 1e-300];
 
 impl RelativeEquilibrium {
