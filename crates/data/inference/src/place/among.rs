@@ -77,8 +77,7 @@ fn of_sets(whole: &Fit, selection: &Selection, plane: Plane) -> Vec<(f64, Option
     let place = |name| whole.coefficients.iter().position(|c| c.name == name && !c.imaginary);
     let needed: Vec<usize> = names.filter_map(place).collect();
     let scatter = Scatter::of(whole);
-    let value = |_: usize, set: &Conditional| located(whole, plane, set, &scatter);
-    over_sets(whole, &selection.subsets, &[needed], value).into_iter().flatten().collect()
+    over_sets(whole, &selection.subsets, &needed, |set| located(whole, plane, set, &scatter))
 }
 
 /// The coordinates with errors to first order: derivatives by differences of a hundredth of a standard error.

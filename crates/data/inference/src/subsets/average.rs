@@ -34,8 +34,8 @@ pub struct Averaged {
 /// dropped, and may be what it is estimated to be. So its interval is what the data say of it beside the
 /// others of the set.
 ///
-/// Nor is it evidence of what the others are: where two terms do nearly the same, the set with one of them alone knows it far too well
-/// (in short zigzags `z3: z1 z2` stands for `z3: z1^3`, too, and is a quarter off). So each set counts beside its extensions by one more
+/// Nor is it evidence of what the others are: where two terms are nearly collinear, the error of one without the other is far too small
+/// (in short zigzags `z3: z1 z2` without `z3: z1^3` is a quarter off). So each set counts beside its extensions by one more
 /// term of the coefficient's equation, with the weight `exp((gain - 2)/2)` of Akaike's criterion relative to its own.
 ///
 /// Where the sets without a term have more than a tail of the weight, 0 is among what the data allow, and the interval reaches to it. A

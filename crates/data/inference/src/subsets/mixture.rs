@@ -1,6 +1,6 @@
 //! Numbers over all sets of terms that the data do not tell apart.
 
-use super::{Conditional, Subsets};
+use super::{Conditional, Subset, Subsets};
 use crate::Fit;
 use nalgebra::{DMatrix, DVector};
 
@@ -73,28 +73,18 @@ impl Scatter {
 /// A value of every tied set, with the weight `exp(-excess/2)`: the best set has 1.
 ///
 /// The value of a set follows from the estimates and errors that it has from the fit with all terms, the others set to 0 (no set is
-/// fitted again). One that needs coefficients which a set does not have is taken of the set with these added. The outer list is that of
-/// `needed`: one value for each list of coefficients that a value needs.
+/// fitted again). Of a set that lacks coefficients which the value needs, it is taken with these added.
 pub(crate) fn over_sets<T>(
     whole: &Fit,
     subsets: &Subsets,
-    needed: &[Vec<usize>],
-    value: impl Fn(usize, &Conditional) -> T,
-) -> Vec<Vec<(f64, T)>> {
-    let all = whole.coefficients.len();
+    needed: &[usize],
+    value: impl Fn(&Conditional) -> T,
+) -> Vec<(f64, T)> {
     let full = Conditional::new(&whole.natural.coefficients, whole.covariance());
-    let mut values: Vec<Vec<(f64, T)>> = needed.iter().map(|_| Vec::new()).collect();
-    for set in &subsets.ties {
-        let weight = libm::exp(-0.5 * set.excess);
-        let own = full.without((0..all).filter(|i| !set.kept.contains(i)));
-        for (number, (needed, values)) in needed.iter().zip(&mut values).enumerate() {
-            if needed.iter().all(|i| set.kept.contains(i)) {
-                values.push((weight, value(number, &own)));
-                continue;
-            }
-            let dropped = |i: &usize| !set.kept.contains(i) && !needed.contains(i);
-            values.push((weight, value(number, &full.without((0..all).filter(dropped)))));
-        }
-    }
-    values
+    let of_set = |set: &Subset| {
+        let dropped = |i: &usize| !set.kept.contains(i) && !needed.contains(i);
+        let own = full.without((0..whole.coefficients.len()).filter(dropped));
+        (libm::exp(-0.5 * set.excess), value(&own))
+    };
+    subsets.ties.iter().map(of_set).collect()
 }

@@ -114,8 +114,8 @@ fn the_larger_error_counts() {
     }
 }
 
-/// A zigzag, in which `z3: z1 z2` does nearly the same as `z3: z1^3`: where the only set lacks the second one, its error of the first is a
-/// small part of what is known of both; the interval holds the estimate beside it, too.
+/// In a zigzag `z3: z1 z2` and `z3: z1^3` are nearly collinear. A set without the second term has too small an error of the first one; the
+/// interval also contains the estimate that the first term has with both in the model.
 #[test]
 fn a_term_that_stands_for_another_one_has_the_interval_of_both() {
     let experiment = Experiment {
