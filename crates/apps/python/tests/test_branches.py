@@ -79,3 +79,10 @@ def test_curves_of_other_kinds_are_refused() -> None:
         body.curves(["hopff"], ("kappa2", 0.3, 1.6), ("kappa3", 0.02, 0.3))
     with pytest.raises(ValueError, match="two different parameters"):
         body.curves("hopf", ("kappa2", 0.3, 1.6), ("kappa2", 0.02, 2.0))
+
+
+def test_branches_of_handed_bodies_say_to_which_side_they_turn() -> None:
+    found = motiform.preset("chiral").branches(("omega", 0.02, 0.2), branches=1)
+    courses = set(found.points["course"])
+    assert courses and courses <= {"clockwise", "anticlockwise", ""}
+    assert courses & {"clockwise", "anticlockwise"}

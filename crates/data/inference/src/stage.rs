@@ -9,7 +9,7 @@ use crate::filter::{Evaluation, Frame, NOISES, Problem, Want, evaluate};
 use crate::fit::{problem, refit};
 use crate::{Fit, Result, Settings, Track, observation};
 use motiform_dynamics::Watch;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use serde::{Deserialize, Serialize};
 
 /// Step of the differences, in natural units of the velocity.
@@ -82,7 +82,8 @@ pub struct StageVelocity {
 /// The velocity of the stage of each track, by the score test: no fit is made.
 ///
 /// With the scores `s_k = dl_k/du` of the frames at `u = 0`, and the rest `r_k` that their regression on the
-/// scores of coefficients and noise leaves, `V = sum r_k r_k^T`: the sum `S` of `s_k` gives `S^T V^-1 S`,
+/// scores of coefficients and noise leaves (over the frames of all tracks, `s_k` being 0 in the others),
+/// `V = sum r_k r_k^T`: the sum `S` of `s_k` gives `S^T V^-1 S`,
 /// chi-square with two degrees of freedom, and `u = V^-1 S`. Derivatives by `u` are differences of
 /// likelihoods and of squares of innovations. `None` where the motion of the cell takes any velocity up, or
 /// the filter diverges.
@@ -95,7 +96,8 @@ pub struct StageVelocity {
 /// # Checked by  `tests/all/stage.rs`: velocities that were added, and p-values without one
 pub fn stage_velocities(tracks: &[Track], fit: &Fit) -> Result<Vec<Option<StageVelocity>>> {
     observation::check(tracks, fit.library.modes)?;
-    Ok(tracks.iter().map(|track| Score::of(track, fit, Beside::Stage)?.velocity(fit)).collect())
+    let Some(fitted) = Fitted::of(tracks, fit) else { return Ok(vec![None; tracks.len()]) };
+    Ok((0..tracks.len()).map(|k| Score::of(&fitted, k, fit, Beside::Stage)?.velocity(fit)).collect())
 }
 
 /// A fit with the velocities of the stage that have the highest likelihood.
@@ -131,9 +133,10 @@ fn with(
     let mut best = (vec![vec![0.0; beside.count()]; tracks.len()], tracks.to_vec(), fit.clone());
     let mut share = 1.0;
     for _ in 0..MOST_STEPS {
+        let Some(fitted) = Fitted::of(&best.1, &best.2) else { break };
         let mut next = best.clone();
         for (k, track) in best.1.iter().enumerate() {
-            let Some(step) = Score::of(track, &best.2, beside).and_then(|score| score.step()) else {
+            let Some(step) = Score::of(&fitted, k, &best.2, beside).and_then(|score| score.step()) else {
                 continue;
             };
             let step: Vec<f64> =
@@ -172,6 +175,45 @@ pub fn handed_beside(
     Ok(chi_square_tail(ratio.max(0.0), handed.coefficients.len() - real.coefficients.len()))
 }
 
+/// The scores of coefficients and noise, frame by frame, of all tracks of a fit: they vanish in sum over all of them, not of each.
+struct Fitted {
+    tracks: Vec<Still>,
+    /// Products of these scores, of all tracks.
+    products: DMatrix<f64>,
+    factor: Cholesky<f64, Dyn>,
+}
+
+/// A track with nothing beside its motion.
+struct Still {
+    problem: Problem,
+    /// Scores of the parameters that are free: a row for each frame.
+    scores: DMatrix<f64>,
+}
+
+impl Fitted {
+    /// `None` where the filter diverges.
+    fn of(tracks: &[Track], fit: &Fit) -> Option<Self> {
+        let settings = Settings { library: fit.library.clone(), handed: fit.handed, starts: Vec::new() };
+        let (n, theta) = (fit.coefficients.len(), fit.theta());
+        let free: Vec<usize> = (0..n + NOISES).filter(|i| *i < n || !fit.noise.at_bound[*i - n]).collect();
+        let still = |track: &Track| {
+            let problem = problem(std::slice::from_ref(track), &settings, &fit.scales);
+            let found = evaluate(&problem, &theta, Want::Exact, true);
+            let scores: Vec<&DVector<f64>> = found.scores.iter().flatten().collect();
+            let scores = DMatrix::from_fn(scores.len(), free.len(), |k, i| scores[k][free[i]]);
+            (found.value.is_finite() && problem.frames() > 0).then_some(Still { problem, scores })
+        };
+        let tracks: Vec<Still> = tracks.iter().map(still).collect::<Option<_>>()?;
+        let of = |still: &Still| still.scores.transpose() * &still.scores;
+        let products = tracks.iter().map(of).reduce(|sum, own| sum + own)?;
+        let mut ridged = products.clone();
+        for i in 0..ridged.nrows() {
+            ridged[(i, i)] *= 1.0 + RIDGE;
+        }
+        Some(Self { tracks, products, factor: ridged.cholesky()? })
+    }
+}
+
 /// The scores of a track where there is nothing beside its motion, in natural units.
 struct Score {
     /// Derivatives of the log-likelihood.
@@ -183,35 +225,31 @@ struct Score {
 }
 
 impl Score {
-    fn of(track: &Track, fit: &Fit, beside: Beside) -> Option<Self> {
-        let settings = Settings { library: fit.library.clone(), handed: fit.handed, starts: Vec::new() };
-        let (still, theta) = (problem(std::slice::from_ref(track), &settings, &fit.scales), fit.theta());
-        let at = |u: &[f64], want| {
-            let found = evaluate(&moved(&still, beside, u), &theta, want, true);
-            (found.value.is_finite() && still.frames() > 0).then_some(found)
+    /// Of one of the tracks of a fit. The regression is over the frames of all tracks, since all of them determine the coefficients: what
+    /// the scores of one track alone take up, the others may not allow.
+    fn of(fitted: &Fitted, track: usize, fit: &Fit, beside: Beside) -> Option<Self> {
+        let Still { problem, scores } = &fitted.tracks[track];
+        let (theta, count) = (fit.theta(), beside.count());
+        let at = |u: &[f64]| {
+            let found = evaluate(&moved(problem, beside, u), &theta, Want::Value, true);
+            found.value.is_finite().then_some(found)
         };
-        let count = beside.count();
-        let middle = at(&vec![0.0; count], Want::Exact)?;
         let of = |k: usize| {
             let aside = |by: f64| (0..count).map(|i| if i == k { by } else { 0.0 }).collect::<Vec<f64>>();
-            let sides = [at(&aside(STEP), Want::Value)?, at(&aside(-STEP), Want::Value)?];
+            let sides = [at(&aside(STEP))?, at(&aside(-STEP))?];
             Some(((sides[0].value - sides[1].value) / (2.0 * STEP), DVector::from_vec(frames(&sides))))
         };
         let all: Vec<(f64, DVector<f64>)> = (0..count).map(of).collect::<Option<_>>()?;
         let own = DMatrix::from_columns(&all.iter().map(|one| one.1.clone()).collect::<Vec<_>>());
-        let n = fit.coefficients.len();
-        let free = |i: &usize| *i < n || !fit.noise.at_bound[i - n];
-        let free: Vec<usize> = (0..n + NOISES).filter(free).collect();
-        let scores: Vec<&DVector<f64>> = middle.scores.iter().flatten().collect();
-        let others = DMatrix::from_fn(scores.len(), free.len(), |k, i| scores[k][free[i]]);
-        let mut products = others.transpose() * &others;
-        for i in 0..products.nrows() {
-            products[(i, i)] *= 1.0 + RIDGE;
+        let regression = fitted.factor.solve(&(scores.transpose() * &own));
+        let rest = &own - scores * &regression;
+        let mut left = rest.transpose() * &rest;
+        if fitted.tracks.len() > 1 {
+            let others = &fitted.products - scores.transpose() * scores;
+            left += regression.transpose() * others * &regression;
         }
-        let regression = products.cholesky()?.solve(&(others.transpose() * &own));
-        let rest = &own - others * regression;
         let slope = DVector::from_iterator(count, all.iter().map(|one| one.0));
-        Some(Self { slope, left: rest.transpose() * &rest, information: own.transpose() * &own })
+        Some(Self { slope, left, information: own.transpose() * &own })
     }
 
     /// The inverse of the information that is left; `None` where the motion of the cell takes some parameter up.

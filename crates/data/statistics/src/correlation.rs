@@ -1,6 +1,6 @@
 //! Autocorrelations of velocity, heading, speed and modes of the shape, with their correlation times.
 
-use crate::jackknife::{Sums, leave_out};
+use crate::jackknife::{Sums, jackknife, leave_out};
 use crate::lag_window::Integral;
 use crate::oscillation::oscillation;
 use crate::plateau::{Curves, Estimate, too_coarse};
@@ -67,6 +67,34 @@ pub(crate) fn memory(tracks: &Tracks) -> Result<usize> {
         }
     }
     Ok(longest / 2)
+}
+
+/// Mean correlation over the longest lags from which on a quantity is not forgotten within them.
+const KEPT: f64 = 0.05;
+
+/// A quantity that keeps a part of its correlation over the second half of the lags, and that part: the velocity may have a slow part as
+/// well, which a fast one hides. One that oscillates has no such part.
+///
+/// # Errors    none for samples that [`Tracks`] accepts
+pub(crate) fn kept(tracks: &Tracks) -> Result<Option<(Quantity, f64)>> {
+    for quantity in tracks.quantities() {
+        let products = Products::of(tracks, &quantity)?;
+        let curves = products.curves();
+        if products.steady(tracks, &quantity) || curves.least().is_some() {
+            continue;
+        }
+        let last = curves.longest();
+        let mean = |curve: &Vec<f64>| {
+            let part = &curve[last / 2..=last];
+            part.iter().sum::<f64>() / part.len() as f64 / curve[0]
+        };
+        let means: Vec<f64> = curves.values.iter().map(mean).collect();
+        let found = jackknife(means[0], &means[1..]);
+        if found.value > KEPT && found.lower() > 0.0 {
+            return Ok(Some((quantity, found.value)));
+        }
+    }
+    Ok(None)
 }
 
 /// [`autocorrelation`], its window at least so many samples.

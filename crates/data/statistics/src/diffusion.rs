@@ -119,6 +119,26 @@ impl Diffusion {
     }
 }
 
+impl Diffusion {
+    /// The coefficient with a doubt, where the body has a quantity that keeps this part of its correlation over the longest lags: motion
+    /// that is as slow may add to the coefficient, and a fast part of the velocity hides it.
+    ///
+    /// # Checked by  tests/all/diffusion.rs: the sum of a fast and a slow Ornstein-Uhlenbeck process
+    #[must_use]
+    pub(crate) fn beside(self, kept: Option<(Quantity, f64)>) -> Self {
+        let known = self.green_kubo.known().or(self.displacements.known()).is_some();
+        let doubt = kept.filter(|_| known && self.doubt.is_none()).map(|(quantity, part)| {
+            format!(
+                "{} keeps {:.0} % of its correlation over the longest lags: motion that is as slow may add to the coefficient, \
+                 unseen beside the fast one; record longer",
+                quantity.name(),
+                100.0 * part
+            )
+        });
+        Self { doubt: doubt.or(self.doubt), ..self }
+    }
+}
+
 /// Mean-square displacements at evenly spaced lags of the second half of a window.
 struct Line {
     dt: f64,

@@ -16,6 +16,7 @@ mod displacement;
 mod distribution;
 mod error;
 mod exponent;
+mod gapped;
 mod jackknife;
 mod lag_window;
 mod oscillation;
@@ -41,6 +42,7 @@ pub use displacement::{DisplacementPoint, MeanSquare, PathPiece, mean_square, me
 pub use distribution::{Bin, Histogram, histogram};
 pub use error::{Error, Result};
 pub use exponent::local_exponent;
+pub use gapped::GappedVectors;
 pub use jackknife::jackknife;
 pub use oscillation::Oscillation;
 pub use passage::{Passage, first_passages, radii};

@@ -83,7 +83,9 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let [mean_speed, square] = [1, 2].map(|power| moment(tracks, power));
     let rms_speed = square.map(|x| x.max(0.0).sqrt());
     let exponents = [true, false].map(|first| local_exponent(&displacement, first));
-    let diffusion = diffusion::remembering(tracks, memory)?.held_against(&exponents[1]);
+    let diffusion = diffusion::remembering(tracks, memory)?
+        .held_against(&exponents[1])
+        .beside(correlation::kept(tracks)?);
     let seen =
         Seen { speed: &rms_speed, diffusion: &diffusion.displacements, time: &autocorrelations[0].time };
     Ok(Statistics {

@@ -112,8 +112,9 @@ fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
     if let Some(option) = question.option {
         // values in units already have a step of 1, if they say none
         let step = said.step.or(said.applied.then_some(1.0));
-        let agrees = step.is_some_and(|step| (step / option - 1.0).abs() < AGREE);
-        if !agrees || unit != unit_of(question) {
+        let ratio = ratio(&unit, &unit_of(question));
+        let agrees = step.zip(ratio).is_some_and(|(step, ratio)| (step * ratio / option - 1.0).abs() < AGREE);
+        if !agrees {
             return Err(Error::Disagree {
                 file: question.file.to_owned(),
                 what: question.what,
@@ -125,6 +126,17 @@ fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
     }
     let factor = if said.applied { 1.0 } else { said.step.unwrap_or(1.0) };
     Ok(Use { factor, unit })
+}
+
+/// One unit in terms of another; `None` where they are not known to measure the same.
+fn ratio(one: &str, other: &str) -> Option<f64> {
+    const SIZES: [&[(&str, f64)]; 2] = [
+        &[("nm", 1e-3), ("um", 1.0), ("mm", 1e3)],
+        &[("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0)],
+    ];
+    let size = |of: &[(&str, f64)], name: &str| of.iter().find(|known| known.0 == name).map(|known| known.1);
+    let of = |of: &&[(&str, f64)]| Some(size(of, one)? / size(of, other)?);
+    if one == other { Some(1.0) } else { SIZES.iter().find_map(of) }
 }
 
 fn unit_of(question: &Question<'_>) -> String {

@@ -45,7 +45,7 @@ pub(super) fn segment(
     variation.start(start, &mut state);
     let mut orbit = begun(&variation, &state, flow)?;
     arrive(orbit.as_mut(), span, (state.len(), dim), (flow, neighbours.length), watch)?;
-    Ok(read(neighbours, orbit.state(), dim, taken(orbit.as_ref())))
+    Ok(read(neighbours, (start, orbit.state()), taken(orbit.as_ref())))
 }
 
 /// The flow from each of the nodes, each over `span`, with all its derivatives. The integration goes on from one to the next with the step
@@ -81,7 +81,7 @@ pub(super) fn segments<'x>(
         let (end, sizes) = ((count + 1) as f64 * span, (state.len(), node.len()));
         arrive(orbit.as_mut(), end, sizes, (flow, neighbours.length), watch)?;
         let steps = taken(orbit.as_ref());
-        out.push(read(neighbours, orbit.state(), node.len(), steps - before));
+        out.push(read(neighbours, (node, orbit.state()), steps - before));
         before = steps;
         going = Some(orbit);
     }
@@ -94,14 +94,15 @@ fn taken(orbit: &(dyn Integration + '_)) -> u64 {
     work.steps + work.rejected
 }
 
-/// The reading of the end of a variation that took so many steps.
-fn read(neighbours: &Neighbours, end: &[f64], dim: usize, steps: u64) -> Segment {
+/// The reading of start and end of a variation that took so many steps.
+fn read(neighbours: &Neighbours, (start, end): (&[f64], &[f64]), steps: u64) -> Segment {
+    let dim = start.len();
     let (shape, vectors) = end.split_at(dim);
-    let (tangents, by_parameter) = vectors.split_at(dim * dim);
-    let tangents = tangents.iter().map(|x| x / neighbours.length).collect();
+    let by_parameter = Variation::by_parameter(neighbours, start, vectors);
+    let tangents = vectors[..dim * dim].iter().map(|x| x / neighbours.length).collect();
     let mut slope = vec![0.0; dim];
     VectorField::<f64>::eval(neighbours.body.as_ref(), 0.0, shape, &mut slope);
-    Segment { end: shape.to_vec(), slope, tangents, by_parameter: by_parameter.to_vec(), steps }
+    Segment { end: shape.to_vec(), slope, tangents, by_parameter, steps }
 }
 
 /// The same by the implicit method, whose steps do not shorten with the stiff parts of vectors, from the first step to try; and the step

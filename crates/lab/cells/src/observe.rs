@@ -35,6 +35,10 @@ const CLEAR: f64 = 4.0;
 const MOST_WOBBLE: f64 = 0.05;
 /// Largest scatter of heading (rad), and of speed and turning rate relative to their means, of a steady motion.
 const STEADY: f64 = 0.25;
+/// Largest share of the time without a turn on a circle: where noise scatters the turns by their mean, it is 0.23.
+const MOST_STRAIGHT: f64 = 0.3;
+/// Smallest scatter of the heading (rad) of a body that goes to and fro, and in units of the error of one heading.
+const SWING: (f64, f64) = (0.05, 2.0);
 /// Net rotations per period below this (rad) are none.
 const NO_TURN: f64 = 0.1;
 /// Share of resamples that must give the same name.
@@ -152,7 +156,7 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
     let steady_speed = m.speed_scatter < STEADY;
     if steady_speed
         && m.heading_scatter < STEADY
-        && m.turning.abs() < CLEAR * m.turning_error
+        && m.turning.abs() <= CLEAR * m.turning_error
         && m.directness > 0.97
     {
         if m.shape_wobble > (MOST_WOBBLE * radius).max(m.mean_shape) {
@@ -177,6 +181,14 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
             let why = format!("it turns steadily, but {turns:.1} turns were seen; {LEAST_TURNS} are needed");
             return (None, why);
         }
+        if m.straight_share > MOST_STRAIGHT {
+            let why = format!(
+                "{turns:.1} turns, but not at a steady rate: the heading keeps its direction in {:.0} % of the time, as on legs \
+                 between corners",
+                100.0 * m.straight_share
+            );
+            return (None, why);
+        }
         let why = format!(
             "{turns:.1} turns at a steady rate, {} rad per unit of time, and a steady speed",
             with_error(m.turning, m.turning_error)
@@ -184,7 +196,7 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
         return (Some(Regime::Circular), why);
     }
     match repeats {
-        Some(repeats) => repeating(repeats),
+        Some(repeats) => repeating(repeats, m),
         None => {
             let why = "neither steady nor repeating: noise and chaos cannot be told apart by samples alone; equations \
              fitted to them can decide";
@@ -221,7 +233,7 @@ fn full(circles: i64) -> String {
     }
 }
 
-fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
+fn repeating(repeats: &Repeats, m: &Measures) -> (Option<Regime>, String) {
     let Repeats { period, periods, likeness, rotation, rotation_error, .. } = repeats;
     let (period, turn) = (four_digits(*period), with_error(*rotation, *rotation_error));
     if *periods < LEAST_REPEATS {
@@ -244,6 +256,13 @@ fn repeating(repeats: &Repeats) -> (Option<Regime>, String) {
             let why = format!(
                 "{seen}, turned by {left} rad each time: quasi-periodic motion, or oscillations that noise sustains about a steady \
                  one; equations fitted to them can decide"
+            );
+            (None, why)
+        }
+        (true, 0) if m.heading_scatter < SWING.0.max(SWING.1 * m.heading_error()) => {
+            let why = format!(
+                "{seen}, but the heading keeps its direction within {} rad: the shape repeats, or the pixels that its outline follows",
+                four_digits(m.heading_scatter)
             );
             (None, why)
         }

@@ -7,7 +7,6 @@
 
 mod envelope;
 mod record;
-mod series;
 mod simulated;
 mod statistics;
 

@@ -1,6 +1,8 @@
 //! Populations of cells, as text.
 
-use motiform_cells::{FittedPopulation, NameShare, ObservedPopulation, OverCells, PopulationNumbers, Units};
+use motiform_cells::{
+    FittedPopulation, NameShare, ObservedPopulation, OverCells, PopulationNumbers, Units, Withheld,
+};
 use motiform_statistics::four_digits;
 use std::fmt::{Result, Write};
 
@@ -15,6 +17,9 @@ pub(crate) fn observed(
     for number in &numbers.numbers {
         let quantity = number.quantity;
         line(&mut text, quantity.symbol, &number.over, &units.unit(quantity.dimension))?;
+    }
+    for Withheld { quantity, why } in &numbers.withheld {
+        writeln!(text, "  {:<16} not given: {why}", quantity.symbol)?;
     }
     Ok(text)
 }

@@ -1,6 +1,6 @@
 //! `motiform continue` lists the same special points whatever range or start they are found from, and invents none.
 
-use crate::common::Folder;
+use crate::common::{Folder, keys};
 use serde_json::Value;
 
 /// A special point: its kind, the value of the parameter, and its error where it is extrapolated.
@@ -11,13 +11,17 @@ fn follow(folder: &Folder, arguments: &str) -> Value {
     folder.run(&format!("continue {arguments} --json")).expect(0).json()
 }
 
-/// The special points of all branches, each once: a branch may meet another one at its end.
+/// The special points of all branches, each once: a branch may meet another one at its end. No parameter can have the name of another
+/// number.
 fn special(json: &Value, along: &str) -> Vec<Found> {
     let branches = json["branches"].as_array().expect("branches");
     let entries = branches.iter().flat_map(|branch| branch["special"].as_array().expect("a list"));
     let mut all: Vec<Found> = entries
         .map(|entry| {
             let value = entry[along].as_f64().expect("a number");
+            for key in keys(entry).into_iter().filter(|key| *key != along) {
+                assert!(motiform_models::amplitudes::reserved(key).is_some(), "{key} can be a parameter");
+            }
             (
                 entry["kind"].as_str().expect("a name").to_owned(),
                 value,
@@ -206,5 +210,27 @@ fn a_circle_that_begins_to_turn_begins_a_steady_motion() {
         assert!(same(&special(&json, "mu"), &expected(&[("hopf", 0.0)]), 1e-9), "{options} {json}");
         let stable: Vec<f64> = serde_json::from_value(branches[1]["stable"][0].clone()).expect("a range");
         assert!(stable[0].abs() < 1e-6 && (stable[1] - 1.0).abs() < 1e-9, "{options} {json}");
+    }
+}
+
+/// The subcritical Hopf bifurcation and the fold of Bautin's normal form, at 0 and -1/16, wherever the origin lies, and in any unit of
+/// length.
+#[test]
+fn the_origin_does_not_matter() {
+    let folder = Folder::new();
+    for (name, [x, y], length) in [
+        ("near", ["x", "y"], 1.0),
+        ("far", ["(x-3)", "(y+4)"], 1.0),
+        ("small", ["(x-0.01)", "(y-0.02)"], 0.01),
+    ] {
+        let square = format!("({x}*{x}+{y}*{y})/{}", length * length);
+        let growth = format!("(m+0.5*{square}-{square}*{square})");
+        let turning = format!("(1.3+0.3*{square})");
+        let file = format!("{name}.toml");
+        let rates = [format!("{growth}*{x}-{turning}*{y}"), format!("{growth}*{y}+{turning}*{x}")];
+        planar(&folder, &file, "m = -0.3", [&rates[0], &rates[1]]);
+        let found = special(&follow(&folder, &format!("{file} --along m=-0.5:0.5")), "m");
+        let known = expected(&[("fold", -0.0625), ("hopf", 0.0)]);
+        assert!(same(&found, &known, 1e-9), "{name}: {found:?}");
     }
 }

@@ -102,7 +102,7 @@ class Branches:
 
 
 _READ: dict[str, Callable[[str], Any]] = {
-    "motion": str, "form": str, "special": str, "kind": str, "codimension_2": str, "branch": int, "curve": int,
+    "motion": str, "form": str, "course": str, "special": str, "kind": str, "codimension_2": str, "branch": int, "curve": int,
     "point": int, "unstable": int, "stable": lambda text: text == "1",
     "regime": str, "cell": int, "rows": int, "computed": lambda text: text == "1",
 }

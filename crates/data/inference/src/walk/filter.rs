@@ -44,7 +44,7 @@ impl Transition {
 }
 
 /// 2 h - 3 + 4 e^-h - e^-2h, by its series where that cancels.
-fn spread(h: f64) -> f64 {
+pub(super) fn spread(h: f64) -> f64 {
     if h > 0.2 {
         return 2.0 * h - 3.0 + 4.0 * libm::exp(-h) - libm::exp(-2.0 * h);
     }

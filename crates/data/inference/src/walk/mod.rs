@@ -1,6 +1,7 @@
 //! The persistent random walk with errors of the positions: the first null of every law of motion.
 
 mod filter;
+mod ridge;
 mod table;
 
 use crate::warnings::ljung_box;
@@ -67,9 +68,9 @@ impl PersistentWalk {
 ///
 /// so that <|r(t) - r(0)|^2> = 2 S^2 P (t - P (1 - e^{-t/P})) + 4 sigma^2. The process is linear: a Kalman
 /// filter with the exact transition gives the exact likelihood at any spacing of the times. It depends on a
-/// scale that is known in closed form, on P, and on the ratio of error and motion; these two are looked for
-/// on grids that narrow, and from the best walk of the last one in steps that shrink; intervals are those of the profile of the
-/// likelihood on the last grid (1.92 below its maximum, more of short records).
+/// scale that is known in closed form, on P, and on the ratio of error and motion: the best ratio is found at each of some P, which narrow,
+/// and the best walk from there in steps that shrink; intervals are those of the profile of the likelihood (1.92 below its maximum, more
+/// of short records) over these P and ratios around the best one of each.
 ///
 /// `None` with fewer than 12 steps, or where nothing moves at all.
 ///

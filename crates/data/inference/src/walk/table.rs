@@ -1,21 +1,18 @@
-//! The likelihood of persistent random walks on a grid that narrows, and its profiles.
+//! The likelihood of persistent random walks along its ridge, and its profiles.
 
-use super::filter::{Sums, sums};
+use super::ridge::{Entry, Places};
 use super::{Bounded, Fix};
 use std::f64::consts::LN_10;
 
-/// Log-likelihood below the maximum that the last grid reaches.
+/// Log-likelihood below the maximum that walks are looked for.
 const REACH: f64 = 6.0;
-/// Points of the first grid, per decade, and of the later ones, along each side.
+/// Persistence times of the first round, per decade, and of the later ones.
 const COARSE: f64 = 3.0;
-const FINE: [usize; 2] = [21, 17];
+const FINE: usize = 25;
 /// Rounds of narrowing at most.
 const ROUNDS: usize = 4;
 /// Persistence times that are looked at: from this part of the shortest interval to this multiple of the longest piece.
 const ENDS: (f64, f64) = (0.03, 30.0);
-/// Decades of the variance of an error relative to the mean square displacement of a coordinate in an
-/// interval; beside them no error at all.
-const ERRORS: (f64, f64) = (-3.0, 4.0);
 
 /// The last step of the logarithm of the persistence time.
 const CLOSE: f64 = 1e-6;
@@ -29,35 +26,18 @@ pub(super) enum Known {
     Error,
 }
 
-/// A walk of the grid: persistence time, variance of the error relative to that of the velocity, and its sums.
-#[derive(Debug, Clone, Copy)]
-struct Entry {
-    persistence: f64,
-    error: f64,
-    sums: Sums,
-}
-
-impl Entry {
-    fn highest(&self) -> f64 {
-        self.sums.log_likelihood(self.sums.scale())
-    }
-
-    fn value(&self, known: Known) -> f64 {
-        self.value_at(known, self.sums.scale())
-    }
-
-    /// The value where the velocity has this variance in each coordinate.
-    fn value_at(&self, known: Known, variance: f64) -> f64 {
-        match known {
-            Known::Persistence => self.persistence,
-            Known::Speed => (2.0 * variance).sqrt(),
-            Known::Diffusion => variance * self.persistence,
-            Known::Error => (variance * self.error).sqrt(),
-        }
+/// The value of a walk where the velocity has this variance in each coordinate.
+fn value_at(walk: &Entry, known: Known, variance: f64) -> f64 {
+    match known {
+        Known::Persistence => walk.persistence,
+        Known::Speed => (2.0 * variance).sqrt(),
+        Known::Diffusion => variance * walk.persistence,
+        Known::Error => (variance * walk.error).sqrt(),
     }
 }
 
-/// The walks of the last grid.
+/// The walks around the ridge of the likelihood: at each of some persistence times the error of highest likelihood, and errors around it.
+/// The ridge is narrow where errors are small: a grid of fixed errors would pass it by.
 pub(super) struct Table {
     entries: Vec<Entry>,
     best: Entry,
@@ -73,27 +53,14 @@ impl Table {
         if !(interval.is_finite() && longest > 0.0) {
             return None;
         }
+        let places = Places { pieces, interval };
         let ends = [ENDS.0 * interval, ENDS.1 * longest].map(libm::log);
-        let decades = ((ends[1] - ends[0]) / LN_10 * COARSE).ceil() as usize;
-        let errors = ((ERRORS.1 - ERRORS.0) * 0.5 * COARSE).ceil() as usize;
-        let mut area = [ends, [ERRORS.0 * LN_10, ERRORS.1 * LN_10]];
-        let mut size = [decades + 1, errors + 1];
-        let mut entries = Vec::new();
-        for _ in 0..ROUNDS {
-            entries = grid(pieces, interval, area, size);
-            let narrow = narrowed(&entries, interval, area, size)?;
-            let shrunk = (0..2).any(|k| narrow[k][1] - narrow[k][0] < 0.5 * (area[k][1] - area[k][0]));
-            (area, size) = (narrow, FINE);
-            if !shrunk {
-                break;
-            }
-        }
-        let best = *entries.iter().max_by(|a, b| a.highest().total_cmp(&b.highest()))?;
-        if !best.highest().is_finite() {
-            return None;
-        }
-        let steps = [0, 1].map(|k| (area[k][1] - area[k][0]) / (size[k] - 1) as f64);
-        let best = refined(pieces, interval, (best, steps), ends);
+        let (ridge, step) = ridge(&places, ends)?;
+        let best = *ridge.iter().max_by(|a, b| a.highest().total_cmp(&b.highest()))?;
+        let best = refined(&places, best, step, ends);
+        let least = best.highest() - REACH;
+        let mut entries: Vec<Entry> = ridge.iter().flat_map(|walk| places.around(walk, least)).collect();
+        entries.extend(ridge);
         entries.push(best);
         Some(Self { entries, best })
     }
@@ -110,10 +77,10 @@ impl Table {
     /// The value of highest likelihood with the ends of its interval: where the profile of the likelihood is
     /// [`drop`] below its maximum; `None` where what was looked at ends before.
     ///
-    /// The profile is the upper concave hull of the likelihoods of all walks of the grid, each at its own
+    /// The profile is the upper concave hull of the likelihoods of all walks of the table, each at its own
     /// value and at others that other variances of its velocity give.
     pub(super) fn bounded(&self, known: Known) -> Bounded {
-        let value = self.best.value(known);
+        let value = value_at(&self.best, known, self.best.sums.scale());
         let hull = hull(self.points(known));
         let level = self.highest() - drop(self.best.sums.count);
         let crossing = |a: &[f64; 2], b: &[f64; 2]| a[0] + (b[0] - a[0]) * (level - a[1]) / (b[1] - a[1]);
@@ -129,7 +96,7 @@ impl Table {
         }
     }
 
-    /// Coordinate and log-likelihood of walks: of each of the grid at its best variance of the velocity and at others.
+    /// Coordinate and log-likelihood of walks: of each at its best variance of the velocity and at others.
     fn points(&self, known: Known) -> Vec<[f64; 2]> {
         let unit = (2.0 / self.best.sums.count).sqrt();
         let steps = if known == Known::Persistence { 0..=0 } else { -5..=5 };
@@ -138,8 +105,10 @@ impl Table {
             let variance = entry.sums.scale();
             for step in steps.clone() {
                 let other = variance * libm::exp(0.7 * unit * f64::from(step));
-                points
-                    .push([known.coordinate(entry.value_at(known, other)), entry.sums.log_likelihood(other)]);
+                points.push([
+                    known.coordinate(value_at(entry, known, other)),
+                    entry.sums.log_likelihood(other),
+                ]);
             }
         }
         points.retain(|point| point[0].is_finite() && point[1].is_finite());
@@ -185,28 +154,40 @@ fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     kept
 }
 
-/// The walk of highest likelihood near the best one of a grid: from it in steps along each side, halved where none leads higher. An
-/// error of 0 stays 0.
-fn refined(
-    pieces: &[Vec<Fix>],
-    interval: f64,
-    (mut best, mut steps): (Entry, [f64; 2]),
-    ends: [f64; 2],
-) -> Entry {
-    let entry = |[time, error]: [f64; 2]| {
-        let persistence = libm::exp(time);
-        let error = libm::exp(error) * step_variance(persistence, interval); // exp(-inf) = 0: no error
-        Entry { persistence, error, sums: sums(pieces, persistence, error) }
-    };
-    let relative = libm::log(best.error / step_variance(best.persistence, interval));
-    let mut at = [libm::log(best.persistence), relative];
-    let reach = [ends, [ERRORS.0 * LN_10, ERRORS.1 * LN_10]];
+/// Walks along the ridge: those of highest likelihood at persistence times between these ends (logarithms) that are within reach of the
+/// maximum, and their step. `None` where none has a likelihood.
+fn ridge(places: &Places<'_>, ends: [f64; 2]) -> Option<(Vec<Entry>, f64)> {
+    let (mut area, mut count) = (ends, ((ends[1] - ends[0]) / LN_10 * COARSE).ceil() as usize + 1);
+    let mut walks: Vec<Entry> = Vec::new();
+    let mut step = 0.0;
+    for _ in 0..ROUNDS {
+        step = (area[1] - area[0]) / (count - 1) as f64;
+        walks = (0..count).map(|k| places.ridge(area[0] + step * k as f64)).collect();
+        let highest = walks.iter().map(Entry::highest).filter(|l| l.is_finite()).reduce(f64::max)?;
+        let within = || walks.iter().filter(|walk| walk.highest() > highest - REACH);
+        let times = within().map(|walk| libm::log(walk.persistence));
+        let found = times.fold([f64::INFINITY, f64::NEG_INFINITY], |f, t| [f[0].min(t), f[1].max(t)]);
+        // one step wider, so that the profile falls below what is asked for unless the ends are in the way
+        let narrow = [(found[0] - step).max(ends[0]), (found[1] + step).min(ends[1])];
+        if narrow[1] - narrow[0] > 0.5 * (area[1] - area[0]) && count >= FINE {
+            break;
+        }
+        (area, count) = (narrow, FINE);
+    }
+    Some((walks, step))
+}
+
+/// The walk of highest likelihood near this one: from it in steps along both sides, halved where none leads higher. An error of 0 stays 0.
+fn refined(places: &Places<'_>, mut best: Entry, step: f64, ends: [f64; 2]) -> Entry {
+    let mut at = [libm::log(best.persistence), places.relative(&best)];
+    let reach = [ends, Places::errors()];
     let sides = if best.error > 0.0 { 2 } else { 1 };
+    let mut steps = [step, step];
     while steps[0] > CLOSE {
         let tried = (0..sides).flat_map(|side| [-1.0, 1.0].map(|sign| (side, sign))).map(|(side, sign)| {
             let mut other = at;
             other[side] = (at[side] + sign * steps[side]).clamp(reach[side][0], reach[side][1]);
-            (entry(other), other)
+            (places.walk(other), other)
         });
         match tried.max_by(|a, b| a.0.highest().total_cmp(&b.0.highest())) {
             Some((higher, place)) if higher.highest() > best.highest() => (best, at) = (higher, place),
@@ -214,50 +195,4 @@ fn refined(
         }
     }
     best
-}
-
-/// Points of a side.
-fn side([from, to]: [f64; 2], count: usize) -> impl Iterator<Item = f64> + Clone {
-    (0..count).map(move |k| from + (to - from) * k as f64 / (count - 1) as f64)
-}
-
-/// All walks of a grid, by persistence time; the first of each has no error where the grid begins at the least one.
-fn grid(pieces: &[Vec<Fix>], interval: f64, area: [[f64; 2]; 2], size: [usize; 2]) -> Vec<Entry> {
-    let without = area[1][0] <= ERRORS.0 * LN_10;
-    let mut entries = Vec::with_capacity(size[0] * (size[1] + 1));
-    for persistence in side(area[0], size[0]).map(libm::exp) {
-        let unit = step_variance(persistence, interval);
-        let errors = without.then_some(0.0).into_iter().chain(side(area[1], size[1]).map(libm::exp));
-        for error in errors.map(|relative| relative * unit) {
-            entries.push(Entry { persistence, error, sums: sums(pieces, persistence, error) });
-        }
-    }
-    entries
-}
-
-/// Mean square displacement of a coordinate in an interval, of a walk whose velocity has unit variance.
-fn step_variance(persistence: f64, interval: f64) -> f64 {
-    let h = interval / persistence;
-    // h - 1 + e^-h, whose series is taken where it cancels
-    let rise = if h < 1e-3 { 0.5 * h * h * (1.0 - h / 3.0) } else { h + libm::expm1(-h) };
-    2.0 * persistence * persistence * rise
-}
-
-/// The part of the area whose likelihood is within reach of the maximum, one step wider on each side.
-fn narrowed(
-    entries: &[Entry],
-    interval: f64,
-    area: [[f64; 2]; 2],
-    size: [usize; 2],
-) -> Option<[[f64; 2]; 2]> {
-    let highest = entries.iter().map(Entry::highest).filter(|l| l.is_finite()).reduce(f64::max)?;
-    let step = [0, 1].map(|k| (area[k][1] - area[k][0]) / (size[k] - 1) as f64);
-    let mut found = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-    for entry in entries.iter().filter(|entry| entry.highest() > highest - REACH) {
-        let relative = libm::log(entry.error / step_variance(entry.persistence, interval));
-        for (side, at) in found.iter_mut().zip([libm::log(entry.persistence), relative.max(area[1][0])]) {
-            *side = [side[0].min(at), side[1].max(at)];
-        }
-    }
-    Some([0, 1].map(|k| [(found[k][0] - step[k]).max(area[k][0]), (found[k][1] + step[k]).min(area[k][1])]))
 }

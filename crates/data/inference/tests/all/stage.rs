@@ -79,6 +79,41 @@ fn p_values_without_a_velocity_are_uniform() {
     assert!(below(0.05) <= 6 && (10..=30).contains(&below(0.5)), "{p:?}");
 }
 
+/// Four zigzags of one law that are fitted together, each in a direction of its own: so are the p-values of each track there, and a
+/// velocity that one of them has is its own.
+#[test]
+fn p_values_of_tracks_that_are_fitted_together_are_uniform() {
+    let settings =
+        Settings { library: Library::tensor().select(&FULL).expect("terms"), ..Settings::default() };
+    let group = |seed: u64| -> Vec<Track> {
+        (0..4).map(|k| cell(full(0.9, 0.1), 200, 5000 + 10 * seed + k)).collect()
+    };
+    let p_values = |seed: u64| -> Vec<f64> {
+        let tracks = group(seed);
+        let found = fit(&tracks, &settings, &()).expect("a fit");
+        let all = stage_velocities(&tracks, &found).expect("tracks");
+        all.into_iter().map(|one| one.expect("told").p_value).collect()
+    };
+    let p: Vec<f64> = (0..12).flat_map(p_values).collect();
+    let below = |level: f64| p.iter().filter(|p| **p < level).count();
+    println!("{} below 0.05, {} below 0.5 of {}", below(0.05), below(0.5), p.len());
+    // means 2.4 and 24, three standard deviations
+    assert!(below(0.05) <= 7 && below(1e-4) == 0 && (14..=34).contains(&below(0.5)), "{p:?}");
+    let mut tracks = group(0);
+    tracks[2] = tracks[2].without_velocity([0.03, -0.02].map(|v: f64| -v));
+    let found = fit(&tracks, &settings, &()).expect("a fit");
+    let errors = stage_velocities(&tracks, &found).expect("tracks");
+    let there = with_stage(&tracks, &found, &()).expect("a fit");
+    for (k, velocity) in there.velocities.iter().enumerate() {
+        let known = if k == 2 { [0.03, -0.02] } else { [0.0; 2] };
+        let errors = errors[k].expect("told").errors;
+        assert!(
+            (0..2).all(|c| (velocity[c] - known[c]).abs() < 4.0 * errors[c]),
+            "{k}: {velocity:?} {errors:?}"
+        );
+    }
+}
+
 /// A circle on a stage that drifts by 4 % of its speed is called handed by its likelihood, and not beside a
 /// velocity of the stage; a cell that is handed stays so.
 #[test]

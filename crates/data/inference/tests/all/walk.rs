@@ -187,3 +187,48 @@ fn a_circle_is_not_described() {
     let rest = vec![Fix { t: 0.0, at: [1.0, 1.0] }; 9];
     assert!(persistent_walk(&[rest]).is_none());
 }
+
+/// The likelihood at each end of an interval of P, highest over speed and error, is 1.92 below the maximum; where there is no end, the
+/// places do not exclude P there. Long persistence and small errors: the ridge of the likelihood is narrow.
+#[test]
+fn ends_of_the_persistence_are_those_of_its_profile() {
+    for (truth, sampling) in [([3000.0, 0.05, 0.013], (10.0, 200)), ([300.0, 1.0, 0.2], (1.0, 400))] {
+        for seed in 1..=20 {
+            let fixes = walk(truth, sampling, 1.0, seed);
+            let one = found(&fixes);
+            let below = |p: f64| one.log_likelihood - profile(&fixes, p, one.error.value.max(1e-3));
+            let [low, high] = [one.persistence.low, one.persistence.high];
+            for end in [low, high].into_iter().flatten() {
+                let fall = below(end);
+                assert!((1.6..2.6).contains(&fall), "seed {seed}: {fall} below at {end}, {one:?}");
+            }
+            assert!(low.is_some() || below(0.03 * sampling.0) < 2.2, "seed {seed}: {one:?}");
+            assert!(
+                high.is_some() || below(10.0 * sampling.0 * f64::from(sampling.1)) < 2.2,
+                "seed {seed}: {one:?}"
+            );
+        }
+    }
+}
+
+/// The highest likelihood of a persistence time, by a plain search over the logarithms of speed and error.
+fn profile(fixes: &[Fix], persistence: f64, error: f64) -> f64 {
+    let likelihood =
+        |[s, e]: [f64; 2]| walk_likelihood(&[fixes.to_vec()], persistence, libm::exp(s), libm::exp(e));
+    let path: f64 =
+        fixes.windows(2).map(|f| libm::hypot(f[1].at[0] - f[0].at[0], f[1].at[1] - f[0].at[1])).sum();
+    let (mut at, mut step) =
+        ([libm::log(path / (fixes[fixes.len() - 1].t - fixes[0].t)), libm::log(error)], 1.0);
+    let mut best = likelihood(at);
+    while step > 1e-4 {
+        let tried =
+            [[step, 0.0], [-step, 0.0], [0.0, step], [0.0, -step]].map(|d| [at[0] + d[0], at[1] + d[1]]);
+        let higher =
+            tried.into_iter().map(|place| (likelihood(place), place)).max_by(|a, b| a.0.total_cmp(&b.0));
+        match higher {
+            Some((value, place)) if value > best => (best, at) = (value, place),
+            _ => step *= 0.5,
+        }
+    }
+    best
+}

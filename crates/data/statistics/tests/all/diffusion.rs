@@ -3,8 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use crate::common::{active_brownian, agrees, along, holds, known, many, ornstein_uhlenbeck};
+use motiform_dynamics::Normal;
 use motiform_statistics::{
-    Quantity, Seen, Settings, Tracks, autocorrelation, diffusion, mean_square, persistent_walk, statistics,
+    Quantity, Seen, Settings, Track, Tracks, autocorrelation, diffusion, mean_square, persistent_walk,
+    statistics,
 };
 
 #[test]
@@ -85,7 +87,7 @@ fn a_walk_with_another_speed_than_the_body_is_none() {
 fn displacements_that_do_not_grow_as_the_lag_put_the_coefficient_in_doubt() {
     let (g, s, dt) = (1.0, 1.0, 0.25);
     let drifting = |drift: f64| {
-        let body = |normal: &mut motiform_dynamics::Normal| {
+        let body = |normal: &mut Normal| {
             let mut track = ornstein_uhlenbeck(g, s, dt, 1600, normal);
             for (k, (at, velocity)) in track.position.iter_mut().zip(&mut track.velocity).enumerate() {
                 at[0] += drift * dt * k as f64;
@@ -105,4 +107,37 @@ fn displacements_that_do_not_grow_as_the_lag_put_the_coefficient_in_doubt() {
     let line = along(0.1, 4000, |t| ([t, 0.0], [1.0, 0.0]));
     let line = statistics(&Tracks::new(0.1, vec![], vec![line]).unwrap(), &Settings::default()).unwrap();
     assert_eq!((line.diffusion.displacements.known(), line.diffusion.doubt), (None, None));
+}
+
+/// A velocity that is the sum of a fast and of a small slow part, the shape that of the slow one: where the record does not see the slow
+/// part decay, the coefficient is that of the fast one, and in doubt. Where it does, or where the shape oscillates, nothing is.
+#[test]
+fn a_slow_part_of_the_shape_puts_the_coefficient_in_doubt() {
+    let body = |slow: f64, period: f64, normal: &mut Normal| {
+        let (fast, slow) = (
+            ornstein_uhlenbeck(5.0, 0.4, 0.2, 4000, normal),
+            ornstein_uhlenbeck(slow, 0.006, 0.2, 4000, normal),
+        );
+        let sum = |a: &[[f64; 2]], b: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            a.iter().zip(b).map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect()
+        };
+        let turned = |(k, v): (usize, &[f64; 2])| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * 0.2 * k as f64 / period);
+            [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]]
+        };
+        let mode = slow.velocity.iter().enumerate().map(turned).collect();
+        Track {
+            position: sum(&fast.position, &slow.position),
+            velocity: sum(&fast.velocity, &slow.velocity),
+            modes: vec![mode],
+        }
+    };
+    let doubt = |slow: f64, period: f64| {
+        let bodies = (0..40).map(|k| body(slow, period, &mut Normal::new(41, k))).collect();
+        let tracks = Tracks::new(0.2, vec!["z2".into()], bodies).unwrap();
+        statistics(&tracks, &Settings::default()).unwrap().diffusion.doubt
+    };
+    let said = doubt(0.003, f64::INFINITY).expect("z2 is not forgotten");
+    assert!(said.starts_with("z2 keeps"), "{said}");
+    assert_eq!([doubt(1.0, f64::INFINITY), doubt(0.003, 30.0)], [None, None]);
 }

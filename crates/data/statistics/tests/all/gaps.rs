@@ -5,8 +5,8 @@
 use crate::common::{agrees, holds, known, ornstein_uhlenbeck};
 use motiform_dynamics::Normal;
 use motiform_statistics::{
-    PathPiece, Quantity, Settings, Track, Tracks, autocorrelation, diffusion, furth, mean_square,
-    mean_square_of_paths, statistics,
+    GappedVectors, PathPiece, Quantity, Settings, Track, Tracks, autocorrelation, diffusion, furth,
+    mean_square, mean_square_of_paths, statistics,
 };
 
 /// Every sample is lost with this probability, and so is one stretch of 40.
@@ -115,4 +115,40 @@ fn what_is_not_enough_is_named() {
     assert!(error.to_string().contains("body 0 has 10 samples, fewer than 16"), "{error}");
     let error = Tracks::new(1.0, vec![], vec![track.without(&missing)]).unwrap_err();
     assert!(error.to_string().contains("leave such bodies out"), "{error}");
+}
+
+/// Means, correlations, displacements and turns of one series of vectors are those of its pairs, written out.
+#[test]
+fn vectors_with_gaps() {
+    let mut normal = Normal::new(5, 0);
+    let walk: Vec<Option<[f64; 2]>> =
+        (0..90).map(|at| (at % 7 != 3).then(|| [normal.next(), normal.next()])).collect();
+    let vectors = GappedVectors::of(walk.iter().copied());
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-13, "{a} {b}");
+    let mean = |pairs: &[([f64; 2], [f64; 2])], of: &dyn Fn([f64; 2], [f64; 2]) -> f64| {
+        pairs.iter().map(|(a, b)| of(*a, *b)).sum::<f64>() / pairs.len() as f64
+    };
+    for lag in [1_usize, 4, 7] {
+        let pairs: Vec<_> = (0..90 - lag).filter_map(|at| walk[at].zip(walk[at + lag])).collect();
+        let square = mean(&pairs, &|a, b| (b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2));
+        close(vectors.mean_square(lag), square);
+        let product = mean(&pairs, &|a, b| a[0] * b[0] + a[1] * b[1]);
+        close(vectors.mean_dot(&vectors, lag.cast_signed()), product);
+        close(vectors.mean_dot(&vectors, -lag.cast_signed()), product);
+        close(vectors.correlations(&[lag])[0], product / vectors.mean_dot(&vectors, 0));
+        // Re b exp(2 i angle of a)
+        let double = mean(&pairs, &|a, b| {
+            let angle = 2.0 * a[1].atan2(a[0]);
+            b[0] * angle.cos() - b[1] * angle.sin()
+        });
+        close(vectors.doubled().mean_dot(&vectors, lag.cast_signed()), double);
+        let turns = pairs.iter().map(|(a, b)| (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]));
+        assert_eq!(vectors.turns(lag).len(), pairs.len());
+        vectors.turns(lag).into_iter().zip(turns).for_each(|(a, b)| close(a, b));
+        let steps: Vec<f64> = pairs.iter().map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1]) / 0.5).collect();
+        let lengths = vectors.displacements(lag, 0.5).lengths();
+        assert_eq!(lengths.len(), steps.len());
+        lengths.into_iter().zip(steps).for_each(|(a, b)| close(a, b));
+    }
+    assert!(vectors.mean_square(90).is_nan() && vectors.get(3).is_none() && vectors.len() == 90);
 }

@@ -15,7 +15,7 @@ const BAND: f64 = 0.01;
 const NEAR: f64 = 0.05;
 
 /// Share of the outlines near the extreme of all whose extremes coincide at a border.
-const SHARE: f64 = 0.45;
+const SHARE: f64 = 0.75;
 
 /// Their least number.
 const COINCIDE: usize = 8;
@@ -47,7 +47,7 @@ impl Borders {
     ///
     /// 1. Straight runs in at least 5 frames: see [`run`].
     /// 2. Extremes that coincide: of the outlines whose extreme lies within 5 % of the radius of that of all,
-    ///    45 % and at least 8 lie in a band of 1 % (evenly spread ones: 20 %), while from frame to frame
+    ///    75 % and at least 8 lie in a band of 1 % (evenly spread ones: 20 %; where a path turns back: 45 %), while from frame to frame
     ///    extremes move by more than half the band (median), and the centroids of the outlines in the band
     ///    scatter by more than its width. A cell that moves does not stop at one line by itself; where it
     ///    turns back, or rests, its centroid stays with its extreme.

@@ -64,6 +64,9 @@ fn parameters_beside_the_nodes() {
 fn file_and_option_must_agree() {
     let said = parameters("0.25", "1.5");
     assert!(quimp(Some(&said), &options(Some(0.25), Some(1.5))).is_ok());
+    let minutes = |interval| Options { time_unit: "min".to_owned(), ..options(None, Some(interval)) };
+    assert!(quimp(Some(&said), &minutes(0.025)).is_ok_and(|tracks| tracks.cells[0].frames[2].t == 3.0));
+    assert!(quimp(Some(&said), &minutes(1.5)).is_err());
     let error = quimp(Some(&said), &options(Some(0.3), None)).unwrap_err().to_string();
     assert!(error.contains("0.25 um") && error.contains("pixel_size says 0.3 um"), "{error}");
     let error = quimp(Some(&said), &options(None, Some(90.0))).unwrap_err().to_string();

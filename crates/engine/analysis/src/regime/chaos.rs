@@ -5,6 +5,7 @@ use super::look::Look;
 use super::returns;
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
+use super::words::lasting;
 use crate::lyapunov::{GROWN, Lyapunov, LyapunovSettings, SECULAR, lyapunov, separates};
 use crate::{Estimate, Result, escape_limits};
 use motiform_dynamics::{Equivariant, Watch};
@@ -103,13 +104,14 @@ pub(super) fn chaotic(
     let (_, fastest_escape) = escape_limits(0, lasted)?;
     let second = witness.zero_one.map_or(String::new(), |k| format!("; 0-1 test {k:.2}"));
     let why = format!(
-        "lambda_1 = {} over a time of {:.0} in {} runs, {} in the last{second}; no escape in a time of {lasted:.0}: if this is \
-         a transient, its mean life is above {:.0} (95 %)",
+        "lambda_1 = {} over a time of {} in {} runs, {} in the last{second}; no escape in a time of {}: if this is \
+         a transient, its mean life is above {} (95 %)",
         stated(all.estimate),
-        all.time,
+        lasting(all.time),
         all.runs,
         stated(last),
-        1.0 / fastest_escape
+        lasting(lasted),
+        lasting(1.0 / fastest_escape)
     );
     let mut verdict = Verdict::new(Regime::Chaotic, Attractor::Chaotic, why, time);
     verdict.margin = Some(value / error.max(f64::MIN_POSITIVE));

@@ -10,6 +10,7 @@ use super::look::Look;
 use super::returns;
 use super::settings::Settings;
 use super::verdict::Verdict;
+use super::words::lasting;
 use crate::gauge::Gauge;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, Sink, Watch};
@@ -82,7 +83,7 @@ impl Change {
     pub(super) fn judges(&self, mut torus: Verdict) -> Result<Verdict, String> {
         let Self { value, error, time } = *self;
         let most = value.abs() + error;
-        let said = format!("changes by {value:.1e} +- {error:.1e} of itself in a time of {time:.0}");
+        let said = format!("changes by {value:.1e} +- {error:.1e} of itself in a time of {}", lasting(time));
         if value.abs() > error.max(NONE) || most > CHANGE {
             return Err(format!("the returns lie on a closed curve whose size {said}: no torus was shown"));
         }

@@ -309,7 +309,8 @@ impl Search {
             let verdict = turns.verdict(self.time);
             return Ok(self.described(verdict, body, self.span, watch)?.into());
         }
-        let within = repeated.unwrap_or_else(|| format!("within the budget of {:.0}", self.budget));
+        let within =
+            repeated.unwrap_or_else(|| format!("within the budget of {}", words::lasting(self.budget)));
         let why = format!("{} {within}", self.missing);
         let verdict = Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time);
         Ok(self.described(verdict, body, self.span, watch)?.into())

@@ -91,15 +91,23 @@ pub(super) fn equilibrium(
     verdict
 }
 
+/// A time in words: whole units of time, or two digits of a shorter one.
+pub(super) fn lasting(time: f64) -> String {
+    let places =
+        if time > 0.0 { (1.0 - libm::floor(libm::log10(time))).clamp(0.0, 15.0) as usize } else { 0 };
+    format!("{time:.places$}")
+}
+
 /// An unstable relative equilibrium that the orbit never leaves, after a stay of `stay`. It has no margin: what is decided is where this
 /// orbit is, not what the body does from a typical start.
 pub(super) fn unstable(body: &dyn Equivariant, found: &RelativeEquilibrium, stay: f64, time: f64) -> Verdict {
     let steady = SteadyMotion::of(body, found);
     let why = format!(
         "{}, but unstable, growth rate {:.4e}: this start has an exact symmetry, and its orbit stayed for a \
-        time of {stay:.0}; a typical start leaves it",
+        time of {}; a typical start leaves it",
         what(&steady),
-        found.growth()
+        found.growth(),
+        lasting(stay)
     );
     at_equilibrium(body, (found, &steady), Attractor::Unstable, why, time)
 }

@@ -5,7 +5,10 @@ use super::{Amplitudes, Definition, DefinitionError, Equations, Monomial, Parame
 use crate::registry::{Display, ModelInfo, Source};
 use crate::{Error, ParameterSpec};
 use motiform_dynamics::model::{Coordinate, Observable};
-use motiform_dynamics::{Bundle, Model, Scalar};
+use motiform_dynamics::order::ascending;
+use motiform_dynamics::tangent::jacobian;
+use motiform_dynamics::{Bundle, Model, Scalar, System, VectorField};
+use nalgebra::{DMatrix, DVector};
 use std::fmt::Write;
 use std::sync::{Mutex, PoisonError};
 
@@ -78,14 +81,46 @@ fn make(equations: Equations) -> ModelInfo {
     }
 }
 
-/// Twenty times the slowest linear time scale at the default parameters, where rates below a twentieth of the fastest do not count.
+/// Twenty times the slowest linear time scale at the default parameters, where rates below a twentieth of the median do not count: one fast
+/// amplitude does not make the others slow.
 fn look(known: &'static Known, defaults: &[f64]) -> f64 {
     let model = Amplitudes::new(known, defaults);
-    let rates = model.linear.iter().map(|rate| rate.abs()).filter(|rate| rate.is_finite());
-    let fastest = rates.clone().fold(0.0, f64::max);
-    let slowest = rates.filter(|&rate| rate > 0.0).fold(fastest, f64::min).max(fastest / 20.0);
-    if slowest > 0.0 { rounded(20.0 / slowest).clamp(1e-3, 1e6) } else { 200.0 }
+    let all = at_rest(&model).unwrap_or_else(|| model.linear.to_vec());
+    let mut rates: Vec<f64> =
+        all.iter().map(|rate| rate.abs()).filter(|rate| *rate > 0.0 && rate.is_finite()).collect();
+    ascending(&mut rates);
+    let Some(&median) = rates.get(rates.len() / 2) else { return 200.0 };
+    rounded(20.0 / rates[0].max(LEAST * median)).clamp(1e-3, 1e6)
 }
+
+/// Least rate that counts, as a part of the median one.
+const LEAST: f64 = 0.05;
+
+/// Where the origin does not rest, its linear part says nothing of the motions: the rates at the equilibrium that Newton's method finds
+/// from there, each unknown by itself. `None` where the origin rests, or none is found.
+fn at_rest(model: &Amplitudes) -> Option<Vec<f64>> {
+    let dim = model.dim();
+    let mut shape = vec![0.0; dim];
+    let mut rate = vec![0.0; dim];
+    for step in 0..NEWTON {
+        VectorField::<f64>::eval(model, 0.0, &shape, &mut rate);
+        let matrix = DMatrix::from_vec(dim, dim, jacobian(model, &shape));
+        let diagonal = matrix.diagonal().iter().copied().collect();
+        let change = matrix.lu().solve(&DVector::from_column_slice(&rate))?;
+        let size = shape.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if step == 0 && change.norm() == 0.0 {
+            return None;
+        }
+        if change.norm() <= 1e-6 * size {
+            return Some(diagonal);
+        }
+        shape.iter_mut().zip(change.iter()).for_each(|(x, change)| *x -= change);
+    }
+    None
+}
+
+/// Steps of Newton's method that are tried.
+const NEWTON: usize = 60;
 
 /// Two digits of a positive number.
 fn rounded(x: f64) -> f64 {

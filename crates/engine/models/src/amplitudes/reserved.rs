@@ -59,6 +59,33 @@ const BRANCHES: [&str; 25] = [
     "parameter",
 ];
 
+/// Keys of the special points of branches, beside those of [`BRANCHES`]: the parameter is one more of them.
+const SPECIAL: [&str; 23] = [
+    "amplitude",
+    "attraction",
+    "breaks",
+    "coefficient",
+    "coefficient_error",
+    "connection",
+    "criticality",
+    "error",
+    "frequency",
+    "joins",
+    "law",
+    "leading_decaying",
+    "leading_growing",
+    "normal_form",
+    "on",
+    "others",
+    "rate",
+    "remaining",
+    "saddle",
+    "saddle_quantity",
+    "saddles",
+    "test",
+    "undecided",
+];
+
 /// Settings of a run, which share the arguments of Python's `replace` with the parameters.
 const SETTINGS: [&str; 15] = [
     "model",
@@ -88,7 +115,7 @@ pub fn meaning(name: &str) -> Option<&'static str> {
         Some("an amplitude")
     } else if is(&["v1", "v2"]) || is_part(name) {
         Some("a coordinate of the body")
-    } else if is(&TRAJECTORY) || is(&SCAN) || is(&BRANCHES) {
+    } else if is(&TRAJECTORY) || is(&SCAN) || is(&BRANCHES) || is(&SPECIAL) {
         Some("a column of result tables")
     } else if is(&SETTINGS) {
         Some("a setting of runs")

@@ -47,7 +47,8 @@ impl FieldOfView {
     /// # Checked by  tests/all/field.rs: walkers and rods on a stage of known drift, jumps, jitter and pixels, and without
     #[must_use]
     pub fn of(tracks: &Tracks, cells: &[CellModes]) -> Self {
-        let pixel = pixels::pitch(tracks);
+        // of masks whose size is known outlines lie on edges and middles of pixels
+        let pixel = pixels::pitch(tracks).map(|pitch| tracks.image.map_or(pitch, |image| image.pixel));
         let Some(mut grid) = Grid::of(cells) else { return Self { pixel, ..Self::default() } };
         let jumps = jumps::find(&grid, cells);
         grid.subtract_jumps(&jumps);

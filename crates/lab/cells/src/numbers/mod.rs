@@ -11,7 +11,7 @@ mod rows;
 mod steps;
 
 pub use forms::{FormNumber, Forms};
-pub use population::{PopulationNumber, PopulationNumbers, population_numbers};
+pub use population::{PopulationNumber, PopulationNumbers, Withheld, population_numbers};
 pub use rows::{Row, number_columns};
 pub use steps::Steps;
 

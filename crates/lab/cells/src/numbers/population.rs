@@ -4,7 +4,10 @@ use super::displacement;
 use super::places::Places;
 use crate::{AtLag, Observation, OverCells, over_cells};
 use motiform_dynamics::order::ascending;
+use motiform_inference::{Bounded, PersistentWalk};
+use motiform_statistics::four_digits;
 use motiform_study::Quantity;
+use motiform_study::quantity::cell;
 use serde::{Serialize, Serializer};
 
 /// A number over cells.
@@ -22,11 +25,23 @@ fn by_name<S: Serializer>(quantity: &&'static Quantity, serializer: S) -> Result
     serializer.serialize_str(quantity.name)
 }
 
-/// Numbers over cells. Cells whose record sets no bound to a number are not in it: `cells` of each number says how many are.
+/// A number of which no mean over cells is stated.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Withheld {
+    /// The number.
+    #[serde(rename = "key", serialize_with = "by_name")]
+    pub quantity: &'static Quantity,
+    /// The reason, in a sentence.
+    pub why: String,
+}
+
+/// Numbers over cells.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PopulationNumbers {
     /// Each number over the cells that have it.
     pub numbers: Vec<PopulationNumber>,
+    /// Numbers of the walk of which a mean over cells would be biased.
+    pub withheld: Vec<Withheld>,
     /// Mean-square displacement over the cells of the usual sampling interval; intervals are those over cells, from 8 on.
     pub displacement: Vec<AtLag>,
     /// Cells in it.
@@ -37,18 +52,60 @@ pub struct PopulationNumbers {
 #[must_use]
 pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
     let rows: Vec<_> = found.iter().map(|one| one.numbers.rows()).collect();
+    let withheld = withheld(found);
     let number = |place: usize| {
+        let quantity = rows[0][place].quantity;
         let values: Vec<f64> = rows.iter().filter_map(|all| Some(all[place].value.known()?.value)).collect();
-        Some(PopulationNumber { quantity: rows[0][place].quantity, over: over_cells(&values)? })
+        let stated = withheld.iter().all(|other| !std::ptr::eq(other.quantity, quantity));
+        Some(PopulationNumber { quantity, over: over_cells(&values)? }).filter(|_| stated)
     };
     let count = rows.first().map_or(0, Vec::len);
+    let numbers = (0..count).filter_map(number).collect();
     let places = usual(found);
     PopulationNumbers {
-        numbers: (0..count).filter_map(number).collect(),
+        numbers,
+        withheld,
         displacement: displacement::of_cells(&places),
         displacement_cells: places.len(),
     }
 }
+
+/// Numbers of the walk that too many cells only bound, or that single cells know too poorly.
+fn withheld(found: &[Observation]) -> Vec<Withheld> {
+    let walks: Vec<&PersistentWalk> =
+        found.iter().filter_map(|one| one.numbers.walk.as_ref().filter(|walk| walk.describes())).collect();
+    let all = |of: fn(&PersistentWalk) -> Bounded| walks.iter().map(|walk| of(walk)).collect::<Vec<_>>();
+    let numbers =
+        [(&cell::PERSISTENCE, all(|walk| walk.persistence)), (&cell::DIFFUSION, all(|walk| walk.diffusion))];
+    let one = |(quantity, of_cells): (&'static Quantity, Vec<Bounded>)| {
+        Some(Withheld { quantity, why: why_biased(&of_cells)? })
+    };
+    numbers.into_iter().filter_map(one).collect()
+}
+
+/// The reason why a mean of these numbers over cells is biased, if there is one.
+fn why_biased(of_cells: &[Bounded]) -> Option<String> {
+    let mut spans: Vec<f64> = of_cells.iter().filter_map(|one| Some(one.high? / one.low?)).collect();
+    ascending(&mut spans);
+    let (cells, open) = (of_cells.len(), of_cells.len() - spans.len());
+    if open as f64 > MOST_OPEN * cells as f64 {
+        return Some(format!(
+            "of {cells} cells whose path is a persistent random walk, {open} only bound it, those that keep their direction \
+             longest or shortest; a mean over the others would leave them out"
+        ));
+    }
+    let span = spans.get(spans.len() / 2).copied().filter(|&span| span > WIDEST)?;
+    Some(format!(
+        "single cells know it within a factor of {} (median of the interval's upper over lower end): so poorly known values \
+         are biased, and a mean over cells keeps the bias; longer records are needed",
+        four_digits(span)
+    ))
+}
+
+/// Largest share of cells that only bound a number of the walk, and largest ratio of the ends of a typical cell's interval, where a mean
+/// over cells is stated. The estimate of highest likelihood is biased in the second order of its relative error.
+const MOST_OPEN: f64 = 0.05;
+const WIDEST: f64 = 2.5;
 
 /// Places of the cells of the median sampling interval.
 fn usual(found: &[Observation]) -> Vec<&Places> {

@@ -41,6 +41,9 @@ pub struct Measures {
     pub turning_error: f64,
     /// Scatter of the turning rate between blocks, relative to its mean.
     pub turning_scatter: f64,
+    /// Share of the time in which the heading turns by less than a quarter of what it turns by on average: of all windows in which that is
+    /// an eighth of half a turn. Near 0 on a circle, more than a half on a square.
+    pub straight_share: f64,
     /// Scatter of the heading (rad).
     pub heading_scatter: f64,
     /// Scatter of |z2| and |z3|, relative to the size of both, corrected for errors.
@@ -111,6 +114,7 @@ impl Measures {
             turning,
             turning_error: spread / (blocks.len() as f64).sqrt(),
             turning_scatter: spread / turning.abs().max(f64::MIN_POSITIVE),
+            straight_share: straight_share(&headings, turning * dt),
             heading_scatter: scatter(&headings),
             shape_scatter: shape_scatter(&frames),
             shape_change: shape_change(&frames),
@@ -120,6 +124,11 @@ impl Measures {
             length,
             series: Series { dt, lag, frames, headings, speeds, blocks },
         })
+    }
+
+    /// Error of the heading of one displacement (rad).
+    pub(super) fn heading_error(&self) -> f64 {
+        self.displacement_error / (std::f64::consts::SQRT_2 * self.displacement.max(f64::MIN_POSITIVE))
     }
 
     /// The same numbers with blocks of the record drawn with replacement: turning rate and its error, scatter of the speed.
@@ -184,6 +193,20 @@ fn rates(headings: &[f64], dt: f64) -> Vec<f64> {
     let size = ((headings.len() - 1) / BLOCKS).max(1);
     let blocks = (0..BLOCKS).map(|block| block * size).filter(|start| start + size < headings.len());
     blocks.map(|start| (headings[start + size] - headings[start]) / (size as f64 * dt)).collect()
+}
+
+/// Mean turn of a window (rad), and the part of it below which a window is straight.
+const WINDOW: f64 = std::f64::consts::FRAC_PI_8;
+const STRAIGHT: f64 = 0.25;
+
+/// Share of the windows of a mean turn of [`WINDOW`] in which the heading turns by less than a part of that, to the side of the mean turn;
+/// `per_frame` is the mean turn from frame to frame. 0 where no window is that long.
+fn straight_share(headings: &[f64], per_frame: f64) -> f64 {
+    let frames = ((WINDOW / per_frame.abs().max(f64::MIN_POSITIVE)).round() as usize).max(1);
+    let expected = per_frame * frames as f64;
+    let windows = || headings.windows(frames.saturating_add(1));
+    let straight = windows().filter(|window| (window[frames] - window[0]) / expected < STRAIGHT).count();
+    straight as f64 / windows().count().max(1) as f64
 }
 
 /// Scatter of |z2| and |z3| relative to the size of both, without that of errors.

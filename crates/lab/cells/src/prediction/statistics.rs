@@ -4,10 +4,10 @@
 //! `motiform_statistics` computes for records without gaps.
 
 use super::record::Record;
-use super::series::{Series, dot};
 use crate::observe::step_of;
 use motiform_dynamics::order::ascending;
 use motiform_inference::Track;
+use motiform_statistics::GappedVectors;
 use serde::{Deserialize, Serialize};
 
 /// Lags per decade.
@@ -125,25 +125,26 @@ impl Asked {
 
     /// All statistics of a record, always in the same order and at the same places.
     pub(super) fn all(&self, record: &Record) -> Vec<Statistic> {
-        let number =
-            |at: usize| Series::of(record.frames.iter().map(move |y| y.as_ref().map(|y| [y[at], y[at + 1]])));
-        let sizes = |of: &Series| of.iter().map(|z| libm::hypot(z[0], z[1])).collect::<Vec<f64>>();
+        let number = |at: usize| {
+            GappedVectors::of(record.frames.iter().map(move |y| y.as_ref().map(|y| [y[at], y[at + 1]])))
+        };
         let (place, second) = (number(0), number(2));
-        let moves = Moves::of(&place, record.dt, self.step);
+        // velocities by displacements over some frames
+        let moves = place.displacements(self.step, self.step as f64 * record.dt);
         let mut all = vec![
             self.over_lags(Kind::Displacement, self.lags.iter().map(|&lag| place.mean_square(lag)).collect()),
-            self.over_lags(Kind::Velocity, moves.0.correlations(&self.lags)),
+            self.over_lags(Kind::Velocity, moves.correlations(&self.lags)),
             self.over_lags(Kind::SecondMode, second.correlations(&self.lags)),
             self.alignment(&moves, &second),
-            quantiles(Kind::Speed, sizes(&moves.0)),
+            quantiles(Kind::Speed, moves.lengths()),
             quantiles(Kind::Turning, moves.turns(self.step)),
-            quantiles(Kind::SecondSize, sizes(&second)),
+            quantiles(Kind::SecondSize, second.lengths()),
         ];
         let higher = [(Kind::ThirdMode, Kind::ThirdSize), (Kind::FourthMode, Kind::FourthSize)];
         for (n, (mode, size)) in (2..record.modes()).zip(higher) {
             let series = number(2 * n);
             all.push(self.over_lags(mode, series.correlations(&self.lags)));
-            all.push(quantiles(size, sizes(&series)));
+            all.push(quantiles(size, series.lengths()));
         }
         all
     }
@@ -154,19 +155,14 @@ impl Asked {
 
     /// `<Re z2(t + lag) exp(2 i heading(t))> / <|z2|>`: whether, and how long before or after, the body is elongated along (1) or across
     /// (-1) its motion.
-    fn alignment(&self, moves: &Moves, shape: &Series) -> Statistic {
+    fn alignment(&self, moves: &GappedVectors, shape: &GappedVectors) -> Statistic {
         let side = SIDE.min(shape.len() / 8).cast_signed();
-        let size = mean(shape.iter().map(|z| libm::hypot(z[0], z[1])));
-        let double = moves.0.map(|v| {
-            let square = dot(v, v).max(f64::MIN_POSITIVE);
-            [(v[0] * v[0] - v[1] * v[1]) / square, 2.0 * v[0] * v[1] / square]
-        });
+        let size = mean(&shape.lengths());
+        let double = moves.doubled();
         let middle = (self.step / 2).cast_signed(); // of the displacement
-        let value =
-            |lag: isize| double.mean_with(shape, lag + middle, |d, z| z[0] * d[0] - z[1] * d[1]) / size;
         let lags: Vec<isize> = (-side..=side).collect();
         let at = lags.iter().map(|&lag| lag as f64 * self.dt).collect();
-        let values = lags.into_iter().map(value).collect();
+        let values = lags.into_iter().map(|lag| double.mean_dot(shape, lag + middle) / size).collect();
         Statistic { kind: Kind::Elongation, at, values }
     }
 }
@@ -181,31 +177,7 @@ fn quantiles(kind: Kind, mut samples: Vec<f64>) -> Statistic {
     Statistic { kind, at: QUANTILES.to_vec(), values }
 }
 
-/// Velocities by displacements over some frames, from each frame on.
-struct Moves(Series);
-
-impl Moves {
-    fn of(place: &Series, dt: f64, step: usize) -> Self {
-        let time = step as f64 * dt;
-        let velocity = |at: usize| {
-            let (a, b) = (place.get(at)?, place.get(at + step)?);
-            Some([(b[0] - a[0]) / time, (b[1] - a[1]) / time])
-        };
-        Self(Series::of((0..place.len().saturating_sub(step)).map(velocity)))
-    }
-
-    /// Angles between displacements that follow one another (rad, positive anticlockwise).
-    fn turns(&self, step: usize) -> Vec<f64> {
-        let angle = |at: usize| {
-            let (a, b) = (self.0.get(at)?, self.0.get(at + step)?);
-            Some(libm::atan2(a[0] * b[1] - a[1] * b[0], dot(a, b)))
-        };
-        (0..self.0.len()).filter_map(angle).collect()
-    }
-}
-
 /// Mean; NaN of nothing.
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
-    sum / count as f64
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
 }

@@ -70,7 +70,9 @@ fn names(shares: &[NameShare], head: &str) -> Table {
 
 fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
     let rows = found.numbers.iter().map(|one| row(units.axis(one.quantity), &one.over));
-    table("Numbers over the cells that have them.", rows.collect())
+    let withheld = found.withheld.iter().map(|one| format!("No {}: {}.", one.quantity.symbol, one.why));
+    let caption = std::iter::once("Numbers over the cells that have them.".to_owned()).chain(withheld);
+    table(&caption.collect::<Vec<_>>().join(" "), rows.collect())
 }
 
 fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Table {

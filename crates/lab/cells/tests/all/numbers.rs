@@ -64,6 +64,30 @@ fn displacements_over_cells_are_those_of_the_walk() {
     assert_eq!(speed.over.cells, 16);
 }
 
+/// A mean of the persistence over cells holds the truth where there is one. There is none where it is nearly as long as the records, so that
+/// each cell knows it poorly, or shorter than the time between frames, so that most cells only bound it.
+#[test]
+fn means_over_cells_that_would_be_biased_are_withheld() {
+    let found = |persistence: f64, frames: usize| {
+        let walker = Walker { persistence, frames, ..WALK };
+        let cells = (0..30).map(|seed| walker.outlines(300 + seed)).collect();
+        let sample = Sample::of_tracks(tracks(cells), &ModeOptions::default());
+        population_numbers(&sample.cells.iter().map(observe).collect::<Vec<_>>())
+    };
+    for (persistence, reason) in [(80.0, "within a factor of"), (0.15, "only bound it")] {
+        let found = found(persistence, 120);
+        let why = found.withheld.iter().find(|one| one.quantity.name == "persistence").map(|one| &*one.why);
+        assert!(why.is_some_and(|why| why.contains(reason)), "{persistence}: {why:?}");
+        assert!(found.numbers.iter().all(|one| one.quantity.name != "persistence"));
+    }
+    let long = found(3.0, 600);
+    assert!(long.withheld.is_empty(), "{:?}", long.withheld);
+    let stated =
+        long.numbers.iter().find(|one| one.quantity.name == "persistence").expect("all cells have one");
+    let [low, high] = stated.over.mean_interval.expect("30 cells");
+    assert!(low < 3.0 && 3.0 < high && high < 1.3 * low, "{:?}", stated.over);
+}
+
 /// Rods have no modes of the radius, and every number all the same.
 #[test]
 fn rods_have_numbers() {

@@ -159,3 +159,53 @@ fn a_slow_walker_does_not_rest() {
     let found = observe(&Sample::of_tracks(tracks(vec![rest.outlines(2)]), &ModeOptions::default()).cells[0]);
     assert_eq!(found.motion.regime, Some(Regime::Motionless), "{}", found.motion.why);
 }
+
+/// A rigid ellipse that goes from place to place: its centre and heading in each frame, its vertices on a grid of this pitch, or on none.
+fn rigid(path: &[([f64; 2], f64)], pitch: f64) -> Observation {
+    let outline = |(frame, &(centre, heading)): (usize, &([f64; 2], f64))| {
+        let z2 = [2.0 * libm::cos(2.0 * heading), -2.0 * libm::sin(2.0 * heading)];
+        let mut points = Synthetic { centre, r0: 16.0, z: vec![z2, [0.0, 0.0]] }.vertices(48, 0.0);
+        if pitch > 0.0 {
+            points.iter_mut().flatten().for_each(|x| *x = (*x / pitch).round() * pitch);
+        }
+        Outline { frame: i64::try_from(frame).unwrap(), t: frame as f64, points, missing: 0 }
+    };
+    let frames = path.iter().enumerate().map(outline).collect();
+    observe(&Sample::of_tracks(tracks(vec![frames]), &ModeOptions::default()).cells[0])
+}
+
+/// Outlines that follow pixels have shapes that repeat after some frames: a body that glides along an axis goes straight all the same.
+#[test]
+fn pixels_make_no_zigzag() {
+    for step in [0.3, 0.7, 1.0, 1.25] {
+        let path: Vec<_> = (0..200).map(|k| ([step * f64::from(k), 40.0], 0.0)).collect();
+        for pitch in [0.5, 1.0] {
+            let found = rigid(&path, pitch).motion;
+            assert_eq!(found.regime, Some(Regime::Straight), "{step}, {pitch}: {}", found.why);
+        }
+    }
+}
+
+/// Legs of 15 to 40 frames with corners between: the heading turns at a steady rate over whole sides, and not from frame to frame. On a
+/// circle of as many turns it does.
+#[test]
+fn legs_and_corners_make_no_circle() {
+    let path = |sides: u32, leg: u32| {
+        let (mut at, mut path) = ([0.0; 2], Vec::new());
+        for frame in 0..4 * sides * leg {
+            let turns = if leg > 1 { f64::from(frame / leg) } else { f64::from(frame) };
+            let heading = 0.2 + std::f64::consts::TAU / f64::from(sides) * turns;
+            path.push((at, heading));
+            at = [at[0] + libm::cos(heading), at[1] + libm::sin(heading)];
+        }
+        path
+    };
+    for (sides, leg) in [(3, 20), (4, 15), (4, 20), (4, 40), (6, 15)] {
+        let found = rigid(&path(sides, leg), 0.0).motion;
+        assert_ne!(found.regime, Some(Regime::Circular), "{sides}, {leg}: {}", found.why);
+    }
+    for frames in [60, 100] {
+        let found = rigid(&path(frames, 1), 0.0).motion;
+        assert_eq!(found.regime, Some(Regime::Circular), "{frames}: {}", found.why);
+    }
+}

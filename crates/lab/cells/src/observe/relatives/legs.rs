@@ -35,8 +35,7 @@ pub struct ObservedLegs {
 
 pub(super) fn of(measures: &Measures) -> Finding<ObservedLegs> {
     let series = &measures.series;
-    let error = measures.displacement_error
-        / (std::f64::consts::SQRT_2 * measures.displacement.max(f64::MIN_POSITIVE));
+    let error = measures.heading_error();
     if error > UNCLEAR {
         return Finding::missing(format!("headings have errors of {error:.2} rad; {UNCLEAR} is the most"));
     }
