@@ -64,8 +64,8 @@ fn displacements_over_cells_are_those_of_the_walk() {
     assert_eq!(speed.over.cells, 16);
 }
 
-/// A mean of the persistence over cells holds the truth where there is one. There is none where it is nearly as long as the records, so that
-/// each cell knows it poorly, or shorter than the time between frames, so that most cells only bound it.
+/// A mean of the persistence over cells holds the truth where there is one. There is none where it is nearly as long as the records, so
+/// that each cell knows it poorly, or shorter than the time between frames, so that most cells only bound it.
 #[test]
 fn means_over_cells_that_would_be_biased_are_withheld() {
     let found = |persistence: f64, frames: usize| {
