@@ -147,3 +147,9 @@ def test_every_file_of_the_binary_is_read(binary: Path, tmp_path: Path) -> None:
     (tmp_path / "x.txt").write_text("x")
     with pytest.raises(ValueError, match="no data of motiform"):
         motiform.read(tmp_path / "x.txt")
+
+
+def test_three_numbers_that_can_be_read_in_two_ways_are_refused() -> None:
+    body = motiform.preset("fig5a")
+    with pytest.raises(ValueError, match="give the list"):
+        motiform.scan(body, {"kappa2": (0.5, 1.0, 3)})

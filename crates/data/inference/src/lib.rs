@@ -60,6 +60,7 @@ pub use subsets::{
 };
 pub use walk::{Bounded, Fix, PersistentWalk, persistent_walk, walk_likelihood};
 pub use warnings::{
-    COARSE, Channel, Drift, DriftPoint, Stretch, Warning, drift, fastest_rate, warnings, whiteness,
+    COARSE, Channel, Drift, DriftPoint, Stretch, UnequalNoise, Warning, drift, fastest_rate, warnings,
+    whiteness,
 };
 pub use weak::{Weak, weak};

@@ -1,10 +1,12 @@
 //! The warnings about a fit.
 
 mod drift;
+mod noises;
 mod stretch;
 mod whiteness;
 
 pub use drift::{Drift, DriftPoint, drift};
+pub use noises::UnequalNoise;
 pub use stretch::Stretch;
 pub(crate) use whiteness::ljung_box;
 pub use whiteness::{Channel, whiteness};
@@ -84,6 +86,8 @@ pub enum Warning {
         /// Median ratio.
         ratio: f64,
     },
+    /// Modes of the shape have different noise, and the fit has one amplitude for all of them.
+    UnequalNoise(UnequalNoise),
     /// The search did not converge.
     NotConverged {
         /// The reason.
@@ -139,6 +143,12 @@ impl std::fmt::Display for Warning {
                     "robust standard errors are {ratio:.1} times the expected ones: use the robust ones"
                 )
             }
+            Self::UnequalNoise(UnequalNoise { modes: [one, two], ratio, p_value }) => write!(
+                f,
+                "innovations of z{one} have {ratio:.2} times the variance of those of z{two} ({}): their noise differs, and the model has \
+                 one amplitude for all modes, so errors are too small for some coefficients and too large for others",
+                PValue(*p_value)
+            ),
             Self::NotConverged { reason } => write!(f, "the fit did not converge: {reason}"),
         }
     }
@@ -179,6 +189,7 @@ pub fn warnings(tracks: &[Track], fit: &Fit, drift: Option<&Drift>) -> Result<Ve
     all.extend(stretched(tracks));
     all.extend(carried(tracks, fit)?);
     all.extend(errors_differ(fit));
+    all.extend(UnequalNoise::of(fit).map(Warning::UnequalNoise));
     Ok(all)
 }
 

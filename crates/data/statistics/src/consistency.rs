@@ -57,4 +57,14 @@ impl Walk {
         );
         Self { curve: self.curve, deviation: self.deviation, ..Self::unknown(&reason) }
     }
+
+    /// The walk, or no numbers where all bodies together have a mean velocity.
+    #[must_use]
+    pub(crate) fn carried(self, is_carried: bool) -> Self {
+        if !is_carried {
+            return self;
+        }
+        let reason = "all bodies together have a mean velocity, and no random walk has one";
+        Self { curve: self.curve, deviation: self.deviation, ..Self::unknown(reason) }
+    }
 }

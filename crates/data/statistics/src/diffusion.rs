@@ -137,6 +137,13 @@ impl Diffusion {
         });
         Self { doubt: doubt.or(self.doubt), ..self }
     }
+
+    /// The coefficient with this doubt before all others, if there is a coefficient.
+    #[must_use]
+    pub(crate) fn doubted(self, why: Option<&str>) -> Self {
+        let known = self.green_kubo.known().or(self.displacements.known()).is_some();
+        Self { doubt: why.filter(|_| known).map(str::to_owned).or(self.doubt), ..self }
+    }
 }
 
 /// Mean-square displacements at evenly spaced lags of the second half of a window.

@@ -7,6 +7,7 @@
 //! is an [`Answer`] with the reason.
 
 mod answer;
+mod carried;
 mod consistency;
 mod correlate;
 mod correlation;

@@ -1,5 +1,6 @@
 //! All statistics of a set of tracks.
 
+use crate::carried::carried;
 use crate::correlation::{self, memory};
 use crate::diffusion;
 use crate::jackknife::Sums;
@@ -83,9 +84,9 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let [mean_speed, square] = [1, 2].map(|power| moment(tracks, power));
     let rms_speed = square.map(|x| x.max(0.0).sqrt());
     let exponents = [true, false].map(|first| local_exponent(&displacement, first));
-    let diffusion = diffusion::remembering(tracks, memory)?
-        .held_against(&exponents[1])
-        .beside(correlation::kept(tracks)?);
+    let carried = carried(tracks);
+    let diffusion = diffusion::remembering(tracks, memory)?.held_against(&exponents[1]);
+    let diffusion = diffusion.beside(correlation::kept(tracks)?).doubted(carried.as_deref());
     let seen =
         Seen { speed: &rms_speed, diffusion: &diffusion.displacements, time: &autocorrelations[0].time };
     Ok(Statistics {
@@ -95,7 +96,7 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
         errors: tracks.errors(),
         mean_speed,
         rms_speed,
-        walk: persistent_walk(&displacement).held_against(&seen),
+        walk: persistent_walk(&displacement).held_against(&seen).carried(carried.is_some()),
         diffusion,
         exponents,
         speeds: speeds(tracks),

@@ -170,6 +170,9 @@ impl Critical {
 
     /// The levels that are not critical: how many real ones and how many others grow, and the growth of those closest to 0; NaN where
     /// there are none. A circle at rest has each level in all directions: its copies in other classes are critical too.
+    ///
+    /// Beside an eigenvalue 0 the growth of another one is that of both together: it is smooth where that vanishes, too, while round-off
+    /// splits a double 0 into two real eigenvalues or a pair.
     pub(super) fn others(&self, levels: &[Vec<Level>], reading: &Reading) -> [(usize, f64); 2] {
         let mut out = [(0, f64::NAN); 2];
         let largest = levels.iter().flatten().fold(0.0, |most: f64, level| most.max(level.growth.abs()));
@@ -179,6 +182,10 @@ impl Critical {
             let same = |own: &&Level| (own.growth - level.growth).abs().max((own.angle - level.angle).abs());
             !self.orbits && critical.iter().any(|own| same(own) <= TWINS * largest)
         };
+        let beside = |class: usize| {
+            let split = self.condition == Condition::Steady && !self.orbits && class == self.class;
+            if split { critical.first().copied() } else { None }
+        };
         for (class, levels) in levels.iter().enumerate() {
             for (rank, level) in levels.iter().enumerate() {
                 if class == self.class && reading.members.contains(&rank)
@@ -186,10 +193,14 @@ impl Critical {
                 {
                     continue;
                 }
-                let (count, least) = &mut out[usize::from(!self.is_real(level))];
-                *count += usize::from(level.growth > 0.0);
-                if least.is_nan() || level.growth.abs() < least.abs() {
-                    *least = level.growth;
+                let own = beside(class);
+                let of_critical = own.is_some_and(|own| own.angle != 0.0 && level.angle == -own.angle);
+                let real = of_critical || self.is_real(level);
+                let growth = level.growth + own.filter(|_| real).map_or(0.0, |own| own.growth);
+                let (count, least) = &mut out[usize::from(!real)];
+                *count += usize::from(growth > 0.0);
+                if least.is_nan() || growth.abs() < least.abs() {
+                    *least = growth;
                 }
             }
         }

@@ -265,6 +265,12 @@ def _axis(name: str, values: str | npt.ArrayLike) -> Any:
     """Values for the native module: text, or a contiguous array of doubles."""
     if isinstance(values, str):
         return values
+    if isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], int) and isinstance(values[1], float):
+        low, high, count = values
+        raise ValueError(
+            f"axis {name}: {values} is three values, or {count} values from {low} to {high}: "
+            f'give the list {list(values)}, or the text "{low}:{high}:{count}"'
+        )
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"axis {name} must hold real numbers, not {array.dtype}")

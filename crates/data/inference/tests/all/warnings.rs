@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use crate::common::{Experiment, FULL, full};
-use motiform_inference::{Library, Settings, Track, Warning, drift, fit, warnings, whiteness};
+use motiform_inference::{Library, Observation, Settings, Track, Warning, drift, fit, warnings, whiteness};
 
 fn settings() -> Settings {
     Settings { library: Library::tensor().select(&FULL).unwrap(), ..Settings::default() }
@@ -91,4 +91,43 @@ fn bad_input() {
     let library = Library { modes: 5, ..Library::tensor() };
     let refused = fit(&[], &Settings { library, ..Settings::default() }, &()).unwrap_err().to_string();
     assert_eq!(refused, "modes = 5: give 2, 3 or 4");
+}
+
+/// A walker whose modes fluctuate by themselves, with a rate of 0.5 and these amplitudes of their noise; errors of observation are a tenth
+/// of the fluctuations.
+fn fluctuating(noises: [f64; 2], seed: u64) -> Track {
+    let mut normal = motiform_dynamics::Normal::new(seed, 3);
+    let (keep, mut y) = (libm::exp(-0.5), [0.0; 6]);
+    let mut v = [0.0; 2];
+    let errors = [0.05, 0.05, 0.1 * noises[0], 0.1 * noises[0], 0.1 * noises[1], 0.1 * noises[1]];
+    let frame = |k: u32| {
+        for c in 0..2 {
+            v[c] = 0.8 * v[c] + 0.3 * normal.next();
+            y[c] += v[c];
+        }
+        for c in 2..6 {
+            y[c] = keep * y[c] + noises[c / 2 - 1] * (1.0 - keep * keep).sqrt() * normal.next();
+        }
+        let seen = (0..6).map(|c| y[c] + errors[c] * normal.next()).collect();
+        let squares = |c: usize| (0..6).map(|d| if c == d { errors[c] * errors[c] } else { 0.0 }).collect();
+        Observation { t: f64::from(k), y: seen, covariance: (0..6).map(squares).collect() }
+    };
+    Track((0..400).map(frame).collect())
+}
+
+/// Noise of z3 of three quarters of that of z2 is seen in most records of 400 frames, and equal noise is not taken for unequal.
+#[test]
+fn unequal_noise() {
+    let library = Library::tensor().select(&["z1: z1", "z2: z2", "z3: z3"]).unwrap();
+    let settings = Settings { library, ..Settings::default() };
+    let seen = |noises: [f64; 2], seed: u64| {
+        let tracks = [fluctuating(noises, seed)];
+        let found = fit(&tracks, &settings, &()).unwrap();
+        let all = warnings(&tracks, &found, None).unwrap();
+        all.into_iter()
+            .any(|warning| matches!(warning, Warning::UnequalNoise(found) if found.modes == [2, 3]))
+    };
+    let count = |noises| (0..20).filter(|&seed| seen(noises, seed)).count();
+    let counts = [count([0.3, 0.3]), count([0.3, 0.22])];
+    assert!(counts[0] == 0 && counts[1] >= 15, "{counts:?}");
 }

@@ -141,3 +141,33 @@ fn a_slow_part_of_the_shape_puts_the_coefficient_in_doubt() {
     assert!(said.starts_with("z2 keeps"), "{said}");
     assert_eq!([doubt(1.0, f64::INFINITY), doubt(0.003, 30.0)], [None, None]);
 }
+
+/// A mean velocity of a twentieth of the speed: no random walk has it, and the coefficient is in doubt. Without it, or of one body that
+/// keeps its direction, nothing is said.
+#[test]
+fn a_velocity_that_all_bodies_share_is_named() {
+    let tracks = |drift: f64, count: usize, samples: usize| {
+        let body = |normal: &mut Normal| {
+            let Track { mut position, mut velocity, modes } =
+                ornstein_uhlenbeck(1.0, 1.0, 0.2, samples, normal);
+            position.iter_mut().enumerate().for_each(|(k, x)| x[0] += drift * 0.2 * k as f64);
+            velocity.iter_mut().for_each(|v| v[0] += drift);
+            Track { position, velocity, modes }
+        };
+        statistics(&many(0.2, count, body, 51), &Settings::default()).unwrap()
+    };
+    let found = tracks(0.05, 64, 4000);
+    assert!(
+        found.diffusion.doubt.unwrap().contains("all bodies together move"),
+        "{:?}",
+        found.diffusion.green_kubo
+    );
+    assert!(found.walk.persistence.reason().unwrap().contains("all bodies together have"));
+    for still in [tracks(0.0, 64, 4000), tracks(0.0, 1, 4000)] {
+        assert!(
+            still.diffusion.doubt.is_none() && still.walk.persistence.known().is_some(),
+            "{:?}",
+            still.walk
+        );
+    }
+}

@@ -177,7 +177,8 @@ impl Search {
         }
         let arrived = self.arrived.take();
         let Some(found) = arrived.or_else(|| RelativeEquilibrium::find(body, &self.shape)) else {
-            "no equilibrium was found where the orbit rests".clone_into(&mut self.missing);
+            "the size of the shape hardly changes, but no equilibrium was found there"
+                .clone_into(&mut self.missing);
             return self.recurs(body, look, watch);
         };
         let decided = found.is_stable() || found.is_unstable();
@@ -187,7 +188,9 @@ impl Search {
         let before = found.distance(body, &self.shape);
         let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
         if !found.is_stable() {
-            self.missing = if found.is_unstable() {
+            self.missing = if found.is_unstable() && before > reached {
+                "the size of the shape hardly changes, but it is at no equilibrium, and the nearest one is unstable".to_owned()
+            } else if found.is_unstable() {
                 format!("the orbit rests at an unstable shape (growth rate {:.2e})", found.growth())
             } else {
                 "the orbit rests at a shape that is neutral in a direction beside those of its symmetry \

@@ -240,6 +240,24 @@ fn a_hopf_curve_ends_and_a_fold_curve_passes_at_a_bogdanov_takens_point() {
     near(found[0].1[1], 0.0, 1e-8);
 }
 
+/// Whatever the ranges, and so the steps: near the point round-off splits the double eigenvalue 0 into two real ones or a pair.
+#[test]
+fn a_fold_curve_passes_the_bogdanov_takens_point_in_any_range() {
+    let family = |[p, q]: [f64; 2]| -> Body { Ok(Box::new(Bogdanov(p, q))) };
+    let along = |p: f64| family([p, -0.5]);
+    for (first, second) in
+        [(0.3, 0.8), (0.3, 1.0), (0.4, 0.7), (0.5, 0.9), (0.7, 0.6), (0.9, 1.3), (1.0, 0.8), (2.0, 3.0)]
+    {
+        let settings = Settings::over(-first, first);
+        let point = special(&along, 0.03, &[0.07, 0.0], &settings, "fold");
+        let (points, _) = follow(&family, &point, -0.5, &settings, (-second, second));
+        let found = degenerate(&points);
+        assert_eq!(found.len(), 1, "{first}, {second}: {found:?}");
+        assert_eq!(found[0].0, Degenerate::BogdanovTakens, "{first}, {second}");
+        near(found[0].1[1], 0.0, 1e-7);
+    }
+}
+
 /// `z' = (1 + 2i - |z|^2) z` and `w' = (p + q i + |z|^2 - 1) w - |w|^2 w`: over the period pi the multipliers of the circle `|z| = 1` are
 /// `exp((p +- q i) pi)`.
 struct Ring(f64, f64);

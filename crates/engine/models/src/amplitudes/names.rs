@@ -82,7 +82,7 @@ fn make(equations: Equations) -> ModelInfo {
 }
 
 /// Twenty times the slowest linear time scale at the default parameters, where rates below a twentieth of the median do not count: one fast
-/// amplitude does not make the others slow.
+/// amplitude does not make the others slow, unless it is faster by more than steps can bridge.
 fn look(known: &'static Known, defaults: &[f64]) -> f64 {
     let model = Amplitudes::new(known, defaults);
     let all = at_rest(&model).unwrap_or_else(|| model.linear.to_vec());
@@ -90,11 +90,14 @@ fn look(known: &'static Known, defaults: &[f64]) -> f64 {
         all.iter().map(|rate| rate.abs()).filter(|rate| *rate > 0.0 && rate.is_finite()).collect();
     ascending(&mut rates);
     let Some(&median) = rates.get(rates.len() / 2) else { return 200.0 };
-    rounded(20.0 / rates[0].max(LEAST * median)).clamp(1e-3, 1e6)
+    let fastest = rates[rates.len() - 1];
+    rounded(20.0 / rates[0].max(LEAST * median).max(fastest / STIFFEST)).clamp(1e-3, 1e6)
 }
 
 /// Least rate that counts, as a part of the median one.
 const LEAST: f64 = 0.05;
+/// Ratio of the fastest rate to the slowest one that counts: a look takes some steps for each of its times.
+const STIFFEST: f64 = 2e4;
 
 /// Where the origin does not rest, its linear part says nothing of the motions: the rates at the equilibrium that Newton's method finds
 /// from there, each unknown by itself. `None` where the origin rests, or none is found.

@@ -191,3 +191,21 @@ fn noise_is_a_part_of_the_equations() {
     with.noise = [(2, "z1 + z2".to_owned())].into();
     assert!(info(&with).unwrap_err().problem.contains("turn differently"));
 }
+
+/// The length of a look follows the slow amplitudes, not one fast one beside them, and not the place of the origin.
+#[test]
+fn a_look_lasts_as_the_slow_amplitudes_ask() {
+    let beside = |rate: f64| {
+        let equations = ["z1 - |z1|^2*z1", "-0.1*z2 + 0.2*z1^2", "-z3", "-r*z4"];
+        info(&definition(&[1, 2, 3, 4], &equations, &[("r", rate)])).unwrap().look
+    };
+    assert_eq!([beside(1.0), beside(1e3)], [200.0, 200.0]);
+    assert_eq!(beside(1e6), 0.4, "a look takes some steps for each of the fastest times");
+    let shifted = |by: f64| {
+        let z = format!("(z1 - {by})");
+        let text = format!("(i - 0.1)*{z} - {z}^2*(conj(z1) - {by})");
+        let own = Definition { symmetry: Some("none".to_owned()), ..definition(&[1], &[&text], &[]) };
+        info(&own).unwrap().look
+    };
+    assert_eq!([shifted(3.0), shifted(50.0)], [200.0, 200.0]);
+}

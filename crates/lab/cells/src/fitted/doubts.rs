@@ -55,8 +55,8 @@ pub(super) fn doubts(
     doubts
 }
 
-/// Why neither intervals of the coefficients nor a place are stated: for the sake of the motion ([`FittedRegime::no_intervals`]), or
-/// because the sampling biases the coefficients.
+/// Why neither intervals of the coefficients nor a place are stated: for the sake of the motion ([`FittedRegime::no_intervals`]), because the
+/// sampling biases the coefficients, or because the noise is not as the model has it.
 pub(super) fn no_intervals(regime: Option<&FittedRegime>, warnings: &[Warning]) -> Option<&'static str> {
     regime.and_then(FittedRegime::no_intervals).or_else(|| bias(warnings))
 }
@@ -68,6 +68,9 @@ fn bias(warnings: &[Warning]) -> Option<&'static str> {
         }
         Warning::Drifting { .. } => Some(
             "coefficients change with the sampling interval: they have a bias that intervals from the noise do not hold",
+        ),
+        Warning::UnequalNoise(_) => Some(
+            "modes of the shape have different noise, and the model has one amplitude for all of them: errors of coefficients are wrong",
         ),
         _ => None,
     })

@@ -116,10 +116,12 @@ fn placed(fitted: &Fitted, plane: usize) -> Option<&Place> {
     }
 }
 
+/// The coordinates of its place, none of them broken into lines.
 pub(crate) fn place_words(fitted: &Fitted) -> String {
     let place = placed(fitted, 0).or(placed(fitted, 1));
     let words = |place: &Place| {
-        let both = place.coordinates.iter().map(|c| format!("{} = {}", c.name, estimate(&c.estimate)));
+        let one = |name: &str, value: String| format!("{name} = {value}").replace(' ', "\u{a0}");
+        let both = place.coordinates.iter().map(|c| one(&c.name, estimate(&c.estimate)));
         both.collect::<Vec<_>>().join(", ")
     };
     place.map_or_else(|| "none".to_owned(), words)
