@@ -55,8 +55,8 @@ pub(super) fn doubts(
     doubts
 }
 
-/// Why neither intervals of the coefficients nor a place are stated: for the sake of the motion ([`FittedRegime::no_intervals`]), because the
-/// sampling biases the coefficients, or because the noise is not as the model has it.
+/// Why neither intervals of the coefficients nor a place are stated: for the sake of the motion ([`FittedRegime::no_intervals`]), because
+/// the sampling biases the coefficients, or because the noise is not as the model has it.
 pub(super) fn no_intervals(regime: Option<&FittedRegime>, warnings: &[Warning]) -> Option<&'static str> {
     regime.and_then(FittedRegime::no_intervals).or_else(|| bias(warnings))
 }
