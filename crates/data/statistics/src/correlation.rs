@@ -50,51 +50,51 @@ pub(crate) struct Products {
 /// # Errors    none for samples that [`Tracks`] accepts
 /// # Checked by  tests/all/correlation.rs: Ornstein-Uhlenbeck, chiral active Brownian, circle, direct sums; tests/all/coverage.rs
 pub fn autocorrelation(tracks: &Tracks, quantity: &Quantity) -> Result<Autocorrelation> {
-    remembering(tracks, quantity, memory(tracks)?)
+    remembering(tracks, quantity, remembered(tracks)?.memory)
 }
 
-/// Half of the longest of the shortest windows of all quantities that are forgotten within the lags, in
-/// samples: they are of one body, whose slow changes are in all of them, be it by a small part that each
-/// alone hardly shows (speed and shape of a chaotic body, and how far it goes).
-///
-/// # Errors    none for samples that [`Tracks`] accepts
-pub(crate) fn memory(tracks: &Tracks) -> Result<usize> {
-    let mut longest = 0;
-    for quantity in tracks.quantities() {
-        let products = Products::of(tracks, &quantity)?;
-        if !products.steady(tracks, &quantity) {
-            longest = longest.max(products.curves().least().unwrap_or(0));
-        }
-    }
-    Ok(longest / 2)
+/// The memory that the quantities of a body have together: they are of one body, whose slow changes are in all of them, be it by a small
+/// part that each alone hardly shows (speed and shape of a chaotic body, and how far it goes).
+pub(crate) struct Remembered {
+    /// Half of the longest of the shortest windows of all quantities that are forgotten within the lags, in samples.
+    pub(crate) memory: usize,
+    /// A quantity that keeps a part of its correlation over the second half of the lags, and that part: the velocity may have a slow part
+    /// as well, which a fast one hides. One that oscillates has no such part.
+    pub(crate) kept: Option<(Quantity, f64)>,
 }
 
 /// Mean correlation over the longest lags from which on a quantity is not forgotten within them.
 const KEPT: f64 = 0.05;
 
-/// A quantity that keeps a part of its correlation over the second half of the lags, and that part: the velocity may have a slow part as
-/// well, which a fast one hides. One that oscillates has no such part.
+/// See [`Remembered`].
 ///
 /// # Errors    none for samples that [`Tracks`] accepts
-pub(crate) fn kept(tracks: &Tracks) -> Result<Option<(Quantity, f64)>> {
+pub(crate) fn remembered(tracks: &Tracks) -> Result<Remembered> {
+    let (mut longest, mut kept) = (0, None);
     for quantity in tracks.quantities() {
         let products = Products::of(tracks, &quantity)?;
-        let curves = products.curves();
-        if products.steady(tracks, &quantity) || curves.least().is_some() {
+        if products.steady(tracks, &quantity) {
             continue;
         }
-        let last = curves.longest();
-        let mean = |curve: &Vec<f64>| {
-            let part = &curve[last / 2..=last];
-            part.iter().sum::<f64>() / part.len() as f64 / curve[0]
-        };
-        let means: Vec<f64> = curves.values.iter().map(mean).collect();
-        let found = jackknife(means[0], &means[1..]);
-        if found.value > KEPT && found.lower() > 0.0 {
-            return Ok(Some((quantity, found.value)));
+        let curves = products.curves();
+        match curves.least() {
+            Some(least) => longest = longest.max(least),
+            None => kept = kept.or_else(|| Some((quantity, kept_by(&curves)?))),
         }
     }
-    Ok(None)
+    Ok(Remembered { memory: longest / 2, kept })
+}
+
+/// The mean correlation over the second half of the lags, where it is one.
+fn kept_by(curves: &Curves) -> Option<f64> {
+    let last = curves.longest();
+    let mean = |curve: &Vec<f64>| {
+        let part = &curve[last / 2..=last];
+        part.iter().sum::<f64>() / part.len() as f64 / curve[0]
+    };
+    let means: Vec<f64> = curves.values.iter().map(mean).collect();
+    let found = jackknife(means[0], &means[1..]);
+    (found.value > KEPT && found.lower() > 0.0).then_some(found.value)
 }
 
 /// [`autocorrelation`], its window at least so many samples.

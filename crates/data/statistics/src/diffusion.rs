@@ -1,7 +1,7 @@
 //! The diffusion coefficient, from velocities and from displacements.
 
 use crate::consistency::APART;
-use crate::correlation::{Products, memory};
+use crate::correlation::{Products, remembered};
 use crate::displacement::square_sums;
 use crate::jackknife::Sums;
 use crate::lag_window::Integral;
@@ -47,7 +47,7 @@ pub struct Diffusion {
 ///   (why the shortest lags that are diffusive are the best)
 /// # Checked by  tests/all/diffusion.rs: Ornstein-Uhlenbeck, active Brownian (chiral and not), circle, line; coverage in crate measure
 pub fn diffusion(tracks: &Tracks) -> Result<Diffusion> {
-    remembering(tracks, memory(tracks)?)
+    remembering(tracks, remembered(tracks)?.memory)
 }
 
 /// [`diffusion`], its window at least so many samples.

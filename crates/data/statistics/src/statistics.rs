@@ -1,7 +1,7 @@
 //! All statistics of a set of tracks.
 
 use crate::carried::carried;
-use crate::correlation::{self, memory};
+use crate::correlation::{self, Remembered, remembered};
 use crate::diffusion;
 use crate::jackknife::Sums;
 use crate::{
@@ -70,7 +70,7 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let displacement = mean_square(tracks);
     let radii = discs(settings, &displacement)?;
     let quantities = tracks.quantities();
-    let memory = memory(tracks)?;
+    let Remembered { memory, kept } = remembered(tracks)?;
     let autocorrelations = quantities
         .iter()
         .map(|quantity| correlation::remembering(tracks, quantity, memory))
@@ -86,7 +86,7 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let exponents = [true, false].map(|first| local_exponent(&displacement, first));
     let carried = carried(tracks);
     let diffusion = diffusion::remembering(tracks, memory)?.held_against(&exponents[1]);
-    let diffusion = diffusion.beside(correlation::kept(tracks)?).doubted(carried.as_deref());
+    let diffusion = diffusion.beside(kept).doubted(carried.as_deref());
     let seen =
         Seen { speed: &rms_speed, diffusion: &diffusion.displacements, time: &autocorrelations[0].time };
     Ok(Statistics {
