@@ -38,6 +38,12 @@ pub fn detect(path: &Path, options: &Options) -> Result<Format> {
             Err(unknown("XML, but not of TrackMate"))
         };
     }
+    if header::is_of_spots(text.lines().next().unwrap_or_default()) {
+        return Err(unknown(
+            "TrackMate's table of spots, which has one place for each cell and frame, but no outlines: give the XML file that \
+             TrackMate saves; it has the outlines that detectors of masks, labels and thresholds draw",
+        ));
+    }
     let candidates = candidates(text, options);
     match candidates.as_slice() {
         [one] => Ok(*one),

@@ -87,19 +87,32 @@ pub(crate) fn needed(
     })
 }
 
-/// Letters and digits in lower case, without a unit in brackets: `Node X (px)` is `nodex`.
+/// Letters and digits in lower case, without a unit: `Node X (px)` is `nodex`, `x_um` is `x`.
 fn plain(name: &str) -> String {
-    let name = name.split(['[', '(']).next().filter(|before| !before.trim().is_empty()).unwrap_or(name);
-    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+    divided(name).0.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// The unit in brackets behind a name, if it is one that is known here: `x [um]`, `t (min)`.
+/// The unit of a column that is known here: `x [um]`, `t (min)`, `x_um`, `time s`.
 pub(crate) fn unit_of(name: &str) -> Option<String> {
-    let (_, rest) = name.split_once(['[', '('])?;
-    let unit = crate::scale::unit(rest.trim_end().trim_end_matches([']', ')']));
-    ["um", "nm", "mm", crate::PIXEL, "s", "ms", "min", "h", crate::FRAME]
-        .contains(&unit.as_str())
-        .then_some(unit)
+    divided(name).1
+}
+
+/// A name and the unit behind it, in brackets or as its last word. What stands in brackets and is no known unit belongs to neither.
+fn divided(name: &str) -> (&str, Option<String>) {
+    let named = |&(before, _): &(&str, &str)| before.contains(char::is_alphanumeric);
+    if let Some((before, rest)) = name.split_once(['[', '(']).filter(named) {
+        return (before, known_unit(rest.trim_end().trim_end_matches([']', ')'])));
+    }
+    let word = name.trim_end().rsplit_once(['_', ' ', '.', '/', '-']).filter(named);
+    let unit =
+        word.and_then(|(_, word)| known_unit(word).filter(|unit| !word.is_empty() && unit != crate::FRAME));
+    word.filter(|_| unit.is_some()).map_or((name, None), |(before, _)| (before, unit))
+}
+
+fn known_unit(word: &str) -> Option<String> {
+    let unit = crate::scale::unit(word);
+    let known = ["um", "nm", "mm", crate::PIXEL, "s", "ms", "min", "h", crate::FRAME];
+    known.contains(&unit.as_str()).then_some(unit)
 }
 
 /// The separator of a table: the one of tab, semicolon and comma that occurs most often in the header.
@@ -124,6 +137,14 @@ pub(crate) fn is_table(line: &str, columns: &Columns) -> bool {
         None => names.iter().any(|name| usual.contains(&plain(name).as_str())),
     };
     names.len() > 2 && has(&columns.x, X) && has(&columns.y, Y)
+}
+
+/// Returns `true` if a line is the header of TrackMate's table of spots.
+pub(crate) fn is_of_spots(line: &str) -> bool {
+    let names: Vec<String> = names(line).iter().map(|name| plain(name)).collect();
+    ["positionx", "positiony", "quality", "radius"]
+        .iter()
+        .all(|wanted| names.iter().any(|name| name == wanted))
 }
 
 /// The place where `POLYGON` or `MULTIPOLYGON` begins in a line.

@@ -31,8 +31,8 @@ pub struct CellTrack {
     pub breaks: Vec<usize>,
     /// `true` if the jumps were subtracted from the outlines: then the path goes on across them.
     pub bridged: bool,
-    /// `true` if all cells drift together, and that was not subtracted.
-    pub drifts: bool,
+    /// The velocity with which all cells drift together, if that is seen and was not subtracted.
+    pub drift: Option<[f64; 2]>,
     /// Mean radius R0 over these frames; 0 without any.
     pub radius: f64,
 }
@@ -125,7 +125,7 @@ impl CellTrack {
             track: Track(frames),
             breaks,
             bridged,
-            drifts: field.drifts(),
+            drift: field.uncorrected_drift(),
             radius,
         }
     }
@@ -137,6 +137,16 @@ impl CellTrack {
         let starts = std::iter::once(0).chain(self.breaks.iter().copied());
         let pieces = starts.zip(ends).map(|(from, to)| Track(self.track.0[from..to].to_vec()));
         pieces.filter(|piece| piece.0.len() >= LEAST_FRAMES).collect()
+    }
+
+    /// The path as it would be without a velocity that is not the cell's own.
+    pub(crate) fn path_without(&self, velocity: [f64; 2]) -> Track {
+        let mut path = self.path();
+        let since = path.0.first().map_or(0.0, |first| first.t);
+        for frame in &mut path.0 {
+            (0..2).for_each(|k| frame.y[k] -= velocity[k] * (frame.t - since));
+        }
+        path
     }
 
     /// The track where its jumps were subtracted, or else its longest piece: where displacements count.

@@ -158,7 +158,7 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
         Err(Error::Inference(error)) => return Ok(without_fit(cell, &error)),
         found => found?,
     };
-    if fitted.is_handed() && cell.drifts {
+    if fitted.is_handed() && cell.drift.is_some() {
         fitted.doubt("it is handed, or carried by the drift that all cells of the field of view have; the correction 'drift' subtracts it");
     }
     let companions = Companions { count: options.simulations, seed: options.seed };

@@ -110,6 +110,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
         None => Motion { regime, why, confidence: None },
         Some(_) => resampled(&measures, (regime, why), cell.radius, repeats.as_ref()),
     };
+    let motion = beside_drift(cell, motion);
     let mut statistics = statistics::of_records(std::iter::once(&measures.series));
     if let (Some(Regime::Circular), Some(statistics)) = (motion.regime, &mut statistics) {
         statistics.walk = Walk::unknown("the heading turns steadily: this is no persistent random walk");
@@ -133,6 +134,23 @@ fn resampled(
         return Motion { regime, why, confidence: Some(confidence) };
     }
     let why = format!("{why}; but only {:.0} % of the resampled records say so", 100.0 * confidence);
+    Motion { regime: None, why, confidence: None }
+}
+
+/// The verdict, if the path without the velocity that all cells have in common leads to the same one.
+fn beside_drift(cell: &CellTrack, motion: Motion) -> Motion {
+    let Some(velocity) = cell.drift.filter(|_| motion.regime.is_some()) else { return motion };
+    let still = Measures::of(&cell.path_without(velocity));
+    let other = still.and_then(|m| decide(&m, cell.radius, Repeats::of(&m).as_ref()).0);
+    if other == motion.regime {
+        return motion;
+    }
+    let why = format!(
+        "{}; but all cells drift together, and without that velocity it is {}: the correction 'drift' subtracts it, if it is that of the \
+         stage",
+        motion.why,
+        other.map_or("undecided", Regime::name)
+    );
     Motion { regime: None, why, confidence: None }
 }
 

@@ -44,13 +44,22 @@ fn semicolons_and_decimal_commas() {
 
 #[test]
 fn units_in_the_header_are_those_of_the_values() {
-    for header in ["cell,frame,x [um],y [um]", "cell,frame,X (µm),Y (µm)"] {
+    for header in [
+        "cell,frame,x [um],y [um]",
+        "cell,frame,X (µm),Y (µm)",
+        "cell_id,frame,x_um,y_um",
+        "id,frame,POSITION_X_um,POSITION_Y_µm",
+    ] {
         let found = read(table(header, ',', |x| x.to_string(), |k| k.to_string())).expect("units");
         assert_eq!((found.length_unit.as_str(), &found.cells), ("um", &plain().cells), "{header}");
     }
-    let pixels =
-        read(table("cell,frame,x [px],y [px]", ',', |x| x.to_string(), |k| k.to_string())).expect("pixels");
-    assert_eq!(pixels.length_unit, "pixel");
+    // a last word that is no unit belongs to the name
+    let none =
+        ["cell,frame,x [px],y [px]", "cell,frame,x_px,y px", "cell,frame,x_,y_", "cell,frame,pos_x,pos_y"];
+    for header in none {
+        let pixels = read(table(header, ',', |x| x.to_string(), |k| k.to_string())).expect("pixels");
+        assert_eq!((pixels.length_unit.as_str(), &pixels.cells), ("pixel", &plain().cells), "{header}");
+    }
     // a table in um is read with a pixel of 1; another one contradicts it
     let um = table("cell,frame,x [um],y [um]", ',', |x| x.to_string(), |k| k.to_string());
     let with = |size| read_with(&um, &Options { pixel_size: Some(size), ..Options::default() });
@@ -64,6 +73,8 @@ fn a_column_of_times_stands_for_frames() {
     let found = read(table("cell,time [s],x,y", ',', |x| x.to_string(), seconds)).expect("times");
     assert_eq!((found.time_unit.as_str(), times(&found)), ("s", vec![-5.0, -2.5, 0.0, 2.5, 5.0, 7.5]));
     assert_eq!(frames(&found), [-2, -1, 0, 1, 2, 3], "frames before a stimulus at 0 are kept");
+    let word = read(table("cell,time_s,x,y", ',', |x| x.to_string(), seconds)).expect("times");
+    assert_eq!((word.time_unit.as_str(), times(&word)), ("s", times(&found)));
     // a gap in time is a gap of frames
     let gap = |k: usize| format!("{}", 10 * if k < 3 { k } else { k + 2 });
     let found = read(table("cell,t (min),x,y", ',', |x| x.to_string(), gap)).expect("a gap");

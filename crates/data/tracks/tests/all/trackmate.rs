@@ -56,6 +56,15 @@ fn links_are_followed_and_cut_at_splits() {
     );
 }
 
+/// The table that TrackMate exports has places alone: the reason is said at once, not one column after the other.
+#[test]
+fn its_table_of_spots_has_no_outlines() {
+    let header =
+        "LABEL,ID,TRACK_ID,QUALITY,POSITION_X,POSITION_Y,POSITION_Z,POSITION_T,FRAME,RADIUS,VISIBILITY";
+    let found = refusal(format!("{header}\nID1,1,0,5.2,10.0,12.0,0.0,0.0,0,4.5,1\n"));
+    assert!(found.contains("no outlines") && found.contains("XML"), "{found}");
+}
+
 #[test]
 fn vertices_are_relative_to_their_spot() {
     let tracks = read(xml(&[(10, 0), (20, 1)], &[&[(10, 20)]], 0.5, "um")).unwrap();

@@ -56,10 +56,11 @@ impl FieldOfView {
         Self { cells: grid.cells(), jumps, jitter, drift, pixel, corrected: Vec::new() }
     }
 
-    /// `true` if a drift is seen that was not subtracted.
+    /// The common velocity, if it is seen and was not subtracted.
     #[must_use]
-    pub fn drifts(&self) -> bool {
-        !self.is_corrected(Correction::Drift) && self.drift.is_some_and(|drift| drift.is_seen())
+    pub fn uncorrected_drift(&self) -> Option<[f64; 2]> {
+        let seen = self.drift.filter(CommonDrift::is_seen);
+        seen.filter(|_| !self.is_corrected(Correction::Drift)).map(|drift| drift.velocity)
     }
 
     /// `true` if this was subtracted from the outlines.

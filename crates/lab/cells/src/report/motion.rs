@@ -63,16 +63,20 @@ fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
         }
         all.push(("sampling interval".to_owned(), format!("{} {time}", plain(case.cell.track.interval()))));
         all.push((
-            format!("{} of the stretch, by displacements over {} {time}", cell::SPEED.symbol, plain(m.step)),
+            format!(
+                "{} (of the stretch, by displacements over {} {time})",
+                cell::SPEED.symbol,
+                plain(m.step)
+            ),
             format!("{} {}", plain(m.speed), units.unit(Dimension::SPEED)),
         ));
         all.push(("scatter of the speed".to_owned(), format!("{:.0} %", 100.0 * m.speed_scatter)));
         all.push((
-            format!("{} of the stretch", cell::TURNING_RATE.symbol),
+            format!("{} (of the stretch)", cell::TURNING_RATE.symbol),
             format!("{} {}", with_error(m.turning, m.turning_error), units.unit(Dimension::TURNING)),
         ));
         all.push((
-            "directionality of the stretch, by the same displacements".to_owned(),
+            "directionality (of the stretch, by the same displacements)".to_owned(),
             plain(m.directness),
         ));
     }

@@ -41,12 +41,15 @@ fn fit(cell: &CellTrack, stage: bool) -> motiform_cells::CellFit {
 #[test]
 fn a_field_of_view_that_moves_is_found() {
     let still = field(walkers(12));
-    assert!(!still.drifts() && still.jumps.is_empty() && still.pixel.is_none(), "{still:?}");
+    assert!(
+        still.uncorrected_drift().is_none() && still.jumps.is_empty() && still.pixel.is_none(),
+        "{still:?}"
+    );
     assert!(!still.jitter.as_ref().expect("common frames").is_seen(), "{still:?}");
     let drift = [0.15, -0.1];
     let moved = field(walkers(12).drifting(drift).jittering(0.2, 8).jumping(80, [6.0, 3.0]));
     let (before, after) = (still.drift.expect("twelve cells"), moved.drift.expect("twelve cells"));
-    assert!(moved.drifts());
+    assert!(moved.uncorrected_drift().is_some());
     let [jump] = moved.jumps[..] else { panic!("{:?}", moved.jumps) };
     assert!(jump.frame == 80 && jump.cells == 12, "{jump:?}");
     for k in 0..2 {
@@ -94,6 +97,30 @@ fn corrections_leave_what_a_still_stage_shows() {
     assert!(observe(&found.cells[0]).numbers.pieces == 1);
     // a drift that is not there is not subtracted
     assert_eq!(distance(walkers(12), &[Correction::Drift]), 0.0);
+}
+
+/// Cells that rest on a stage that drifts are not named straight: where the common velocity changes the name, there is none until the
+/// drift is subtracted. Circling cells circle with and without it.
+#[test]
+fn a_drift_gives_no_name_of_its_own() {
+    let rest = Walker { speed: 1e-6, persistence: 50.0, shape: Shape::Round, frames: 200, noise: 0.02 };
+    let resting = || tracks((0..6).map(|seed| rest.outlines(500 + seed)).collect()).drifting([0.05, 0.02]);
+    for cell in &sample(resting()).cells {
+        let motion = observe(cell).motion;
+        assert!(motion.regime.is_none() && motion.why.contains("without that velocity"), "{}", motion.why);
+    }
+    let subtracted = sample(resting()).corrected(&[Correction::Drift], &ModeOptions::default());
+    for cell in &subtracted.cells {
+        let motion = observe(cell).motion;
+        assert!(motion.regime != Some(Regime::Straight), "{}", motion.why);
+    }
+    let circles = (0..6)
+        .map(|k| body("fig4", &[("kappa2", 0.5), ("kappa3", 0.5 + 0.01 * f64::from(k))], (2.0, 0.0), 200));
+    let circling = sample(tracks(circles.collect()).drifting([0.02, 0.0]));
+    for cell in &circling.cells {
+        let motion = observe(cell).motion;
+        assert_eq!(motion.regime, Some(Regime::Circular), "{}", motion.why);
+    }
 }
 
 /// Without jitter the test says so in 1 % of 60 fields of six walkers, and the p-values are uniform.
