@@ -31,6 +31,7 @@ import { StripPanels } from "./strips/panels";
 import { onTheme, visible } from "./theme";
 import { SwarmPanel } from "./swarm";
 import { toast } from "./toasts";
+import { unitOf } from "./tracked";
 import { Tour } from "./tour/tour";
 import { Undo } from "./undo";
 
@@ -229,7 +230,7 @@ export class App implements Hearer {
     session.begun(begun, this.speedOf(place, begun));
     this.history.clear();
     this.swarm.clear();
-    this.body.begin();
+    this.body.begin(unitOf(session));
     this.compare.begin(session);
     if (this.map.current()) this.branches.forget();
     this.loop.look();

@@ -7,7 +7,7 @@ import type { Beside } from "./half";
 import type { Connect } from "./listener";
 import type { Plane } from "./protocol";
 import type { Session } from "./session";
-import { TrackedView, type Sight } from "./tracked";
+import { trackedBy, TrackedView, unitOf, type Sight } from "./tracked";
 import { Twin } from "./twin";
 
 /** What is to be held, and what the body looks like. */
@@ -37,17 +37,18 @@ export class Compare {
   }
 
   /** A body begins. If its model was fitted to a tracked cell, the cell is shown in the left half. */
-  begin({ tracked, model }: Session): void {
-    const wanted = !this.hidden && tracked?.model === model.name ? tracked : null;
+  begin(session: Session): void {
+    const wanted = this.hidden ? null : trackedBy(session);
     if (this.beside instanceof TrackedView && this.beside.cell !== wanted) this.beside.end();
     if (wanted && !this.beside) this.beside = new TrackedView(wanted, () => this.compared.sight(), () => (this.beside = null));
   }
 
   /** Holds a place; what stood there before is let go. */
-  private hold(place: Place, { model, parameters, registry }: Session, plane: Plane | null): void {
+  private hold(place: Place, session: Session, plane: Plane | null): void {
+    const { model, parameters, registry } = session;
     this.beside?.end();
     const names = [...new Set([plane?.x.name ?? "", plane?.y?.name ?? "", ...Object.keys(place.parameters)])];
-    this.beside = new Twin(this.connect, { place, model, names, values: { ...parameters }, regimes: registry.regimes }, () => (this.beside = null));
+    this.beside = new Twin(this.connect, { place, model, names, values: { ...parameters }, regimes: registry.regimes, unit: unitOf(session) }, () => (this.beside = null));
   }
 
   draw(seconds: number, moving: boolean): void {

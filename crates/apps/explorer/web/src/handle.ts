@@ -29,6 +29,8 @@ interface Handle {
     toPixel(x: number, y: number): [number, number];
     /** Pixels of a model length at the size in which the body is drawn. */
     readonly scale: number;
+    /** The unit of lengths beside the bar; `null`: that of the model. */
+    readonly unit: string | null;
   };
   branches: {
     /** CSS pixels in the diagram of a point of a branch. */
@@ -74,6 +76,9 @@ export function expose(source: { frames(): number; revision(): number; frame(): 
       toPixel: (x: number, y: number): [number, number] => [body.camera.toX(x), body.camera.toY(y)],
       get scale() {
         return body.scale;
+      },
+      get unit() {
+        return body.camera.unit;
       },
     }),
     branches: Object.freeze({ toPixel: (branch: number, point: number) => branches.toPixel(branch, point) }),

@@ -36,6 +36,8 @@ export interface Holding {
   names: string[];
   values: Record<string, number>;
   regimes: Regime[];
+  /** Of its lengths; `null`: the model's own. */
+  unit: string | null;
 }
 
 export class Twin implements Beside {
@@ -65,6 +67,7 @@ export class Twin implements Beside {
       swarm: () => undefined,
       open: (open, code) => this.opened(open, code),
     });
+    this.camera.unit = holding.unit;
     showHalf("The place that is held, to compare with", "End the comparison");
     this.label();
   }

@@ -76,6 +76,7 @@ test("the cell stands beside its model, at the time and the scale of the body", 
     assert.ok(Math.abs(x - wanted) < 2e-3 && Math.abs(y) < 1e-12, `${x} ${wanted}`);
   }
   assert.ok(Math.abs(wire.frame.radius - shown.radius) < 0.01, "the body is drawn with the radius of the cell");
+  assert.equal(await page.evaluate(() => window.motiform.body.unit), "\u00b5m", "the bar has the unit of the cell");
   await shoot(page, "tracked");
 }));
 

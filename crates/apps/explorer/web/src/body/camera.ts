@@ -33,8 +33,10 @@ export class Camera {
   held = false;
   /** Whether it stands still. */
   resting = false;
-  /** Pixels per model length. */
+  /** Pixels per unit of length. */
   scale = 40;
+  /** The unit of length; `null`: the model's own. */
+  unit: string | null = null;
   x = 0;
   y = 0;
   width = 1;

@@ -127,7 +127,7 @@ export function paintScale(g: CanvasRenderingContext2D, camera: Camera, inks: In
   g.font = `11px ${UI_FONT}`;
   g.textAlign = "left";
   g.textBaseline = "alphabetic";
-  const text = `${pretty(length)} model length${length === 1 ? "" : "s"}`;
+  const text = `${pretty(length)} ${camera.unit ?? `model length${length === 1 ? "" : "s"}`}`;
   // A ground of its own is cheaper than letters with a halo, and as legible upon the trail.
   g.globalAlpha = 0.75;
   g.fillStyle = inks.plot;

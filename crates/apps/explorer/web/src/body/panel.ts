@@ -127,8 +127,10 @@ export class BodyPanel {
     return this.frame;
   }
 
-  /** A new body: the sight jumps to it. */
-  begin(): void {
+  /** A new body: the sight jumps to it. `unit`: of its lengths; `null`: the model's own. */
+  begin(unit: string | null): void {
+    this.camera.unit = unit;
+    this.backdrop.forget();
     this.frame = this.outline = null;
     this.show(null);
     this.camera.jump();
