@@ -16,10 +16,23 @@ pub(crate) struct Beside {
 impl Beside {
     /// Begins a task of this program. What it prints goes to a file.
     pub(crate) fn begin(name: &'static str) -> Result<Self> {
+        Self::start(name, Command::new(std::env::current_exe()?))
+    }
+
+    /// Begins one that takes what processor time others leave, where the system can do that.
+    pub(crate) fn begin_idly(name: &'static str) -> Result<Self> {
+        if !cfg!(unix) {
+            return Self::begin(name);
+        }
+        let mut nice = Command::new("nice");
+        nice.args(["-n", "19"]).arg(std::env::current_exe()?);
+        Self::start(name, nice)
+    }
+
+    fn start(name: &'static str, mut command: Command) -> Result<Self> {
         let said = root()?.canonicalize()?.join(format!("target/xtask-{name}.txt"));
         let file = File::create(&said).with_context(|| said.display().to_string())?;
         eprintln!("== {name}: begins beside the next parts; its lines come at its end");
-        let mut command = Command::new(std::env::current_exe()?);
         command.arg(name).stdout(file.try_clone()?).stderr(file);
         Ok(Self { name, child: command.spawn().context(name)?, said })
     }

@@ -82,12 +82,7 @@ fn run() -> Result<()> {
         Some("quick") => cargo("tests", TESTS),
         Some("checks") => with_parts(all(CHECKS)),
         // Steps of `test`, begun by it.
-        Some("beside-tests") => {
-            with_parts(all(CHECKS).and_then(|()| explorer::build()).and_then(|()| python::build()))
-        }
-        Some("beside-chromium") => {
-            with_parts(python::test_built().and_then(|()| explorer::test_part_in_firefox()))
-        }
+        Some("beside-tests") => with_parts(explorer::build().and_then(|()| python::test())),
         Some("explorer") => explorer::test(),
         Some("firefox") => explorer::test_in_firefox(),
         Some("python") => with_parts(python::test()),
@@ -118,19 +113,19 @@ fn all(steps: &[(&str, &[&str])]) -> Result<()> {
 
 fn everything() -> Result<()> {
     all(BEFORE)?;
-    tests_beside_checks()?;
-    // Browsers wait for most of their time.
-    let python = Beside::begin("beside-chromium")?;
-    let page = explorer::test_in_chromium(); // the tests have built the program
-    python.end()?;
+    tests_beside_builds()?;
+    // Browsers wait for most of their time, which lints and documentation may have.
+    let checks = Beside::begin_idly("checks")?;
+    let page = explorer::test_in_chromium().and_then(|()| explorer::test_part_in_firefox()); // of the program that the tests built
+    checks.end()?;
     page?;
     book::build() // in the environment of the Python tests
 }
 
-/// The tests leave a quarter of two processors idle, because each binary ends with its longest test: lints and documentation are checked,
-/// and the page and the Python package are built meanwhile, as soon as cargo is done with building, which only one cargo can do at a time.
-fn tests_beside_checks() -> Result<()> {
-    let mut checks = None;
+/// The tests leave a quarter of two processors idle, because each binary ends with its longest test: the page and the Python package are
+/// built meanwhile, and the package is tested, as soon as cargo is done with building, which only one cargo can do at a time.
+fn tests_beside_builds() -> Result<()> {
+    let mut builds = None;
     let tests = parts::timed("tests", || -> Result<_> {
         eprintln!("== tests: cargo {}", TESTS.join(" "));
         let mut tests = cargo_command();
@@ -139,13 +134,13 @@ fn tests_beside_checks() -> Result<()> {
         for line in child.stderr.take().map(BufReader::new).into_iter().flat_map(BufRead::lines) {
             let line = line?;
             eprintln!("{line}");
-            if checks.is_none() && line.trim_start().starts_with("Running ") {
-                checks = Some(Beside::begin("beside-tests")?);
+            if builds.is_none() && line.trim_start().starts_with("Running ") {
+                builds = Some(Beside::begin("beside-tests")?);
             }
         }
         Ok(child.wait()?)
     })?;
-    checks.map_or(Ok(()), Beside::end)?;
+    builds.map_or(Ok(()), Beside::end)?;
     if tests.success() { Ok(()) } else { bail!("tests failed") }
 }
 

@@ -5,24 +5,13 @@ use anyhow::{Result, bail};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Builds the package and runs its tests.
+/// Builds the package with everything its tests need into `target/python`, and runs its tests.
 pub(crate) fn test() -> Result<()> {
-    build()?;
-    test_built()
-}
-
-/// Builds the package with everything its tests need into `target/python`.
-pub(crate) fn build() -> Result<()> {
     let python = environment("target/python")?;
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".[test]"];
     // Crates with the features that they have in the whole workspace are not built again (crates/apps/python/Cargo.toml).
     let features = "--features workspace";
-    step("python package", Command::new(&python).args(install).env("MATURIN_PEP517_ARGS", features))
-}
-
-/// Runs the tests of the package that was built last.
-pub(crate) fn test_built() -> Result<()> {
-    let python = environment("target/python")?;
+    step("python package", Command::new(&python).args(install).env("MATURIN_PEP517_ARGS", features))?;
     // Files stay together: what a file prepares is prepared once.
     step(
         "python tests",

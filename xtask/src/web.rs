@@ -29,7 +29,7 @@ pub(crate) fn run() -> Result<()> {
     }
     let node = node(&root)?;
     npm("page dependencies", &node, &web, &["ci", "--no-audit", "--no-fund"])?;
-    let module = site(&node, &root, &web)?;
+    let module = site(&node, &root, &web, "web")?;
     let (site, file) = (root.join(SITE), root.join(ONE_FILE));
     tool(&node, &web, "file", [&site, &file])?;
     for path in [&module, &site.join("motiform.wasm.gz"), &file] {
@@ -38,10 +38,11 @@ pub(crate) fn run() -> Result<()> {
     Ok(())
 }
 
-/// Builds the folder for the tests; says so where this machine cannot.
+/// Builds the folder for the tests, in the profile of the program: what is given away takes longer, and computes the same bits. Says so
+/// where this machine cannot.
 pub(crate) fn for_tests(node: &Path, root: &Path, web: &Path) -> Result<()> {
     if is_installed()? {
-        site(node, root, web)?;
+        site(node, root, web, "release")?;
     } else {
         eprintln!("== page without a server: NOT TESTED; {REMEDY}");
     }
@@ -49,8 +50,8 @@ pub(crate) fn for_tests(node: &Path, root: &Path, web: &Path) -> Result<()> {
 }
 
 /// Builds the folder; the module that is in it, compressed.
-fn site(node: &Path, root: &Path, web: &Path) -> Result<PathBuf> {
-    let (module, site) = (module(root)?, root.join(SITE));
+fn site(node: &Path, root: &Path, web: &Path, profile: &str) -> Result<PathBuf> {
+    let (module, site) = (module(root, profile)?, root.join(SITE));
     page(node, web, &site)?;
     tool(node, web, "pack", [&module, &site])?;
     Ok(module)
@@ -64,10 +65,10 @@ pub(crate) fn is_installed() -> Result<bool> {
 }
 
 /// Builds the module. No path of this machine is in it: its bytes do not depend on where the sources lie.
-fn module(root: &Path) -> Result<PathBuf> {
+fn module(root: &Path, profile: &str) -> Result<PathBuf> {
     let home = std::env::home_dir().unwrap_or_default();
     let cargo = std::env::var_os("CARGO_HOME").map_or_else(|| home.join(".cargo"), PathBuf::from);
-    let target = root.join("target/web");
+    let target = root.join("target");
     let mut flags = OsString::new();
     // Of several prefixes the last one that fits is taken. A folder of the registry is named by its host.
     let mut prefixes = vec![(root.to_owned(), "motiform"), (cargo.clone(), "cargo")];
@@ -84,7 +85,7 @@ fn module(root: &Path) -> Result<PathBuf> {
     build.args([
         "rustc",
         "--profile",
-        "web",
+        profile,
         "--target",
         TARGET,
         "-p",
@@ -94,7 +95,7 @@ fn module(root: &Path) -> Result<PathBuf> {
     build.args(["--lib", "--crate-type", "cdylib"]);
     build.env("CARGO_ENCODED_RUSTFLAGS", flags).env("CARGO_TARGET_DIR", &target);
     step("module", &mut build)?;
-    Ok(target.join(TARGET).join("web/motiform_explorer.wasm"))
+    Ok(target.join(TARGET).join(profile).join("motiform_explorer.wasm"))
 }
 
 /// Builds the page without a server into a folder.

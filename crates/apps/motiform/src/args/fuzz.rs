@@ -47,5 +47,5 @@ fn command_lines() {
     };
     let undamaged = LINES.iter().filter(|line| read(line.as_bytes())).count();
     assert!(undamaged > 14, "{undamaged}");
-    each("command lines", (40, 20_000), in_turn(&LINES), read);
+    each("command lines", (40, 5000), in_turn(&LINES), read);
 }

@@ -29,7 +29,7 @@ fn shim() -> &'static PathBuf {
 
 /// The number of calls from one that fails to the next.
 pub(crate) fn every() -> usize {
-    std::env::var("MOTIFORM_FAULTS").ok().and_then(|text| text.parse().ok()).unwrap_or(47)
+    std::env::var("MOTIFORM_FAULTS").ok().and_then(|text| text.parse().ok()).unwrap_or(97)
 }
 
 /// The program in the shim, with a fault of this kind at a call (see faults/shim.c).
@@ -47,9 +47,9 @@ pub(crate) fn struck(mut command: Command) -> (Done, bool) {
 }
 
 /// Fails each call in turn, with `prepare` before and `check` after each run; returns how many calls there are. A push tries every
-/// fifth one, another fifth for each command and kind of fault.
+/// eleventh one, others for each command and kind of fault.
 fn each_call(words: &str, kind: &str, prepare: impl Fn(&Folder), check: impl Fn(&Folder, &Done)) -> usize {
-    let step = every().min(5);
+    let step = every().min(11);
     for at in (1 + (words.len() + kind.len()) % step..).step_by(step) {
         let folder = Folder::new();
         prepare(&folder);

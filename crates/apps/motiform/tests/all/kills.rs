@@ -21,7 +21,7 @@ impl Random {
 }
 
 pub(crate) fn kills() -> usize {
-    std::env::var("MOTIFORM_KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(48)
+    std::env::var("MOTIFORM_KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(24)
 }
 
 /// Runs a command to its end. (What is undetermined within a short budget gives the exit code 1.)

@@ -51,7 +51,7 @@ struct Count {
     states: usize,
 }
 
-/// All calls with `MOTIFORM_FAULTS=1`, every 47th in a push: what is of others is there at once, and the next run works.
+/// All calls with `MOTIFORM_FAULTS=1`, every 97th in a push: what is of others is there at once, and the next run works.
 #[test]
 fn things_of_others_survive_faults() {
     // Those that take seconds come first, and in a push `reproduce` not at all.
