@@ -25,7 +25,7 @@ pub(crate) struct Browser<'a> {
 impl<'a> Browser<'a> {
     /// The tests of this program in this browser.
     pub(crate) fn new(node: &'a Path, environment: Environment, program: PathBuf) -> Self {
-        let results = program.with_file_name("browser.tap");
+        let results = program.with_file_name(format!("{}.tap", environment[0].1.display()));
         Self { node, environment, program, results }
     }
 

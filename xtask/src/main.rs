@@ -83,6 +83,7 @@ fn run() -> Result<()> {
         Some("checks") => with_parts(all(CHECKS)),
         // Steps of `test`, begun by it.
         Some("beside-tests") => with_parts(explorer::build().and_then(|()| python::test())),
+        Some("firefox-part") => with_parts(explorer::test_part_in_firefox()),
         Some("explorer") => explorer::test(),
         Some("firefox") => explorer::test_in_firefox(),
         Some("python") => with_parts(python::test()),
@@ -115,8 +116,9 @@ fn everything() -> Result<()> {
     all(BEFORE)?;
     tests_beside_builds()?;
     // Browsers wait for most of their time, which lints and documentation may have.
-    let checks = Beside::begin_idly("checks")?;
-    let page = explorer::test_in_chromium().and_then(|()| explorer::test_part_in_firefox()); // of the program that the tests built
+    let (firefox, checks) = (Beside::begin("firefox-part")?, Beside::begin_idly("checks")?);
+    let page = explorer::test_in_chromium(); // of the program that the tests built
+    firefox.end()?;
     checks.end()?;
     page?;
     book::build() // in the environment of the Python tests

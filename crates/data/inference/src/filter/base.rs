@@ -7,7 +7,7 @@ use motiform_dynamics::Complex;
 /// Longest step of the integration times the largest row sum of the Jacobian.
 const LONGEST_TURN: f64 = 1.0;
 /// Most parts of a step for the rates, and as many again for the covariance of the first frame.
-const MOST_PARTS: usize = 16;
+pub(super) const MOST_PARTS: usize = 16;
 /// Largest ratio of two variances for which steps of [`LONGEST_TURN`] do: the first frame, whose velocity is
 /// hardly known, has up to 1e5, later ones 50 to 100.
 const CONDITION: f64 = 1e3;

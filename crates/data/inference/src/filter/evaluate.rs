@@ -38,6 +38,8 @@ pub(crate) struct Evaluation {
     pub(crate) vaguest: (f64, f64),
     /// Steps of the integration: what the evaluation cost.
     pub(crate) steps: usize,
+    /// `true` if rates are too fast, for nine tenths of the record or more, for the shortest steps of the integration.
+    pub(crate) too_fast: bool,
 }
 
 /// Evaluates the likelihood; innovations and scores of frames are kept if `keep`.
@@ -94,6 +96,8 @@ struct Run<'a, B, const SHAPE: usize, const STATE: usize> {
     scores: Vec<Vec<DVector<f64>>>,
     vaguest: (f64, f64),
     steps: usize,
+    /// Those of the shortest kind.
+    shortest: usize,
 }
 
 /// A step of the law, with the instructions of the lanes: a function of its own, see [`Law::step`].
@@ -135,6 +139,7 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             scores: Vec::new(),
             vaguest: (0.0, 0.0),
             steps: 0,
+            shortest: 0,
         }
     }
 
@@ -152,7 +157,9 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             let h = dt / steps;
             let refinement = if pair == 0 { state.refinement() } else { 1 };
             for _ in 0..steps as usize {
-                let parts = refinement * self.law.parts(&state, h, &mut self.stages[0].values);
+                let parts = self.law.parts(&state, h, &mut self.stages[0].values);
+                self.shortest += if parts == base::MOST_PARTS { refinement * parts } else { 0 };
+                let parts = refinement * parts;
                 self.steps += parts;
                 let h = h / parts as f64;
                 for part in 0..parts {
@@ -214,6 +221,7 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             scores: self.scores,
             vaguest: self.vaguest,
             steps: self.steps,
+            too_fast: 10 * self.shortest > 9 * self.steps,
         }
     }
 }

@@ -28,6 +28,8 @@ pub(crate) const MOST: usize = 200;
 /// the equations need 2 to 100 for each frame and real ones up to 1700; equations that blow up between
 /// frames, which have no maximum, take 16 times the steps of others.
 const MOST_STEPS: [usize; 2] = [1_000_000, 1_000];
+/// Most evaluations of equations that are too fast for the frames.
+const MOST_TOO_FAST: usize = 5;
 /// First radius and the largest one.
 const RADII: [f64; 2] = [2.0, 8.0];
 /// Radius below which no step can improve the likelihood beyond round-off.
@@ -83,6 +85,8 @@ struct Climb<'a> {
     evaluations: usize,
     /// Steps of the integration in all of them.
     steps: usize,
+    /// Evaluations of equations that are too fast for the frames.
+    too_fast: usize,
     /// Natural unit of time.
     time: f64,
     /// Predicted gain of log-likelihood below which it ends, and the most evaluations.
@@ -114,6 +118,7 @@ impl Climb<'_> {
         let trial = objective(self.problem, &next, Want::Exact);
         self.evaluations += 1;
         self.steps += trial.steps;
+        self.too_fast += usize::from(trial.too_fast);
         if !trial.value.is_finite() {
             self.radius = 0.25 * length;
             return;
@@ -158,6 +163,13 @@ impl Climb<'_> {
             }
             if self.evaluations >= self.most {
                 return stopped(&self.why(&format!("{} evaluations were not enough", self.most)));
+            }
+            if self.too_fast >= MOST_TOO_FAST {
+                return stopped(
+                    &self.why(
+                        "the search leads to equations that are too fast for the interval between frames",
+                    ),
+                );
             }
             if self.steps >= self.most_steps() {
                 return stopped(&self.why(&format!("{} steps of the filter were not enough", self.steps)));
@@ -226,6 +238,7 @@ pub(crate) fn polish_within(
         radius: RADII[0],
         evaluations: 1,
         steps: 0,
+        too_fast: 0,
         time,
         enough,
         most,

@@ -1,10 +1,10 @@
 //! Fits of cells whose noise is not as the model has it: they end at a maximum, or say why there is none.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use super::common::{Experiment, VERTEX_NOISE, full};
 use motiform_dynamics::{Normal, Watch};
-use motiform_inference::{Ending, Error, Settings, Track, fit, identifiability};
+use motiform_inference::{Ending, Error, Observation, Settings, Track, fit, identifiability};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A chaotic cell whose position jumps in some frames, by several times its usual path between frames: velocities with heavy tails.
@@ -48,6 +48,26 @@ fn a_velocity_that_forgets_within_a_frame_converges() {
     };
     let found = fit(&[experiment.track()], &Settings::default(), &()).unwrap();
     assert!(found.converged(), "{:?}", found.ending);
+}
+
+/// Outlines of a steady circle with errors of 0.004: no equations follow from them. The search for them ends where they are too fast
+/// for the frames, and not after a million steps.
+#[test]
+fn a_steady_circle_leads_to_no_long_search() {
+    let mut random = Normal::new(4, 0);
+    let frame = |k: i32| {
+        let angle = 0.1 * f64::from(k);
+        let [[s1, c1], [s2, c2], [s3, c3]] =
+            [1.0, 2.0, 3.0].map(|n| [libm::sin(n * angle), libm::cos(n * angle)]);
+        let exact = [5.0 * s1, -5.0 * c1, 0.6 * c2, -0.6 * s2, 0.15 * c3, -0.15 * s3];
+        let y = exact.map(|x| x + 0.004 * random.next()).to_vec();
+        let row = |i: usize| (0..6).map(|j| if i == j { 1.6e-5 } else { 0.0 }).collect();
+        Observation { t: f64::from(k), y, covariance: (0..6).map(row).collect() }
+    };
+    let found = fit(&[Track((0..400).map(frame).collect())], &Settings::default(), &()).unwrap();
+    let Ending::Stopped { reason } = &found.ending else { panic!("{:?}", found.ending) };
+    assert!(reason.contains("too fast for the interval between frames"), "{reason}");
+    assert!(!identifiability(&found).identifiable);
 }
 
 /// Stops after some questions.
