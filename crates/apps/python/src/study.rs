@@ -69,7 +69,10 @@ impl Study {
         let mut study = self.0.clone();
         for (name, value) in parameters.into_iter().flatten() {
             let name: String = name.extract()?;
-            let value = number(&name, &value)?;
+            let value = number(&name, &value);
+            let known = self.0.info().map_err(python)?.parameters().iter().any(|one| one.name == name);
+            // a name that is none is refused before its value
+            let value = if known { value? } else { value.unwrap_or_default() };
             study.set(&name, value).map_err(of_keywords)?;
         }
         for (name, value) in initial.into_iter().flatten() {

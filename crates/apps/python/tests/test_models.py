@@ -91,6 +91,15 @@ def test_wrong_types_are_type_errors() -> None:
             call()
 
 
+def test_what_was_meant_is_named() -> None:
+    with pytest.raises(FileNotFoundError, match=r"parameter set of the paper: motiform.preset\('fig5a'\)"):
+        motiform.study("fig5a")
+    with pytest.raises(FileNotFoundError, match="there is no file 'mine.toml'$"):
+        motiform.study("mine.toml")
+    with pytest.raises(TypeError, match="kapa2.*did you mean kappa2"):  # a wrong name goes before a wrong value
+        motiform.Tensor(kapa2="much")  # type: ignore[arg-type]
+
+
 def test_numbers_of_numpy_are_numbers() -> None:
     body = motiform.Tensor(kappa2=np.float32(0.5), gamma=np.int64(1))
     assert (body.kappa2, body.gamma) == (0.5, 1.0)

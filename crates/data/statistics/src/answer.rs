@@ -113,7 +113,10 @@ pub fn with_error(value: f64, error: f64) -> String {
     if exponent < -6 || value.abs().max(error) >= 1e6 {
         return format!("{value:.3e} ± {error:.1e}");
     }
-    format!("{value:.places$} ± {error:.places$}")
+    let text = format!("{value:.places$}");
+    // -0.00 is no number of a table
+    let zero = text.strip_prefix('-').filter(|rest| rest.chars().all(|c| matches!(c, '0' | '.')));
+    format!("{} ± {error:.places$}", zero.unwrap_or(&text))
 }
 
 #[cfg(test)]
@@ -124,6 +127,8 @@ mod tests {
     fn values_have_the_digits_of_their_errors() {
         assert_eq!(with_error(0.123_456, 0.0123), "0.123 ± 0.012");
         assert_eq!(with_error(-123.456, 20.0), "-123 ± 20");
+        assert_eq!(with_error(-1e-4, 0.036), "0.000 ± 0.036");
+        assert_eq!(with_error(-0.6e-3, 0.036), "-0.001 ± 0.036");
         assert_eq!(with_error(1.0, 0.0), "1 ± 0");
         assert_eq!(with_error(2e-9, 1e-9), "2.000e-9 ± 1.0e-9");
     }

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
+from ._registry import PRESETS
 from .analysed import Analysed
 from .atlases import Atlas, atlas_of, axis_text
 from .branches import Branches, branches_of
@@ -310,7 +311,11 @@ def preset(name: str) -> Model:
 
 def study(path: str | os.PathLike[str]) -> Model:
     """The model of a study file, with its parameters, start, run and scan."""
-    return of_study(_motiform.Study.read(os.fspath(path)))
+    name = os.fspath(path)
+    if not os.path.exists(name):
+        known = f"it is a parameter set of the paper: motiform.preset({name!r})"
+        raise FileNotFoundError(f"there is no file {name!r}{f'; {known}' if name in PRESETS else ''}")
+    return of_study(_motiform.Study.read(name))
 
 
 def of_study(native: _motiform.Study) -> Model:

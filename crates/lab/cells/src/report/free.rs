@@ -9,7 +9,7 @@ use motiform_figures::palette::INK;
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{Curve, Panel, SeriesFigure};
 use motiform_statistics::Answer;
-use motiform_study::quantity::frame;
+use motiform_study::quantity::{cell, frame};
 use motiform_study::{Error, Quantity};
 use motiform_tracks::modes::{Flag, FrameModes};
 
@@ -59,14 +59,26 @@ fn table(numbers: &Numbers, units: &Units) -> Table {
     }
 }
 
-/// A number of a cell as it stands in a table; empty where there is none.
+/// A number of a cell as it stands in a table; its bound where the record sets but one, empty where there is none.
 pub(crate) fn value(numbers: &Numbers, quantity: &Quantity) -> String {
     let found = numbers.rows().into_iter().find(|row| row.quantity == quantity);
     let known = found.and_then(|row| match row.value {
-        Answer::Known(found) => Some(found.value),
-        Answer::Unknown { .. } => None,
+        Answer::Known(found) => Some(plain(found.value)),
+        Answer::Unknown { .. } => bound(numbers, quantity),
     });
-    known.map_or_else(String::new, plain)
+    known.unwrap_or_default()
+}
+
+/// The one end of the interval of a number of the walk that the record sets.
+fn bound(numbers: &Numbers, quantity: &Quantity) -> Option<String> {
+    let walk = numbers.walk.as_ref().filter(|walk| walk.describes())?;
+    let known = [(&cell::PERSISTENCE, walk.persistence), (&cell::DIFFUSION, walk.diffusion)];
+    let (_, found) = known.into_iter().find(|known| known.0 == quantity)?;
+    match (found.low, found.high) {
+        (Some(low), None) => Some(format!("> {}", plain(low))),
+        (None, Some(high)) => Some(format!("< {}", plain(high))),
+        _ => None,
+    }
 }
 
 /// Speed to the next frame, area and aspect ratio, `None` where the outline is not seen or frames are missing.
