@@ -34,7 +34,13 @@ const SAMPLES: u64 = 3;
 /// [`Error::Axis`].
 pub fn axis(text: &str) -> Result<Axis, Error> {
     if text.matches(':').count() != 1 {
-        return Axis::parse(text);
+        let axis = Axis::parse(text)?;
+        if axis.values.len() == 2 && text.contains(',') {
+            let problem =
+                "two values are the ends of an axis: give NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT".to_owned();
+            return Err(Error::Axis { text: text.to_owned(), problem });
+        }
+        return Ok(axis);
     }
     let Along { name, from, to } = Along::parse(text)?;
     Ok(Axis { name, values: vec![from, to] })
@@ -132,7 +138,10 @@ impl AtlasPlan {
                 "an atlas has two parameters: give two axes, NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT".to_owned();
             return Err(Error::Axis { text, problem });
         };
-        study.scan.axes = [first, second].map(|axis| even(axis, VALUES[usize::from(stiff)])).to_vec();
+        study.scan.axes = [first, second]
+            .into_iter()
+            .map(|axis| even(axis, VALUES[usize::from(stiff)]))
+            .collect::<Result<_, _>>()?;
         check("lines", settings.lines as f64, settings.lines <= 1000, "give at most 1000 lines")?;
         for axis in study.scan.axes.clone() {
             study.set(&axis.name, middle(&axis))?;
@@ -252,14 +261,32 @@ fn along(axis: &Axis) -> Along {
     Along { name: axis.name.clone(), from, to }
 }
 
+/// Largest distance of a value from its place among evenly spaced ones, as a part of the range.
+const UNEVEN: f64 = 1e-6;
+
 /// The axis with evenly spaced, rising values; one that has its two ends alone gets `count` of them.
-fn even(axis: &Axis, count: usize) -> Axis {
+fn even(axis: &Axis, count: usize) -> Result<Axis, Error> {
     let Along { name, from, to } = along(axis);
+    let refuse = |problem: &str| Err(Error::Axis { text: axis.name.clone(), problem: problem.to_owned() });
+    let last = axis.values.len().saturating_sub(1).max(1) as f64;
+    let off = |(place, value): (usize, &f64)| (value - from - (to - from) * place as f64 / last).abs();
+    if axis.values.len() < 2 {
+        return refuse(
+            "an atlas needs two values or more along each axis: give NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT",
+        );
+    }
+    let mut rising = axis.values.clone();
+    rising.sort_by(f64::total_cmp);
+    if rising.iter().enumerate().map(off).any(|off| off > UNEVEN * (to - from).abs()) {
+        return refuse(
+            "the values of an atlas rise in equal steps: give NAME=LOW:HIGH:COUNT (a scan takes any list)",
+        );
+    }
     let count = if axis.values.len() == 2 { count } else { axis.values.len() };
     let last = count.saturating_sub(1).max(1);
     let value = |place: usize| {
         let part = place as f64 / last as f64;
         if place == last { to } else { from * (1.0 - part) + to * part }
     };
-    Axis { name, values: (0..count).map(value).collect() }
+    Ok(Axis { name, values: (0..count).map(value).collect() })
 }

@@ -11,6 +11,10 @@ struct Unit {
     name: String,
 }
 
+/// Names that are a length, and no time, and the reverse.
+const LENGTHS: [&str; 6] = ["nm", "µm", "mm", "cm", "m", "km"];
+const TIMES: [&str; 8] = ["ns", "us", "µs", "ms", "s", "min", "h", "d"];
+
 /// The units in which results are shown: physical ones of length and time, such as 20 µm and 1 min, or those of the model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shown(Option<[Unit; 2]>);
@@ -26,11 +30,14 @@ impl Shown {
         }
         let both =
             text.split_once(',').and_then(|(length, time)| Some([Unit::parse(length)?, Unit::parse(time)?]));
-        both.map(|units| Self(Some(units))).ok_or_else(|| Error::Setting {
-            key: "figure.units",
-            value: text.to_owned(),
-            remedy: "write what a unit of length and one of time are, such as 20um,1min",
-        })
+        let refuse = |remedy| Err(Error::Setting { key: "figure.units", value: text.to_owned(), remedy });
+        let Some([length, time]) = both else {
+            return refuse("write what a unit of length and one of time are, such as 20um,1min");
+        };
+        if TIMES.contains(&length.name.as_str()) || LENGTHS.contains(&time.name.as_str()) {
+            return refuse("a length comes first, then a time, such as 20um,1min");
+        }
+        Ok(Self(Some([length, time])))
     }
 
     /// Returns `true` if they are physical.
@@ -127,7 +134,9 @@ mod tests {
             ("0.3 min".into(), "3 time".into())
         );
         assert_eq!(physical.caption(), ", unit of length 20 µm, of time 0.1 min");
-        for bad in ["20um", "20,1", "um,min", "-1um,1min", "0um,1min", "infum,1s"] {
+        for bad in
+            ["20um", "20,1", "um,min", "-1um,1min", "0um,1min", "infum,1s", "1min,20um", "1h,1d", "20um,1mm"]
+        {
             assert!(Shown::parse(bad).is_err(), "{bad}");
         }
     }

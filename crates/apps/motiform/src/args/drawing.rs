@@ -25,8 +25,8 @@ pub(crate) struct DrawingOptions {
 /// Units of figures and of what is printed.
 #[derive(Args)]
 pub(crate) struct UnitsOptions {
-    /// Axes and printed results in physical units: what a unit of length and one of time are, such as 20um,1min; parameters, tables and
-    /// JSON keep model units (docs/units.md)
+    /// Axes and printed results in physical units: what a unit of length and one of time are, such as 20um,1min; parameters, tables,
+    /// JSON and what `simulate` prints keep model units (docs/units.md)
     #[arg(long = "units", value_name = "LENGTH,TIME")]
     pub(crate) given: Option<String>,
 }

@@ -109,9 +109,16 @@ impl Display for Surveyed<'_> {
             grid.computed(),
             grid.places.len()
         )?;
-        for region in regions(plan, grid).iter().filter(|region| region.cells >= LISTED) {
+        let all = regions(plan, grid);
+        let (listed, small): (Vec<_>, Vec<_>) = all.iter().partition(|region| region.cells >= LISTED);
+        for region in listed {
             let (names, [x, y]) = (names(&region.motions), region.at);
             writeln!(f, "region     {names:<32} {:5.1} %, around {x:.4}, {y:.4}", 100.0 * region.share)?;
+        }
+        if !small.is_empty() {
+            let share = 100.0 * small.iter().map(|region| region.share).sum::<f64>();
+            let words = format!("{} of fewer than {LISTED} cells each", small.len());
+            writeln!(f, "regions    {words:<32} {share:5.1} %: summary.json lists them")?;
         }
         let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
         writeln!(f, "followed   {} lines, {curves} curves", lines.len())?;
@@ -122,8 +129,15 @@ impl Display for Surveyed<'_> {
                 "           {short} of them not to their ends: report.html and summary.json say why"
             )?;
         }
-        for found in boundaries(plan, grid, lines).iter().filter(|found| found.edges >= LISTED) {
-            boundary(f, found)?;
+        let all = boundaries(plan, grid, lines);
+        let (listed, short): (Vec<_>, Vec<_>) = all.iter().partition(|found| found.edges >= LISTED);
+        listed.into_iter().try_for_each(|found| boundary(f, found))?;
+        if !short.is_empty() {
+            writeln!(
+                f,
+                "boundaries {} between fewer than {LISTED} pairs of cells: summary.json lists them",
+                short.len()
+            )?;
         }
         write!(f, "written    {}", self.written.display())
     }

@@ -180,7 +180,8 @@ impl Display for Lived<'_> {
         for note in &self.notes {
             writeln!(f, "note      {note}")?;
         }
-        write!(f, "law       {}", self.sentence)?;
+        let (factor, unit) = (self.units.factor(LIFE.dimension), plain(&self.units.name(LIFE.dimension, "")));
+        write!(f, "law       {}", self.found.laws.words_in(factor, &unit))?;
         self.written.map_or(Ok(()), |out| write!(f, "\nwritten   {}", out.display()))
     }
 }

@@ -37,7 +37,9 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     run.manifest.regime = verdict.as_ref().map(|verdict| verdict.regime.name().to_owned());
     let whole = rows.finish(&run.manifest).map_err(|error| target.shown(error))?;
     let (written, undrawn) = target.write(options, &run, whole)?;
-    say(&Simulated { run: &run, verdict: verdict.as_ref(), written: written.as_deref() }, options.json)?;
+    let units = options.drawing.units.given.as_deref().unwrap_or(&plan.figure.units);
+    let done = Simulated { run: &run, verdict: verdict.as_ref(), written: written.as_deref(), units };
+    say(&done, options.json)?;
     if let Some((motion, growth)) = naming::unstable(&run.manifest)? {
         warn(&format!(
             "the run ends on {motion} motion that is unstable (growth rate {growth:.2e}): its start has an exact \
@@ -228,6 +230,8 @@ struct Simulated<'a> {
     run: &'a Run,
     verdict: Option<&'a Verdict>,
     written: Option<&'a str>,
+    /// Those of the figures; empty where they are those of the model.
+    units: &'a str,
 }
 
 impl Serialize for Simulated<'_> {
@@ -278,6 +282,9 @@ impl Display for Simulated<'_> {
         write!(f, "\nposition  x = {:.6}  y = {:.6}", manifest.position[0], manifest.position[1])?;
         if let Some(crossings) = &self.run.crossings {
             write!(f, "\ncrossings {}", crossings.rows())?;
+        }
+        if !self.units.is_empty() {
+            write!(f, "\nunits     of the model, here and in tables; figures have those of {}", self.units)?;
         }
         self.written.map_or(Ok(()), |written| write!(f, "\nwritten   {written}"))
     }

@@ -1,11 +1,14 @@
 //! Deflation: Newton's method that does not come back to what is known.
 
 use super::newton::equations;
-use super::{RelativeEquilibrium, Units, neutral_direction};
+use super::uncertainty::residual as equation_residual;
+use super::{RelativeEquilibrium, Units, linearisation, matrix_of, neutral_direction};
 use crate::linear::{add, dot, least_squares, norm, solve};
+use crate::singular::svd;
 use crate::symmetry::{Copies, turning_of_shape};
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField};
+use nalgebra::{DMatrix, DVector};
 
 /// Steps that the deflated method may take.
 const STEPS: usize = 60;
@@ -25,6 +28,16 @@ const SAME: f64 = 1e-6;
 
 /// Least size that differences count against, in the unit of the equations.
 const LEAST: f64 = 1e-3;
+
+/// Two solutions nearer than this, relative to their size, are one if what lies between them is a solution, too: a root of higher order
+/// (where branches meet), whose neighbourhood solves the equations to Newton's accuracy.
+const FLAT: f64 = 1e-2;
+
+/// Singular values below this part of the largest one belong to directions along which the equations are flat.
+const NULL: f64 = 1e-4;
+
+/// Residual between two such solutions along these directions, in units of the larger one of theirs.
+const BETWEEN: f64 = 2.0;
 
 /// Step of differences, in units of the size of the shape, and how well they must agree with derivatives.
 const DIFFERENCE: f64 = 1e-4;
@@ -57,6 +70,10 @@ struct Known {
     copies: Copies,
     /// Bound on its distance from the true one.
     error: f64,
+    /// See [`RelativeEquilibrium`].
+    residual: f64,
+    /// See [`RelativeEquilibrium`].
+    turning_rate: f64,
     /// `true` if it is isolated: no member of a family of equilibria.
     isolated: bool,
 }
@@ -79,11 +96,24 @@ impl Deflation {
         one.is_same(body, other, self.unit)
     }
 
+    /// Returns `true` if a solution is nearer to a root of higher order than a known one of the same root.
+    #[must_use]
+    pub fn is_better(
+        &self,
+        body: &dyn Equivariant,
+        new: &RelativeEquilibrium,
+        known: &RelativeEquilibrium,
+    ) -> bool {
+        new.residual < known.residual && !near(new.distance(body, &known.shape), &known.shape, self.unit)
+    }
+
     /// Adds an equilibrium to the known ones.
     pub fn add(&mut self, body: &dyn Equivariant, known: &RelativeEquilibrium) {
         let error = norm(&known.uncertainty(body).shape);
         let copies = Copies::of(body, &known.shape);
-        self.known.push(Known { copies, error, isolated: known.is_isolated(error, self.unit) });
+        let (residual, turning_rate) = (known.residual, known.turning_rate);
+        let isolated = known.is_isolated(error, self.unit);
+        self.known.push(Known { copies, error, residual, turning_rate, isolated });
     }
 
     /// An equilibrium that is none of the known ones, by the deflated method from `guess` with `L = reach`; `None` where that does not
@@ -136,7 +166,9 @@ impl Deflation {
         let apart = |known: &Known| {
             let errors = error + if known.isolated { known.error } else { 0.0 };
             let distance = found.distance(body, known.copies.shape());
-            distance > APART * errors && !near(distance, known.copies.shape(), self.unit)
+            distance > APART * errors
+                && !near(distance, known.copies.shape(), self.unit)
+                && !is_flat(body, found, (&known.copies, known.turning_rate, known.residual), self.unit)
         };
         found.is_isolated(error, self.unit) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
     }
@@ -197,7 +229,54 @@ impl RelativeEquilibrium {
     #[must_use]
     pub fn is_same(&self, body: &dyn Equivariant, other: &Self, unit: f64) -> bool {
         near(self.distance(body, &other.shape), &other.shape, unit)
+            || is_flat(
+                body,
+                self,
+                (&Copies::of(body, &other.shape), other.turning_rate, other.residual),
+                unit,
+            )
     }
+}
+
+/// Returns `true` if a solution and a known one (its copies, turning rate and residual) are near, and what is in the middle between them
+/// solves the equations as well as they do.
+fn is_flat(
+    body: &dyn Equivariant,
+    found: &RelativeEquilibrium,
+    (copies, turning_rate, residual): (&Copies, f64, f64),
+    unit: f64,
+) -> bool {
+    let copy = copies.nearest(body, &found.shape);
+    let apart: Vec<f64> = copy.iter().zip(&found.shape).map(|(a, b)| a - b).collect();
+    if norm(&apart) > FLAT * norm(&found.shape).max(LEAST * unit) {
+        return false;
+    }
+    let middle: Vec<f64> = copy.iter().zip(&found.shape).map(|(a, b)| 0.5 * (a + b)).collect();
+    let omega = 0.5 * (turning_rate + found.turning_rate);
+    let between = DVector::from_vec(equation_residual(body, &middle, omega));
+    let Some(svd) = svd(bordered(body, &middle, omega)) else { return false };
+    let Some(left) = &svd.u else { return false };
+    let limit = NULL * svd.singular_values.max();
+    let null: Vec<usize> =
+        (0..svd.singular_values.len()).filter(|&k| svd.singular_values[k] <= limit).collect();
+    // across the others a small step leads back to the solutions
+    let along = |&k: &usize| left.column(k).rows(0, middle.len()).dot(&between).abs();
+    !null.is_empty() && null.iter().map(along).all(|off| off <= BETWEEN * residual.max(found.residual))
+}
+
+/// The matrix of Newton's equations for the shape, and for the turning rate where rotations move the shape.
+fn bordered(body: &dyn Equivariant, shape: &[f64], omega: f64) -> DMatrix<f64> {
+    let matrix = matrix_of(&linearisation(body, shape, omega));
+    let dim = shape.len();
+    let Some(neutral) = neutral_direction(body, shape).pop() else { return matrix };
+    let mut spin = vec![0.0; dim];
+    body.spin(shape, &mut spin);
+    let mut all = matrix.resize(dim + 1, dim + 1, 0.0);
+    for i in 0..dim {
+        all[(i, dim)] = -spin[i];
+        all[(dim, i)] = neutral[i];
+    }
+    all
 }
 
 /// Returns `true` if a shape at this distance from `shape` is the same.

@@ -122,29 +122,37 @@ impl LifeLaws {
         }
     }
 
-    /// The answer in a sentence.
+    /// The answer in a sentence, with times of the model.
     #[must_use]
     pub fn words(&self) -> String {
+        self.words_in(1.0, "")
+    }
+
+    /// The answer in a sentence, with times in a unit: its name, and how many of it a time unit of the model is.
+    #[must_use]
+    pub fn words_in(&self, factor: f64, unit: &str) -> String {
+        let time =
+            |time: f64| format!("{:.3e}{}{unit}", factor * time, if unit.is_empty() { "" } else { " " });
         match self {
             Self::PowerLaw { power, advantage, .. } => {
-                format!("a power law, so a crisis: {} (AIC better by {advantage:.1})", power.words())
+                format!("a power law, so a crisis: {} (AIC better by {advantage:.1})", power.words(&time))
             }
             Self::Exponential { exponential, advantage, .. } => format!(
                 "an exponential law, so no crisis within the range or near it: {} (AIC better by {advantage:.1})",
-                exponential.words()
+                exponential.words(&time)
             ),
             Self::CannotBeToldApart { exponential, power, difference } => format!(
                 "the laws cannot be told apart (AIC of the exponential law minus that of the power law {difference:+.1}; \
                  {DECISIVE} would decide): {}; or {}",
-                exponential.words(),
-                power.words()
+                exponential.words(&time),
+                power.words(&time)
             ),
             Self::Neither { exponential, power } => format!(
                 "neither law holds (probabilities {:.0e} and {:.0e}): {}; {}",
                 exponential.goodness.probability(),
                 power.goodness.probability(),
-                exponential.words(),
-                power.words()
+                exponential.words(&time),
+                power.words(&time)
             ),
             Self::TooFew { events, values, with_events, needed } => format!(
                 "too few events to compare laws: {events} at {with_events} of {values} values; it needs {}, at {} of at least {} values",
@@ -155,21 +163,22 @@ impl LifeLaws {
 }
 
 impl ExponentialLife {
-    fn words(&self) -> String {
+    fn words(&self, time: &dyn Fn(f64) -> String) -> String {
         let Self { k, at, life, .. } = self;
-        format!("tau = {:.3e} exp(-k (p - {at:.5})), k = {:.4} +- {:.2}", life.value, k.value, k.error)
+        format!("tau = {} exp(-k (p - {at:.5})), k = {:.4} +- {:.2}", time(life.value), k.value, k.error)
     }
 }
 
 impl PowerLawLife {
-    fn words(&self) -> String {
+    fn words(&self, time: &dyn Fn(f64) -> String) -> String {
         let Self { critical, exponent, coefficient, above, .. } = self;
         let end = |end: Option<f64>| end.map_or("no limit".to_owned(), |end| format!("{end:.5}"));
         let side = if *above { "p - pc" } else { "pc - p" };
         let error =
             if exponent.error.is_finite() { format!("{:.2}", exponent.error) } else { "unknown".to_owned() };
         format!(
-            "tau = {coefficient:.3e} ({side})^-gamma, pc = {:.5} ({} to {}), gamma = {:.3} +- {error}",
+            "tau = {} ({side})^-gamma, pc = {:.5} ({} to {}), gamma = {:.3} +- {error}",
+            time(*coefficient),
             critical.value,
             end(critical.lower),
             end(critical.upper),

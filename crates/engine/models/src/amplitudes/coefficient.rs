@@ -129,12 +129,26 @@ impl Tape {
         self.push(Operation::Parameter(index), Kind::Real)
     }
 
+    /// Written as 0.
+    fn is_zero(&self, place: Place) -> bool {
+        self.number(place) == Some(0.0)
+    }
+
     pub(super) fn add(&mut self, a: Place, b: Place) -> Place {
+        if self.is_zero(a) {
+            return b;
+        }
+        if self.is_zero(b) {
+            return a;
+        }
         let kind = self.kind(a).sum(self.kind(b));
         self.push(Operation::Add(a, b), kind)
     }
 
     pub(super) fn subtract(&mut self, a: Place, b: Place) -> Place {
+        if self.is_zero(b) {
+            return a;
+        }
         let kind = self.kind(a).sum(self.kind(b));
         self.push(Operation::Subtract(a, b), kind)
     }
@@ -146,6 +160,10 @@ impl Tape {
         }
         if is_one(b) {
             return a;
+        }
+        // a term that is written as none does not break a symmetry
+        if self.is_zero(a) || self.is_zero(b) {
+            return self.real(0.0);
         }
         let kind = self.kind(a).product(self.kind(b));
         self.push(Operation::Multiply(a, b), kind)

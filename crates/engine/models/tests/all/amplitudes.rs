@@ -128,6 +128,8 @@ fn definitions_that_are_no_model_are_refused_at_their_place() {
     let mut field = two("z1 - |z1|^2*z1 + a", "-z2");
     let refusal = |definition: &Definition| info(definition).unwrap_err();
     assert!(refusal(&field).problem.contains("constant term breaks rotations"));
+    let zeros = definition(&[1], &["(z1 - 0)*g + 0*g - |z1|^2*z1 - 0*conj(z1)"], &[("g", 1.0)]);
+    assert!(amplitudes::Equations::new(&zeros).is_ok(), "terms that are 0 break nothing");
     field.symmetry = Some("mirror".to_owned());
     assert_eq!(
         info(&field).unwrap().build(&[1.0]).unwrap().symmetry(),

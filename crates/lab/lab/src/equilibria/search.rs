@@ -80,7 +80,7 @@ impl<'m> Search<'m> {
             if let Some(new) = RelativeEquilibrium::find(self.model, &guess) {
                 let hit = usize::from(start > 0);
                 match self.place_of(&new) {
-                    Some(place) => self.found[place].hits += hit,
+                    Some(place) => self.again(place, new, hit),
                     None => self.add(new, FoundBy::Starts, hit),
                 }
             }
@@ -124,6 +124,15 @@ impl<'m> Search<'m> {
         let is_new = |known: &Found| self.known.is_same(self.model, &known.equilibrium, new);
         let known = self.found.iter().position(is_new);
         known.or_else(|| self.families.place_of(self.model, new))
+    }
+
+    /// Notes that a known equilibrium was found again, perhaps better.
+    fn again(&mut self, place: usize, new: RelativeEquilibrium, hit: usize) {
+        let known = &mut self.found[place];
+        known.hits += hit;
+        if known.family == 0 && self.known.is_better(self.model, &new, &known.equilibrium) {
+            known.equilibrium = new;
+        }
     }
 
     fn add(&mut self, equilibrium: RelativeEquilibrium, by: FoundBy, hits: usize) {

@@ -85,6 +85,32 @@ fn multiple_roots_are_not_multiplied() {
     assert_eq!((regular, found.len() - double), (1, 1), "{found:?}");
 }
 
+/// Exactly at pitchforks, and where straight motion begins to turn: shapes of a hundred thousandth of the others' size solve the equations
+/// to Newton's accuracy there, and are the same equilibrium.
+#[test]
+fn equilibria_where_branches_meet_are_listed_once() {
+    let counts = |study: &Study| {
+        let found = list(study);
+        let of = |kind: &dyn Fn(&Equilibrium) -> bool| found.iter().filter(|one| kind(one)).count();
+        let rests = of(&|one| one.speed < 1e-3);
+        [rests, found.len() - rests]
+    };
+    let with = |model, name: &str, set: &[(&str, f64)]| {
+        let mut study = motiform_study::presets::find_any(name, model).unwrap();
+        set.iter().for_each(|(name, value)| study.set(name, *value).unwrap());
+        study
+    };
+    // gamma = -sqrt(-kappa2/2)
+    assert_eq!(
+        counts(&with("tensor", "fig1", &[("kappa2", -0.02), ("gamma", -0.1)])),
+        counts(&with("tensor", "fig1", &[("kappa2", -0.02), ("gamma", -0.101)]))
+    );
+    // straight motion begins to turn
+    assert_eq!(counts(&with("amplitudes", "ohta-ohkuma", &[("gamma", 0.75)])), [1, 1]);
+    // along the field straight motion begins at a1 = gamma 2 kappa2/E^2, beside the two across it
+    assert_eq!(counts(&with("amplitudes", "elongating-field", &[("a1", 0.781_25)])), [1, 2]);
+}
+
 /// FitzHugh-Nagumo: `x - x^3/3 - y = 0`, `x + a = b y` has one solution. Where y is 1e15, the derivatives of
 /// `x^3` are rounding alone, and hundreds of places seemed to be solutions.
 #[test]
