@@ -24,7 +24,7 @@ enum Program {
 const RUNS: [Run; 9] = [
     Run {
         name: "statistics",
-        takes: "15 minutes",
+        takes: "5 minutes",
         program: Program::Test("motiform-lab", "statistics::coverage::table"),
     },
     Run { name: "matrix", takes: "hours", program: Program::Test("motiform-cells", "matrix::table") },

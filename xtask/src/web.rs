@@ -38,8 +38,8 @@ pub(crate) fn run() -> Result<()> {
     Ok(())
 }
 
-/// Builds the folder for the tests, in the profile of the program: what is given away takes longer, and computes the same bits. Says so
-/// where this machine cannot.
+/// Builds the folder for the tests, in the profile of the program, which takes less time than that of what is given away. Says so where
+/// this machine cannot.
 pub(crate) fn for_tests(node: &Path, root: &Path, web: &Path) -> Result<()> {
     if is_installed()? {
         site(node, root, web, "release")?;

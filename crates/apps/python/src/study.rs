@@ -67,10 +67,11 @@ impl Study {
         run: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let mut study = self.0.clone();
+        let specs = self.0.info().map_err(python)?.parameters();
         for (name, value) in parameters.into_iter().flatten() {
             let name: String = name.extract()?;
             let value = number(&name, &value);
-            let known = self.0.info().map_err(python)?.parameters().iter().any(|one| one.name == name);
+            let known = specs.iter().any(|spec| spec.name == name);
             // a name that is none is refused before its value
             let value = if known { value? } else { value.unwrap_or_default() };
             study.set(&name, value).map_err(of_keywords)?;

@@ -59,8 +59,9 @@ fn column(
         let found = names.iter().position(|other| other.trim() == name.trim());
         return found.map(Some).ok_or_else(|| error(format!("no column {name:?}")));
     }
-    // exactly the plain name goes before all others
-    if let Some(exact) = names.iter().position(|name| plain(name) == usual[0]) {
+    // exactly the plain name goes before all others, without a unit before one with it
+    let exact = |reading: fn(&str) -> String| names.iter().position(|name| reading(name) == usual[0]);
+    if let Some(exact) = exact(letters).or_else(|| exact(plain)) {
         return Ok(Some(exact));
     }
     let fits = |name: &&String| usual.contains(&plain(name).as_str());
@@ -89,7 +90,7 @@ pub(crate) fn needed(
 
 /// Letters and digits in lower case, without a unit: `Node X (px)` is `nodex`, `x_um` is `x`.
 fn plain(name: &str) -> String {
-    divided(name).0.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+    letters(divided(name).0)
 }
 
 /// The unit of a column that is known here: `x [um]`, `t (min)`, `x_um`, `time s`.
@@ -97,22 +98,30 @@ pub(crate) fn unit_of(name: &str) -> Option<String> {
     divided(name).1
 }
 
-/// A name and the unit behind it, in brackets or as its last word. What stands in brackets and is no known unit belongs to neither.
+/// A name and the unit behind it, in brackets, or as the last word of a place or a time: `x_um`, but not `x_min`, which is a smallest x.
+/// Other words in brackets belong to neither.
 fn divided(name: &str) -> (&str, Option<String>) {
     let named = |&(before, _): &(&str, &str)| before.contains(char::is_alphanumeric);
     if let Some((before, rest)) = name.split_once(['[', '(']).filter(named) {
-        return (before, known_unit(rest.trim_end().trim_end_matches([']', ')'])));
+        let unit = crate::scale::unit(rest.trim_end().trim_end_matches([']', ')']));
+        return (before, Some(unit).filter(|unit| LENGTHS.contains(&&**unit) || TIMES.contains(&&**unit)));
     }
-    let word = name.trim_end().rsplit_once(['_', ' ', '.', '/', '-']).filter(named);
-    let unit =
-        word.and_then(|(_, word)| known_unit(word).filter(|unit| !word.is_empty() && unit != crate::FRAME));
-    word.filter(|_| unit.is_some()).map_or((name, None), |(before, _)| (before, unit))
+    let Some((before, word)) = name.trim_end().rsplit_once(['_', ' ', '.', '/', '-']).filter(named) else {
+        return (name, None);
+    };
+    let (bare, unit) = (letters(before), crate::scale::unit(word));
+    let is_of = |usual: &[&str], units: &[&str]| usual.contains(&&*bare) && units.contains(&&*unit);
+    let fits = is_of(X, LENGTHS) || is_of(Y, LENGTHS) || is_of(TIME, TIMES);
+    if fits && !word.is_empty() { (before, Some(unit)) } else { (name, None) }
 }
 
-fn known_unit(word: &str) -> Option<String> {
-    let unit = crate::scale::unit(word);
-    let known = ["um", "nm", "mm", crate::PIXEL, "s", "ms", "min", "h", crate::FRAME];
-    known.contains(&unit.as_str()).then_some(unit)
+/// Units of columns that are known here.
+const LENGTHS: &[&str] = &["um", "nm", "mm", crate::PIXEL];
+const TIMES: &[&str] = &["s", "ms", "min", "h", crate::FRAME];
+
+/// Letters and digits in lower case.
+fn letters(name: &str) -> String {
+    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 /// The separator of a table: the one of tab, semicolon and comma that occurs most often in the header.

@@ -53,6 +53,15 @@ fn units_in_the_header_are_those_of_the_values() {
         let found = read(table(header, ',', |x| x.to_string(), |k| k.to_string())).expect("units");
         assert_eq!((found.length_unit.as_str(), &found.cells), ("um", &plain().cells), "{header}");
     }
+    // the smallest x of a cell is no x in minutes, and a column x goes before one with a unit
+    for header in ["cell,frame,x_min,x,y_min,y", "cell,frame,x_um,x,y_um,y"] {
+        let mut text = format!("{header}\n");
+        for (k, points) in outlines(6).iter().enumerate() {
+            points.iter().for_each(|[x, y]| text += &format!("a,{k},7.5,{x},8.5,{y}\n"));
+        }
+        let found = read(text).expect("bounding boxes beside vertices");
+        assert_eq!((found.length_unit.as_str(), &found.cells), ("pixel", &plain().cells), "{header}");
+    }
     // a last word that is no unit belongs to the name
     let none =
         ["cell,frame,x [px],y [px]", "cell,frame,x_px,y px", "cell,frame,x_,y_", "cell,frame,pos_x,pos_y"];

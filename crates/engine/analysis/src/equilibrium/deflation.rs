@@ -1,8 +1,9 @@
 //! Deflation: Newton's method that does not come back to what is known.
 
 use super::newton::equations;
-use super::uncertainty::residual as equation_residual;
+use super::uncertainty::residual;
 use super::{RelativeEquilibrium, Units, linearisation, matrix_of, neutral_direction};
+use crate::graded::EPS;
 use crate::linear::{add, dot, least_squares, norm, solve};
 use crate::singular::svd;
 use crate::symmetry::{Copies, turning_of_shape};
@@ -71,8 +72,6 @@ struct Known {
     /// Bound on its distance from the true one.
     error: f64,
     /// See [`RelativeEquilibrium`].
-    residual: f64,
-    /// See [`RelativeEquilibrium`].
     turning_rate: f64,
     /// `true` if it is isolated: no member of a family of equilibria.
     isolated: bool,
@@ -111,9 +110,8 @@ impl Deflation {
     pub fn add(&mut self, body: &dyn Equivariant, known: &RelativeEquilibrium) {
         let error = norm(&known.uncertainty(body).shape);
         let copies = Copies::of(body, &known.shape);
-        let (residual, turning_rate) = (known.residual, known.turning_rate);
         let isolated = known.is_isolated(error, self.unit);
-        self.known.push(Known { copies, error, residual, turning_rate, isolated });
+        self.known.push(Known { copies, error, turning_rate: known.turning_rate, isolated });
     }
 
     /// An equilibrium that is none of the known ones, by the deflated method from `guess` with `L = reach`; `None` where that does not
@@ -168,7 +166,7 @@ impl Deflation {
             let distance = found.distance(body, known.copies.shape());
             distance > APART * errors
                 && !near(distance, known.copies.shape(), self.unit)
-                && !is_flat(body, found, (&known.copies, known.turning_rate, known.residual), self.unit)
+                && !is_flat(body, found, (&known.copies, known.turning_rate), self.unit)
         };
         found.is_isolated(error, self.unit) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
     }
@@ -229,52 +227,50 @@ impl RelativeEquilibrium {
     #[must_use]
     pub fn is_same(&self, body: &dyn Equivariant, other: &Self, unit: f64) -> bool {
         near(self.distance(body, &other.shape), &other.shape, unit)
-            || is_flat(
-                body,
-                self,
-                (&Copies::of(body, &other.shape), other.turning_rate, other.residual),
-                unit,
-            )
+            || is_flat(body, self, (&Copies::of(body, &other.shape), other.turning_rate), unit)
     }
 }
 
-/// Returns `true` if a solution and a known one (its copies, turning rate and residual) are near, and what is in the middle between them
-/// solves the equations as well as they do.
+/// Returns `true` if a solution and a known one (its copies and turning rate) are near, and what is in the middle between them solves the
+/// equations as well as they do.
 fn is_flat(
     body: &dyn Equivariant,
     found: &RelativeEquilibrium,
-    (copies, turning_rate, residual): (&Copies, f64, f64),
+    (copies, turning_rate): (&Copies, f64),
     unit: f64,
 ) -> bool {
     let copy = copies.nearest(body, &found.shape);
     let apart: Vec<f64> = copy.iter().zip(&found.shape).map(|(a, b)| a - b).collect();
-    if norm(&apart) > FLAT * norm(&found.shape).max(LEAST * unit) {
+    let size = norm(&found.shape).max(LEAST * unit);
+    if norm(&apart) > FLAT * size {
         return false;
     }
     let middle: Vec<f64> = copy.iter().zip(&found.shape).map(|(a, b)| 0.5 * (a + b)).collect();
     let omega = 0.5 * (turning_rate + found.turning_rate);
-    let between = DVector::from_vec(equation_residual(body, &middle, omega));
     let Some(svd) = svd(bordered(body, &middle, omega)) else { return false };
     let Some(left) = &svd.u else { return false };
-    let limit = NULL * svd.singular_values.max();
-    let null: Vec<usize> =
-        (0..svd.singular_values.len()).filter(|&k| svd.singular_values[k] <= limit).collect();
+    let largest = svd.singular_values.max();
+    let limit = NULL * largest;
+    let mut null = (0..svd.singular_values.len()).filter(|&k| svd.singular_values[k] <= limit).peekable();
+    let between = DVector::from_vec(residual(body, &middle, omega));
+    let theirs = |shape: &[f64], omega| norm(&residual(body, shape, omega));
+    let solved = theirs(&copy, turning_rate).max(theirs(&found.shape, found.turning_rate));
+    let most = BETWEEN * solved.max(EPS * largest * size);
     // across the others a small step leads back to the solutions
-    let along = |&k: &usize| left.column(k).rows(0, middle.len()).dot(&between).abs();
-    !null.is_empty() && null.iter().map(along).all(|off| off <= BETWEEN * residual.max(found.residual))
+    let along = |k: usize| left.column(k).rows(0, between.len()).dot(&between).abs();
+    null.peek().is_some() && null.all(|k| along(k) <= most)
 }
 
-/// The matrix of Newton's equations for the shape, and for the turning rate where rotations move the shape.
+/// The linearisation, bordered by the neutral direction of rotations, with the size of its largest entry: as singular as that is in the
+/// others.
 fn bordered(body: &dyn Equivariant, shape: &[f64], omega: f64) -> DMatrix<f64> {
     let matrix = matrix_of(&linearisation(body, shape, omega));
-    let dim = shape.len();
+    let (dim, size) = (shape.len(), matrix.amax());
     let Some(neutral) = neutral_direction(body, shape).pop() else { return matrix };
-    let mut spin = vec![0.0; dim];
-    body.spin(shape, &mut spin);
     let mut all = matrix.resize(dim + 1, dim + 1, 0.0);
-    for i in 0..dim {
-        all[(i, dim)] = -spin[i];
-        all[(dim, i)] = neutral[i];
+    for (i, x) in neutral.iter().enumerate() {
+        all[(i, dim)] = size * x;
+        all[(dim, i)] = size * x;
     }
     all
 }

@@ -86,29 +86,42 @@ fn multiple_roots_are_not_multiplied() {
 }
 
 /// Exactly at pitchforks, and where straight motion begins to turn: shapes of a hundred thousandth of the others' size solve the equations
-/// to Newton's accuracy there, and are the same equilibrium.
+/// to Newton's accuracy there, and are the same equilibrium. Whatever the seed.
 #[test]
 fn equilibria_where_branches_meet_are_listed_once() {
-    let counts = |study: &Study| {
-        let found = list(study);
-        let of = |kind: &dyn Fn(&Equilibrium) -> bool| found.iter().filter(|one| kind(one)).count();
-        let rests = of(&|one| one.speed < 1e-3);
-        [rests, found.len() - rests]
-    };
-    let with = |model, name: &str, set: &[(&str, f64)]| {
-        let mut study = motiform_study::presets::find_any(name, model).unwrap();
-        set.iter().for_each(|(name, value)| study.set(name, *value).unwrap());
-        study
+    let counts = |model, name: &str, set: &[(&str, f64)], expected: [usize; 2]| {
+        for seed in [1, 2, 5] {
+            let mut study = motiform_study::presets::find_any(name, model).unwrap();
+            set.iter().for_each(|(name, value)| study.set(name, *value).unwrap());
+            study.run.seed = seed;
+            let found = list(&study);
+            let rests = found.iter().filter(|one| one.speed < 1e-3).count();
+            assert_eq!([rests, found.len() - rests], expected, "{name}, seed {seed}: {found:?}");
+        }
     };
     // gamma = -sqrt(-kappa2/2)
-    assert_eq!(
-        counts(&with("tensor", "fig1", &[("kappa2", -0.02), ("gamma", -0.1)])),
-        counts(&with("tensor", "fig1", &[("kappa2", -0.02), ("gamma", -0.101)]))
-    );
+    counts("tensor", "fig1", &[("kappa2", -0.02), ("gamma", -0.1)], [2, 0]);
     // straight motion begins to turn
-    assert_eq!(counts(&with("amplitudes", "ohta-ohkuma", &[("gamma", 0.75)])), [1, 1]);
+    counts("amplitudes", "ohta-ohkuma", &[("gamma", 0.75)], [1, 1]);
     // along the field straight motion begins at a1 = gamma 2 kappa2/E^2, beside the two across it
-    assert_eq!(counts(&with("amplitudes", "elongating-field", &[("a1", 0.781_25)])), [1, 2]);
+    counts("amplitudes", "elongating-field", &[("a1", 0.781_25)], [1, 2]);
+    counts("amplitudes", "elongating-field", &[("a1", -0.781_25)], [1, 2]);
+}
+
+/// `x' = m x - x^3/unit^2`: three roots, however near to each other and in whatever unit.
+#[test]
+fn roots_beside_a_pitchfork_are_three() {
+    for unit in [1e-3, 1.0, 1e3] {
+        for m in [1e-8, 1e-4, 0.04] {
+            let text = format!(
+                "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\n\
+                 z1 = \"{m:e}*(0.5*(z1+conj(z1))) - {:e}*(0.5*(z1+conj(z1)))^3 - i*((-i/2)*(z1-conj(z1)))\"",
+                1.0 / (unit * unit)
+            );
+            let found = list(&study(&text));
+            assert_eq!(found.len(), 3, "unit {unit}, m = {m}: {found:?}");
+        }
+    }
 }
 
 /// FitzHugh-Nagumo: `x - x^3/3 - y = 0`, `x + a = b y` has one solution. Where y is 1e15, the derivatives of
