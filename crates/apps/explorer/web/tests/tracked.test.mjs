@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdtempSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -16,12 +16,16 @@ const MISSING = 30;
 const INTERVAL = 2;
 const RADIUS = 2;
 
-/** The cell: it goes along a circle, long along its way, and its size breathes. */
+/** How far the noise of the cell moves its centre, and the noise: of frame t and coordinate k, within 1. */
+const SHAKE = 0.1;
+const shake = (t, k) => Math.sin(12.9898 * t * t + 78.233 * k + 0.5 * k * k * t);
+
+/** The cell: it goes along a shaken circle, long along its way, and its size breathes. */
 function cell(t) {
   const angle = 0.05 * t;
   const z = [0.3 + 0.1 * Math.sin(0.4 * t), 0.1 * Math.cos(0.7 * t)];
   return {
-    centre: [10 * Math.cos(angle), 10 * Math.sin(angle)],
+    centre: [10 * Math.cos(angle) + SHAKE * shake(t, 1), 10 * Math.sin(angle) + SHAKE * shake(t, 2)],
     // z_n turns with minus n times the angle of the body
     z: z.map((size, k) => [size * Math.cos((k + 2) * (angle + Math.PI / 2)), -size * Math.sin((k + 2) * (angle + Math.PI / 2))]),
   };
@@ -48,7 +52,9 @@ function fitted() {
   const words = ["fit", "cells.csv", "--pixel-size", "1", "--interval", String(INTERVAL), "--out", "fits", "--draws", "2", "--simulations", "0", "--no-report"];
   const { status, stderr } = spawnSync(binary(), words, { cwd: folder, encoding: "utf8" });
   assert.ok(status === 0 || status === 1, stderr);
-  return join(folder, "fits", "cell-one.toml");
+  const model = join(folder, "fits", "cell-one.toml");
+  assert.ok(existsSync(model), "the search converged, and there is a model");
+  return model;
 }
 
 const it = stage({ file: fitted() });
