@@ -1,6 +1,7 @@
 //! Scale and interval: what the file says, what the options say, and what follows.
 
 use crate::{Cell, Error, FRAME, Note, Options, PIXEL, Result};
+use motiform_store::quantity::Unit;
 use std::path::Path;
 
 /// Relative difference up to which a file and an option agree: files round.
@@ -112,7 +113,7 @@ fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
     if let Some(option) = question.option {
         // values in units already have a step of 1, if they say none
         let step = said.step.or(said.applied.then_some(1.0));
-        let ratio = ratio(&unit, &unit_of(question));
+        let ratio = Unit::ratio(&unit, &unit_of(question));
         let agrees = step.zip(ratio).is_some_and(|(step, ratio)| (step * ratio / option - 1.0).abs() < AGREE);
         if !agrees {
             return Err(Error::Disagree {
@@ -128,36 +129,16 @@ fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
     Ok(Use { factor, unit })
 }
 
-/// One unit in terms of another; `None` where they are not known to measure the same.
-fn ratio(one: &str, other: &str) -> Option<f64> {
-    const SIZES: [&[(&str, f64)]; 2] = [
-        &[("nm", 1e-3), ("um", 1.0), ("mm", 1e3)],
-        &[("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0)],
-    ];
-    let size = |of: &[(&str, f64)], name: &str| of.iter().find(|known| known.0 == name).map(|known| known.1);
-    let of = |of: &&[(&str, f64)]| Some(size(of, one)? / size(of, other)?);
-    if one == other { Some(1.0) } else { SIZES.iter().find_map(of) }
-}
-
 fn unit_of(question: &Question<'_>) -> String {
     unit(question.option_unit)
 }
 
 /// One spelling for each unit; others stay as they are.
 pub(crate) fn unit(name: &str) -> String {
-    let lower = name.trim().to_lowercase();
-    let known = match lower.as_str() {
-        "um" | "µm" | "μm" | "micron" | "microns" | "micrometer" | "micrometers" | "micrometre"
-        | "micrometres" => "um",
-        "nm" | "nanometer" | "nanometre" => "nm",
-        "mm" | "millimeter" | "millimetre" => "mm",
+    let known = match name.trim().to_lowercase().as_str() {
         "" | "px" | "pixel" | "pixels" => PIXEL,
-        "s" | "sec" | "secs" | "second" | "seconds" => "s",
-        "ms" | "millisecond" | "milliseconds" => "ms",
-        "min" | "mins" | "minute" | "minutes" => "min",
-        "h" | "hr" | "hour" | "hours" => "h",
         "frame" | "frames" => FRAME,
-        _ => name.trim(),
+        _ => Unit::named(name).map_or(name.trim(), |unit| unit.name),
     };
     known.to_owned()
 }

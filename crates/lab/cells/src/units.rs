@@ -1,6 +1,7 @@
 //! Units of the data, as they stand beside numbers.
 
 use crate::Sample;
+use motiform_study::quantity::Unit;
 use motiform_study::{Dimension, Quantity};
 
 /// Units of lengths and times.
@@ -29,8 +30,7 @@ impl Units {
     /// The same for pages: `um` as `µm`.
     #[must_use]
     pub fn typeset(self) -> Self {
-        let length = if self.length == "um" { "µm".to_owned() } else { self.length };
-        Self { length, ..self }
+        Self { length: Unit::typeset(&self.length), time: Unit::typeset(&self.time), ..self }
     }
 
     /// The unit of a dimension; empty where there is none.

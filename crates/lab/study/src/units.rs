@@ -2,22 +2,19 @@
 
 use crate::Error;
 use crate::titles::number;
+use motiform_store::quantity::Unit;
 use motiform_store::{Dimension, Quantity};
 
 /// A size and its unit.
 #[derive(Clone, Debug, PartialEq)]
-struct Unit {
+struct Size {
     size: f64,
     name: String,
 }
 
-/// Names that are a length, and no time, and the reverse.
-const LENGTHS: [&str; 6] = ["nm", "µm", "mm", "cm", "m", "km"];
-const TIMES: [&str; 8] = ["ns", "us", "µs", "ms", "s", "min", "h", "d"];
-
 /// The units in which results are shown: physical ones of length and time, such as 20 µm and 1 min, or those of the model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Shown(Option<[Unit; 2]>);
+pub struct Shown(Option<[Size; 2]>);
 
 impl Shown {
     /// Reads `20um,1min`; those of the model from an empty text.
@@ -29,12 +26,12 @@ impl Shown {
             return Ok(Self::default());
         }
         let both =
-            text.split_once(',').and_then(|(length, time)| Some([Unit::parse(length)?, Unit::parse(time)?]));
+            text.split_once(',').and_then(|(length, time)| Some([Size::parse(length)?, Size::parse(time)?]));
         let refuse = |remedy| Err(Error::Setting { key: "figure.units", value: text.to_owned(), remedy });
         let Some([length, time]) = both else {
             return refuse("write what a unit of length and one of time are, such as 20um,1min");
         };
-        if TIMES.contains(&length.name.as_str()) || LENGTHS.contains(&time.name.as_str()) {
+        if length.is(Dimension::TIME) || time.is(Dimension::LENGTH) {
             return refuse("a length comes first, then a time, such as 20um,1min");
         }
         Ok(Self(Some([length, time])))
@@ -101,13 +98,18 @@ impl Shown {
     }
 }
 
-impl Unit {
+impl Size {
     fn parse(text: &str) -> Option<Self> {
         let number = text.trim().trim_end_matches(char::is_alphabetic);
         let name = text.trim()[number.len()..].to_owned();
         let size: f64 = number.trim().parse().ok()?;
-        let name = if name == "um" { "µm".to_owned() } else { name };
+        let name = Unit::named(&name).map_or(name, |unit| Unit::typeset(unit.name));
         (size > 0.0 && size.is_finite() && !name.is_empty()).then_some(Self { size, name })
+    }
+
+    /// Returns `true` if its name is known to be of this dimension.
+    fn is(&self, dimension: Dimension) -> bool {
+        Unit::named(&self.name).is_some_and(|unit| unit.dimension == dimension)
     }
 }
 

@@ -31,6 +31,9 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
     for path in &options.datasets {
         check(kind_of(path), options)?;
         let pictures = Content::read(path, options)?.pictures(options)?;
+        if pictures.is_empty() && !has_no_body(kind_of(path)) {
+            return Err(nothing(path));
+        }
         if let Some(out) = &options.out {
             apart(&pictures, out, options.force)?;
             continue;
@@ -67,6 +70,15 @@ fn write<'p>(folder: &Folder, pictures: &'p [Picture], force: bool) -> Result<Ve
         }
     }
     Ok(written)
+}
+
+/// Says why a folder has no figure.
+fn nothing(path: &Path) -> anyhow::Error {
+    anyhow::anyhow!(
+        "{}: no figure, as fewer than two rows of the trajectory lie within the times that are shown: look at the times of its table, and \
+         change --from or --to, or leave them out",
+        path.display()
+    )
 }
 
 fn say(folder: &Path, written: &[&str]) -> anyhow::Result<()> {
@@ -135,6 +147,7 @@ fn chosen(path: &Path, name: Option<&str>, options: &FigureOptions) -> anyhow::R
     };
     match place {
         Some(place) => Ok(all.swap_remove(place).1),
+        None if names.is_empty() && !has_no_body(kind_of(path)) => Err(nothing(path)),
         None if names.is_empty() => anyhow::bail!("{}: it has no figure: leave it out", path.display()),
         None => anyhow::bail!(
             "{}:{}: there is no such figure; it has {}",

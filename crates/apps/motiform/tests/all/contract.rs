@@ -213,6 +213,10 @@ fn figure_draws_the_same_bytes_again_and_nothing_else() {
         assert!(bytes(name) == *old, "{name} changed");
     }
 
+    let beyond = folder.run("figure a --from 1e6 --out beyond").expect(2).stderr;
+    assert!(beyond.contains("fewer than two rows") && beyond.contains("--from"), "{beyond}");
+    assert!(!folder.path("beyond").exists(), "no folder without figures");
+
     let manifest = read_json(&folder.path("a/manifest.json"));
     folder.run("figure a --scale 7 --no-animation").expect(0);
     let svg = String::from_utf8(bytes("path.svg")).unwrap();

@@ -176,9 +176,17 @@ impl PowerLawLife {
         let side = if *above { "p - pc" } else { "pc - p" };
         let error =
             if exponent.error.is_finite() { format!("{:.2}", exponent.error) } else { "unknown".to_owned() };
+        let coefficient = time(*coefficient);
+        if critical.at_end {
+            let nearest = end(if *above { critical.upper } else { critical.lower });
+            return format!(
+                "tau = {coefficient} ({side})^-gamma with pc = {:.5}, the end of the range that was searched: pc is not determined ({nearest} \
+                 or further away), nor is gamma ({:.3} there)",
+                critical.value, exponent.value
+            );
+        }
         format!(
-            "tau = {} ({side})^-gamma, pc = {:.5} ({} to {}), gamma = {:.3} +- {error}",
-            time(*coefficient),
+            "tau = {coefficient} ({side})^-gamma, pc = {:.5} ({} to {}), gamma = {:.3} +- {error}",
             critical.value,
             end(critical.lower),
             end(critical.upper),

@@ -72,6 +72,9 @@ pub struct Critical {
     pub lower: Option<f64>,
     /// Upper end.
     pub upper: Option<f64>,
+    /// `true` if the most likely value is the last one that was searched: the data do not place the crisis, and the exponent is that of
+    /// this place alone.
+    pub at_end: bool,
 }
 
 /// tau(p) = coefficient |p - critical|^-exponent on one side of a crisis, for ever on the other.
@@ -137,7 +140,7 @@ impl PowerLawLife {
         let transient: Vec<LifeCount> = counts.iter().copied().filter(|c| near(c.parameter) > 0.0).collect();
         let tilt = Tilt::fit(&transient, |p| libm::log(near(p)), 0.0);
         let mut law = Self {
-            critical: Critical { value: critical, lower: None, upper: None },
+            critical: Critical { value: critical, lower: None, upper: None, at_end: false },
             above,
             exponent: Estimate { value: tilt.slope, error: f64::INFINITY },
             coefficient: libm::exp(-tilt.log_rate),
@@ -204,7 +207,8 @@ impl Side {
         let best = (0..=PLACES).min_by(|&a, &b| tried[a].total_cmp(&tried[b])).unwrap_or(0);
         let log = least(deviance, place(best.saturating_sub(1)), place((best + 1).min(PLACES)));
         let mut law = self.law(counts, if deviance(log) < tried[best] { log } else { place(best) });
-        law.exponent.error = law.error(counts);
+        law.critical.at_end = best == PLACES && deviance(log) >= tried[best];
+        law.exponent.error = if law.critical.at_end { f64::INFINITY } else { law.error(counts) };
         let limit = law.goodness.deviance + PROFILE;
         let outside = |log: f64| deviance(log) > limit;
         let near =

@@ -74,7 +74,7 @@ fn a_crisis_is_recognised_and_its_place_and_exponent_are_covered() {
             && power.critical.upper.is_some_and(|high| high >= 1.2);
         place += usize::from(inside);
         exponent += usize::from(power.exponent.covers(1.0));
-        assert!(power.above && power.life(1.199).is_infinite());
+        assert!(power.above && power.life(1.199).is_infinite() && !power.critical.at_end);
     }
     println!("{right} of 100 recognised; place {place}, exponent {exponent}");
     assert!(right >= 97 && place >= 88 && exponent >= 85, "{right} {place} {exponent}");
@@ -102,7 +102,11 @@ fn lives_without_a_crisis_are_recognised_where_they_change_much() {
         let found = compare_life_laws(&counts(seed, &values, 400, 1e9, |p| 1e3 * (6.0 * p).exp()))
             .expect("an answer");
         right += usize::from(matches!(found, LifeLaws::Exponential { .. }));
-        let (exponential, _) = found.fits().expect("fits");
+        let (exponential, power) = found.fits().expect("fits");
+        assert!(
+            power.critical.at_end && power.exponent.error.is_infinite(),
+            "a crisis as far away as can be: {power:?}"
+        );
         covered += usize::from(exponential.k.covers(-6.0));
         assert!(!matches!(found, LifeLaws::PowerLaw { .. }), "{}", found.words());
     }

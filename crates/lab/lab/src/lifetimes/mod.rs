@@ -200,6 +200,14 @@ fn check_axis(plan: &ScanPlan, delay: Option<f64>) -> Result<&motiform_study::sc
             problem: "mean lives are computed along one parameter: give one axis".to_owned(),
         });
     };
+    if plan.varies_start()? {
+        return Err(Error::Axis {
+            text: axis.name.clone(),
+            problem: "mean lives follow a law of a parameter, and this is a coordinate of the start; `motiform scan --axis` \
+                      maps what different starts end in"
+                .to_owned(),
+        });
+    }
     check(
         "transient",
         delay.unwrap_or(0.0),
@@ -237,7 +245,10 @@ impl Lifetimes {
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let sum = |of: fn(&LifeAt) -> usize| self.values.iter().map(of).sum::<usize>();
-        let late = self.values.iter().filter(|at| at.life.watched == 0.0).count();
+        // where all starts ended, a longer watch shows nothing else
+        let over = |at: &LifeAt| at.lasting == 0 && at.regular == 0 && at.lost == 0;
+        let unwatched =
+            |ended: bool| self.values.iter().filter(|at| at.life.watched == 0.0 && over(at) == ended).count();
         let notes = [
             (
                 sum(|at| at.regular),
@@ -245,7 +256,12 @@ impl Lifetimes {
             ),
             (sum(|at| at.lost), "starts could not be followed to the end: they count until then"),
             (
-                late,
+                unwatched(true),
+                "values have nothing to watch after the delay, as all of their starts ended before: there is no chaos that lasts for \
+                 it; --transient gives a shorter delay",
+            ),
+            (
+                unwatched(false),
                 "values have nothing to watch after the delay: follow for longer, or give a shorter delay",
             ),
         ];

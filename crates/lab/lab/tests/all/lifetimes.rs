@@ -69,4 +69,7 @@ fn a_stop_is_heard_and_nonsense_refused() {
     let text = "preset = \"fig4\"\n[scan]\naxes = [\"kappa2=0.3,0.4\", \"kappa3=0.1,0.2\"]\n";
     let two = ScanPlan::new(&Study::parse(text, "text", "test").unwrap()).unwrap();
     assert!(lifetimes(&two, None, 1, &()).is_err());
+    let text = text.replace("\"kappa2=0.3,0.4\", \"kappa3=0.1,0.2\"", "\"v1=0.3,0.4\"");
+    let start = ScanPlan::new(&Study::parse(&text, "text", "test").unwrap()).unwrap();
+    assert!(lifetimes(&start, None, 1, &()).unwrap_err().to_string().contains("a coordinate of the start"));
 }

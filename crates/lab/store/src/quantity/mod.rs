@@ -11,8 +11,10 @@ pub mod motion;
 pub mod special;
 pub mod state;
 pub mod statistic;
+mod unit;
 
 pub use dimension::Dimension;
+pub use unit::Unit;
 
 use std::borrow::Cow;
 
