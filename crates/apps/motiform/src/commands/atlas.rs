@@ -7,7 +7,8 @@ use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_analysis::Regime;
 use motiform_diagrams::atlas::{
-    AtlasFolder, Boundary, Grid, Line, Stage, atlas_summary, boundaries, regions, survey, trace,
+    AtlasFolder, Boundary, Grid, Line, Stage, atlas_summary, boundaries, mixed_courses, regions, survey,
+    trace,
 };
 use motiform_store::Folder;
 use motiform_study::atlas::{AtlasPlan, axis, samples};
@@ -120,6 +121,7 @@ impl Display for Surveyed<'_> {
             let words = format!("{} of fewer than {LISTED} cells each", small.len());
             writeln!(f, "regions    {words:<32} {share:5.1} %: summary.json lists them")?;
         }
+        mixed_courses(grid).iter().try_for_each(|words| writeln!(f, "note       {words}"))?;
         let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
         writeln!(f, "followed   {} lines, {curves} curves", lines.len())?;
         let short = lines.iter().filter(|line| line.refused.is_some()).count();

@@ -94,3 +94,31 @@ fn a_cycle_whose_coordinates_vanish_is_not_at_rest() {
         }
     }
 }
+
+/// A field `e` along x draws the heading along it where e > 0, and across it where e < 0: half of a symmetric range each.
+const FIELD: &str = r#"
+[model.amplitudes]
+modes = [1]
+symmetry = "mirror"
+[model.amplitudes.parameters]
+gamma = 1.0
+e = { value = 0.1, range = [-0.5, 0.5] }
+g = { value = 1.0, range = [0.1, 2.0] }
+[model.amplitudes.equations]
+z1 = "(gamma - g*|z1|^2)*z1 + e*conj(z1)"
+"#;
+
+#[test]
+fn scans_and_maps_tell_what_goes_along_a_field_and_across() {
+    let folder = Folder::new();
+    folder.write("field.toml", FIELD);
+    let axes = "field.toml --axis e=-0.5:0.5:6 --axis g=0.5:1.5:4 --samples 2 --seed 1";
+    let json = folder.run(&format!("scan {axes} --out scan --json")).expect(0).json();
+    let both = serde_json::json!({ "straight": { "along-field": 24, "across-field": 24 } });
+    assert_eq!((&json["courses"], &json["regimes"]["straight"]), (&both, &48.into()));
+    let map = folder.run(&format!("atlas {axes} --out map")).expect(0).stdout;
+    assert!(map.contains("straight: along the field in") && map.contains("across the field in"), "{map}");
+    let handless =
+        folder.run("scan tensor --preset fig5a --axis kappa2=0.9:1:2 --out plain --json").expect(0).json();
+    assert!(handless["courses"].is_null(), "a model with all symmetries has no courses: {handless}");
+}

@@ -248,7 +248,13 @@ mod tests {
             'c' => Regime::Circular,
             _ => Regime::Chaotic,
         };
-        let found = |letter| Found { regime: motion(letter), rows: 1, sample: 0, numbers: [None; 5] };
+        let found = |letter| Found {
+            regime: motion(letter),
+            rows: 1,
+            sample: 0,
+            numbers: [None; 5],
+            courses: Vec::new(),
+        };
         let place = |letter: char| Place { motions: vec![found(letter)], like: None };
         let places: Vec<Place> = rows.iter().flat_map(|row| row.chars().map(place)).collect();
         Grid { size: [rows[0].len(), rows.len()], places }

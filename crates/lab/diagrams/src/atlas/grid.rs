@@ -1,6 +1,6 @@
 //! The cells of a plane, with the motions found in each.
 
-use motiform_analysis::Regime;
+use motiform_analysis::{Course, Regime};
 use motiform_study::quantity::motion;
 use motiform_study::{AtlasPlan, Quantity};
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,9 @@ pub struct Found {
     /// Medians over those that do: mean speed, turning rate, period, largest Lyapunov exponent and its error; `None` where a number has no
     /// meaning.
     pub numbers: [Option<f64>; 5],
+    /// Their directions, where the model tells directions apart.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub courses: Vec<Course>,
 }
 
 /// The numbers of [`Found::numbers`].

@@ -9,6 +9,7 @@
 //! Finished cells and lines are kept in a journal: neither an interruption nor the number of threads changes a number.
 
 mod boundary;
+mod courses;
 mod draw;
 mod folder;
 mod grid;
@@ -24,6 +25,7 @@ mod trace;
 mod verify;
 
 pub use boundary::{Boundary, Edge, boundaries};
+pub use courses::mixed_courses;
 pub use draw::{atlas_map, draw_atlas};
 pub use folder::AtlasFolder;
 pub use grid::{Found, Grid, Place};

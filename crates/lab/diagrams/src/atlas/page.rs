@@ -1,6 +1,7 @@
 //! The page of an atlas: the map, its regions, its boundaries, what was followed.
 
 use crate::atlas::boundary::{Boundary, boundaries, connection_words};
+use crate::atlas::courses::mixed_courses;
 use crate::atlas::draw::atlas_map;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::grid::Found;
@@ -36,7 +37,8 @@ pub fn html(folder: &AtlasFolder, style: &Style) -> Result<String, Error> {
             title: "Regions".to_owned(),
             about: format!(
                 "Connected cells with the same motions. {short} regions of fewer than {LISTED} cells are left out. \
-                 Numbers are those of the cell farthest from the border."
+                 Numbers are those of the cell farthest from the border.{}",
+                mixed_courses(&folder.grid).iter().map(|words| format!(" {words}.")).collect::<String>()
             ),
             tables: vec![all],
             ..Section::default()

@@ -1,6 +1,7 @@
 //! An atlas in a few numbers: what `--json` prints and `summary.json` holds.
 
 use crate::atlas::boundary::{Boundary, boundaries, connection_words};
+use crate::atlas::courses::mixed_courses;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::points::special_points;
 use crate::atlas::region::{Region, regions};
@@ -61,6 +62,7 @@ pub fn atlas_summary(folder: &AtlasFolder) -> Value {
         "computed": grid.computed(),
         "samples": c.scan.samples,
         "regions": regions(plan, grid).iter().map(region).collect::<Vec<_>>(),
+        "mixed_courses": mixed_courses(grid),
         "boundaries": boundaries.iter().map(boundary_json).collect::<Vec<_>>(),
         "named": if all > 0 { json!(1.0 - unnamed as f64 / all as f64) } else { Value::Null },
         "curves": curves.collect::<Vec<_>>(),

@@ -2,6 +2,7 @@
 
 use crate::atlas::folder::parsed;
 use crate::atlas::grid::{Found, Grid, NUMBERS, Place};
+use motiform_analysis::{Course, Regime};
 use motiform_dynamics::{Part, Watch};
 use motiform_lab::scan::{CellSummary, Classify, Row, rows_at};
 use motiform_store::Journal;
@@ -147,8 +148,15 @@ pub(crate) fn place(rows: &[Row]) -> (usize, Place) {
         rows: motion.rows,
         sample: rows.iter().find(|row| row.regime == motion.regime).map_or(0, |row| row.sample),
         numbers: NUMBERS.map(|quantity| motion.median(quantity.name).filter(|value| value.is_finite())),
+        courses: courses(rows, motion.regime),
     });
     (cell, Place { motions: found.collect(), like: None })
+}
+
+/// The directions of a motion in these rows, each once.
+fn courses(rows: &[Row], regime: Regime) -> Vec<Course> {
+    let has = |course: &Course| rows.iter().any(|row| row.regime == regime && row.course == Some(*course));
+    Course::ALL.into_iter().filter(has).collect()
 }
 
 /// The places of a grid along an axis: both ends among them.

@@ -1,6 +1,7 @@
 //! The contents of a scan.
 
 use crate::scan::{ScanFolder, Totals};
+use motiform_analysis::Regime;
 use motiform_study::{Error, Random};
 use serde::Serialize;
 use std::fmt::{Display, Formatter, Result};
@@ -14,6 +15,9 @@ pub struct Scanned<'a> {
     random: Random,
     rows: usize,
     regimes: serde_json::Map<String, serde_json::Value>,
+    /// By regime and course, where the model tells directions apart.
+    #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
+    courses: serde_json::Map<String, serde_json::Value>,
     multistable: usize,
     undetermined: usize,
     escaped: usize,
@@ -42,6 +46,7 @@ impl<'a> Scanned<'a> {
             random: plan.computation.random,
             rows: totals.rows,
             regimes: regimes.collect(),
+            courses: totals.regimes().filter_map(|(regime, _)| courses(totals, regime)).collect(),
             multistable: totals.multistable,
             undetermined: totals.undetermined,
             escaped: totals.escaped,
@@ -52,6 +57,13 @@ impl<'a> Scanned<'a> {
             drawn: plan.computation.samples > 1 || plan.draws_first()?,
         })
     }
+}
+
+/// The name of a regime, and its rows by course; `None` where the model has no directions.
+fn courses(totals: &Totals, regime: Regime) -> Option<(String, serde_json::Value)> {
+    let all: serde_json::Map<_, _> =
+        totals.courses(regime).map(|(course, rows)| (course.name().to_owned(), rows.into())).collect();
+    (!all.is_empty()).then(|| (regime.name().to_owned(), all.into()))
 }
 
 impl Display for Scanned<'_> {
@@ -71,6 +83,9 @@ impl Display for Scanned<'_> {
         for (regime, rows) in totals.regimes() {
             let share = 100.0 * rows as f64 / totals.rows as f64;
             writeln!(f, "          {:14} {rows} rows ({share:.1} %)", regime.name())?;
+            for (course, rows) in totals.courses(regime) {
+                writeln!(f, "            {:19} {rows} rows", course.words())?;
+            }
         }
         let special = [
             (totals.multistable, "with more than one motion"),

@@ -2,7 +2,7 @@
 
 use super::rows::place;
 use super::{NUMBERS, PartError, Row, ScanFolder, read_part};
-use motiform_analysis::regime::Regime;
+use motiform_analysis::regime::{Course, Regime};
 use motiform_dynamics::order::ascending;
 use motiform_study::Error;
 
@@ -15,6 +15,8 @@ pub struct Totals {
     pub rows: usize,
     /// Rows of each regime, in the order of [`Regime::ALL`].
     pub regimes: [usize; Regime::ALL.len()],
+    /// Those of each course, in the order of [`Course::ALL`], where the model tells directions apart.
+    pub courses: [[usize; Course::ALL.len()]; Regime::ALL.len()],
     /// Cells with more than one motion, not counting undetermined rows.
     pub multistable: usize,
     /// Cells with an undetermined row.
@@ -55,11 +57,25 @@ impl Totals {
         for (count, regime) in self.regimes.iter_mut().zip(Regime::ALL) {
             *count += cell.iter().filter(|row| row.regime == regime).count();
         }
+        let courses = cell.iter().filter_map(|row| Some((row.regime, row.course?)));
+        for (regime, course) in courses {
+            let row = Regime::ALL.iter().position(|one| *one == regime);
+            let column = Course::ALL.iter().position(|one| *one == course);
+            if let (Some(row), Some(column)) = (row, column) {
+                self.courses[row][column] += 1;
+            }
+        }
     }
 
     /// The regimes that occur, with their number of rows.
     pub fn regimes(&self) -> impl Iterator<Item = (Regime, usize)> {
         Regime::ALL.into_iter().zip(self.regimes).filter(|entry| entry.1 > 0)
+    }
+
+    /// The courses of the rows of a regime, with their number of rows; none where the model has no directions.
+    pub fn courses(&self, regime: Regime) -> impl Iterator<Item = (Course, usize)> {
+        let own = Regime::ALL.iter().position(|one| *one == regime).map(|place| self.courses[place]);
+        Course::ALL.into_iter().zip(own.into_iter().flatten()).filter(|entry| entry.1 > 0)
     }
 }
 
