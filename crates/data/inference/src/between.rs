@@ -14,9 +14,10 @@
 //! Source: Jaeckel (1972), Bell Labs memorandum MM 72-1215-11; Efron (1982), The Jackknife, the Bootstrap and
 //! Other Resampling Plans, ch. 6.
 
+use crate::chi_square::chi_square_tail;
 use crate::filter::{Want, evaluate};
 use crate::fit::problem;
-use crate::{Error, Fit, Result, Settings, Track, observation};
+use crate::{CellScatter, Error, Fit, Result, Settings, Track, observation};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +33,48 @@ pub struct BetweenCells {
     pub errors: Vec<f64>,
     /// The shift of each coefficient by each cell: estimate with it less that without it, to first order.
     pub shifts: Vec<Vec<f64>>,
+}
+
+/// Significance of the differences between cells in a coefficient.
+pub(crate) const DIFFER: f64 = 0.01;
+
+impl BetweenCells {
+    /// The coefficients in which cells differ by more than one law with its errors lets them, each with its p-value: of
+    /// `(K - 1) (error between cells)^2/(error of one law)^2` against chi-square with K - 1 degrees of freedom, the larger one of the
+    /// expected and the robust error.
+    #[must_use]
+    pub fn differing(&self, fit: &Fit) -> Vec<(String, f64)> {
+        let p = |(between, one): (&f64, &crate::Coefficient)| {
+            let law = one.estimate.error.max(one.estimate.robust);
+            (one.name.clone(), differ(between * between, law * law, self.cells))
+        };
+        self.errors.iter().zip(&fit.coefficients).map(p).filter(|one| one.1 < DIFFER).collect()
+    }
+}
+
+/// The p-value of a variance between this many cells where one law has the other one.
+pub(crate) fn differ(between: f64, law: f64, cells: usize) -> f64 {
+    let freedom = cells.saturating_sub(1);
+    if law > 0.0 { chi_square_tail(freedom as f64 * between / law, freedom) } else { 1.0 }
+}
+
+impl Fit {
+    /// The fit with the differences between its cells: intervals over sets of terms, and of places in the planes, then hold where each cell
+    /// has its own law. Their errors are the largest one of the expected, the robust, and that between cells; the last one is multiplied by
+    /// `factor` where cells differ significantly, since it comes from few of them (the quotient of Student's and the normal quantile).
+    #[must_use]
+    pub fn with_cells(mut self, between: &BetweenCells, factor: f64) -> Self {
+        let units: Vec<f64> = self.coefficients.iter().map(|c| self.scales.coefficient(&c.term)).collect();
+        let n = units.len();
+        let share = between.cells as f64 / (between.cells as f64 - 1.0);
+        let entry = |i: usize, j: usize| {
+            let products = between.shifts.iter().map(|shift| shift[i] / units[i] * shift[j] / units[j]);
+            share * products.sum::<f64>()
+        };
+        let covariance = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+        self.natural.cells = Some(CellScatter { cells: between.cells, covariance, factor });
+        self
+    }
 }
 
 /// The errors of a joint fit from the differences between its cells.

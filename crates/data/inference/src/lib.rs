@@ -39,8 +39,8 @@ pub use definition::equations;
 pub use draws::draws;
 pub use error::{Error, Result};
 pub use fit::{
-    Coefficient, Ending, Estimate, Fit, Likelihood, Natural, Noise, Parameters, Settings, fit, fit_from,
-    likelihood,
+    CellScatter, Coefficient, Ending, Estimate, Fit, Likelihood, Natural, Noise, Parameters, Settings, fit,
+    fit_from, likelihood,
 };
 pub use handed::{COLOURED, DOUBTED_RATE, HANDED_RATE, Handedness, SEEN, Symmetry, handedness};
 pub use identifiability::{

@@ -88,6 +88,13 @@ pub enum Warning {
     },
     /// Modes of the shape have different noise, and the fit has one amplitude for all of them.
     UnequalNoise(UnequalNoise),
+    /// Several cells do not follow one law.
+    CellsDiffer {
+        /// Coefficients in which they differ.
+        names: Vec<String>,
+        /// The smallest significance.
+        p_value: f64,
+    },
     /// The search did not converge.
     NotConverged {
         /// The reason.
@@ -147,6 +154,14 @@ impl std::fmt::Display for Warning {
                 f,
                 "innovations of z{one} have {ratio:.2} times the variance of those of z{two} ({}): their noise differs, and the model has \
                  one amplitude for all modes, so errors are too small for some coefficients and too large for others",
+                PValue(*p_value)
+            ),
+            Self::CellsDiffer { names, p_value } => write!(
+                f,
+                "cells differ in {} ({}): the coefficients are means over these cells, and their intervals those of a mean over \
+                 such cells; \
+                 fits of single cells show which differ",
+                names.join(", "),
                 PValue(*p_value)
             ),
             Self::NotConverged { reason } => write!(f, "the fit did not converge: {reason}"),

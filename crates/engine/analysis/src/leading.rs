@@ -67,7 +67,7 @@ fn fastest(
     let (mut most, mut shape, mut rate) = (0.0, orbit.shape.clone(), vec![0.0; dim]);
     for place in 1..=PLACES {
         let until = orbit.time * place as f64 / PLACES as f64;
-        let request = Request { max_steps: flow.max_steps, watch, ..Request::until(until, dim) };
+        let request = Request { max_steps: flow.max_steps, watch, ..Request::around(until, &orbit.shape) };
         drive(run.as_mut(), &request, &mut ()).ok()?;
         VectorField::<f64>::eval(body, 0.0, run.state(), &mut rate);
         if norm(&rate) > most {

@@ -15,7 +15,7 @@ use crate::periodic::{Flow, PeriodicOrbit, back};
 use crate::product::logarithms_of_product;
 use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, Request, System, Tangent, VectorField, Watch};
+use motiform_dynamics::{Equivariant, Request, Tangent, VectorField, Watch};
 use nalgebra::DMatrix;
 
 /// The limits on the parts of a period.
@@ -278,8 +278,7 @@ fn part(body: &dyn Equivariant, start: &[f64], span: f64, flow: &Flow, watch: &d
     let mut state = start.to_vec();
     state.extend((0..dim * dim).map(|i| if i / dim == i % dim { 1.0 } else { 0.0 }));
     let mut orbit = flow.method.shape_orbit(&field, flow.control, 0.0, &state).ok()?;
-    let request =
-        Request { max_steps: flow.max_steps, watched: dim, watch, ..Request::until(span, field.dim()) };
+    let request = Request { max_steps: flow.max_steps, watch, ..Request::around(span, start) };
     let outcome = drive(orbit.as_mut(), &request, &mut ()).ok()?;
     if !outcome.is_complete() {
         return None;

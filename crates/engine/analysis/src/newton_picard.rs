@@ -94,8 +94,7 @@ impl<'b> Newton<'b> {
     /// `|P(u) - u|`, by the flow alone: a seventh of the cost of an [`Image`] in a small system.
     pub(crate) fn miss(&self, flow: &Flow, watch: &dyn Watch) -> Option<f64> {
         let mut orbit = flow.method.shape_orbit(self.body, flow.control, 0.0, &self.shape).ok()?;
-        let dim = self.shape.len();
-        let request = Request { max_steps: flow.max_steps, watch, ..Request::until(self.time, dim) };
+        let request = Request { max_steps: flow.max_steps, watch, ..Request::around(self.time, &self.shape) };
         if !drive(orbit.as_mut(), &request, &mut ()).ok()?.is_complete() {
             return None;
         }
@@ -113,14 +112,11 @@ impl<'b> Newton<'b> {
             if whole { Tangent::new(self.body, count) } else { Tangent::following(self.body, count) };
         let start: Vec<f64> = self.shape.iter().chain(self.directions.iter().flatten()).copied().collect();
         let mut orbit = flow.method.shape_orbit(&tangent, flow.control, 0.0, &start).ok()?;
-        let (watched, escape_norm) = if whole { (dim, 1e6) } else { (tangent.dim(), PARALLEL) };
-        let request = Request {
-            max_steps: flow.max_steps,
-            watched,
-            escape_norm,
-            watch,
-            ..Request::until(self.time, tangent.dim())
+        let bounded = match whole {
+            true => Request::around(self.time, &self.shape),
+            false => Request { escape_norm: PARALLEL, ..Request::until(self.time, tangent.dim()) },
         };
+        let request = Request { max_steps: flow.max_steps, watch, ..bounded };
         let outcome = drive(orbit.as_mut(), &request, &mut ()).ok()?;
         if !outcome.is_complete() {
             return None;

@@ -139,7 +139,7 @@ impl PeriodicOrbit {
         watch: &dyn Watch,
     ) -> Option<Self> {
         let mut orbit = flow.method.shape_orbit(body, flow.control, 0.0, shape).ok()?;
-        let request = Request { max_steps: flow.max_steps, watch, ..Request::until(time, shape.len()) };
+        let request = Request { max_steps: flow.max_steps, watch, ..Request::around(time, shape) };
         drive(orbit.as_mut(), &request, &mut ()).ok()?;
         let angle = align(body, orbit.state(), shape, mirrored).angle;
         Self::find(body, &PeriodicGuess { shape, time, angle, mirrored }, flow, watch)

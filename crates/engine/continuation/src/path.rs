@@ -91,9 +91,8 @@ fn part(
     let request = Request {
         sample_every: Some(span / count as f64),
         max_steps: flow.max_steps,
-        watched: node.len(),
         watch: &StopOnly(watch),
-        ..Request::until(span, state.len())
+        ..Request::around(span, node)
     };
     let outcome = drive(orbit.as_mut(), &request, &mut positions).ok()?;
     let Positions(mut points) = positions;

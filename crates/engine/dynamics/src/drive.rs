@@ -30,6 +30,9 @@ pub struct Request<'g> {
     pub watch: &'g dyn Watch,
 }
 
+/// A shape that grows to this many times its size, or to this size, has escaped.
+const UNBOUND: f64 = 1e6;
+
 impl Request<'_> {
     /// A plain run to `t_end` on a state with `dim` entries: no samples, no sections, no watch, generous bounds.
     #[must_use]
@@ -39,12 +42,18 @@ impl Request<'_> {
             stop_after: f64::INFINITY,
             sample_every: None,
             max_steps: 1_000_000_000,
-            escape_norm: 1e6,
+            escape_norm: UNBOUND,
             watched: dim,
             sections: &[],
             pieces: PIECES,
             watch: &(),
         }
+    }
+
+    /// The same from a shape of any size: it has escaped when it is many times as large.
+    #[must_use]
+    pub fn around(t_end: f64, shape: &[f64]) -> Self {
+        Self { escape_norm: UNBOUND * norm(shape).max(1.0), ..Self::until(t_end, shape.len()) }
     }
 
     fn validate(&self, t: f64) -> Result<(), Error> {

@@ -1,12 +1,12 @@
 //! The fit of one cell, with everything that follows from it.
 
-use crate::fitted::fitted;
+use crate::fitted::{Units, fitted};
 use crate::stages::Stages;
 use crate::{
     CellTrack, Companions, Error, Fitted, NearBifurcation, Prediction, Result, near_bifurcations, predict,
 };
 use motiform_dynamics::{StopOnly, Watch};
-use motiform_inference::{LEAST_FRAMES, Library, Settings, Track, between_cells, with_stage};
+use motiform_inference::{LEAST_FRAMES, Library, Settings, Track, Warning, between_cells, with_stage};
 use motiform_lab::pool;
 use serde::{Deserialize, Serialize};
 
@@ -188,12 +188,12 @@ fn on_stage(
     (settings, options): (&Settings, &FitOptions),
     watch: &dyn Watch,
 ) -> Result<(Box<Fitted>, Track)> {
-    let found = fitted(pieces, (settings, options), &Stages::default(), watch)?;
+    let found = fitted(pieces, Units::Pieces, (settings, options), &Stages::default(), watch)?;
     if !(options.stage && found.shows_stage()) {
         return Ok((found, path));
     }
     let still = with_stage(pieces, &found.selection.fit, watch)?;
-    let mut again = fitted(&still.tracks, (settings, options), &Stages::default(), watch)?;
+    let mut again = fitted(&still.tracks, Units::Pieces, (settings, options), &Stages::default(), watch)?;
     again.stage = still.velocities;
     let longest = still.tracks.into_iter().max_by_key(|piece| piece.0.len());
     Ok((again, longest.unwrap_or(path)))
@@ -230,11 +230,17 @@ pub(crate) fn fit_in_stages(
         return Ok(refused(TOGETHER, frames, why));
     }
     let settings = Settings { library: library.seen(&tracks), ..Settings::default() };
-    let mut fitted = match fitted(&tracks, (&settings, options), stages, watch) {
+    let mut fitted = match fitted(&tracks, Units::Cells, (&settings, options), stages, watch) {
         Err(Error::Inference(error)) => return Ok(refused(TOGETHER, frames, error.to_string())),
         found => found?,
     };
-    fitted.between = Some(between_cells(&tracks, fitted.model())?);
+    let between = between_cells(&tracks, fitted.model())?;
+    let differing = between.differing(fitted.model());
+    if let Some(p_value) = differing.iter().map(|one| one.1).reduce(f64::min) {
+        let names = differing.into_iter().map(|one| one.0).collect();
+        fitted.warnings.push(Warning::CellsDiffer { names, p_value });
+    }
+    fitted.between = Some(between);
     Ok(CellFit {
         name: TOGETHER.to_owned(),
         frames,

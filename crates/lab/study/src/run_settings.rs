@@ -1,7 +1,26 @@
 //! Settings of a run, as typed.
 
+use crate::Error;
 use crate::described::settings;
+use crate::study::Study;
+use motiform_analysis::equilibrium::Units;
+use motiform_models::amplitudes::NAME;
 use serde::Serialize;
+
+/// The unit of the shapes of a study ([`Units`]); 1 for the models of this program, whose defaults are those of their sizes.
+///
+/// # Errors
+/// Values that the model rejects.
+pub(crate) fn unit(study: &Study) -> Result<f64, Error> {
+    let info = study.info()?;
+    if info.name != NAME {
+        return Ok(1.0);
+    }
+    Ok(Units::of(info.build(&study.values()?)?.as_ref()).length)
+}
+
+/// See [`RunSettings::escape_norm`].
+const ESCAPE_NORM: f64 = 1e6;
 
 settings! {
     /// Settings of a run.
@@ -18,7 +37,8 @@ settings! {
         pub stepper: String,
         /// Relative tolerance of adaptive steppers, 1e-14 to 1e-4: sets the accuracy of the run. By default 1e-9 for tensor, 1e-6 for cell.
         pub rtol: f64,
-        /// Absolute tolerance of adaptive steppers. By default a thousandth of `rtol` for tensor, a tenth for cell.
+        /// Absolute tolerance of adaptive steppers. By default a thousandth of `rtol` for tensor, a tenth for cell; for
+        /// equations given as text in their unit where that is below 1.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub atol: Option<f64>,
         /// Fixed step. By default adaptive steppers control their step, and the others use 1e-3.
@@ -27,7 +47,8 @@ settings! {
         pub seed: u64,
         /// Maximum number of steps of a run; by default 1e8.
         pub max_steps: u64,
-        /// A shape whose norm exceeds this has escaped; by default 1e6.
+        /// A shape whose norm exceeds this has escaped; by default 1e6, for equations given as text in their unit where that is above 1
+        /// (a power of 1000, from the sizes at which their terms balance).
         pub escape_norm: f64,
         /// Amplitude eta of additive white noise (0 for none): du = f(u) dt + eta dW for every coordinate u of the shape (s11, s12,
         /// u111, u222; c1, s1, c2, ...), and for v1, v2 unless `noise_velocity` is given. Unit of u per square root of model time.
@@ -43,6 +64,12 @@ impl RunSettings {
     #[must_use]
     pub fn largest_noise(&self) -> f64 {
         self.noise.max(self.noise_velocity.unwrap_or(0.0))
+    }
+
+    /// The size beyond which a shape has escaped, of equations with this unit.
+    pub(crate) fn escape_norm_in(&self, unit: f64) -> f64 {
+        let given = self.escape_norm.to_bits() != ESCAPE_NORM.to_bits();
+        if given { self.escape_norm } else { ESCAPE_NORM * unit.max(1.0) }
     }
 
     /// Removes the noise.
@@ -63,7 +90,7 @@ impl Default for RunSettings {
             step: None,
             seed: 1,
             max_steps: 100_000_000,
-            escape_norm: 1e6,
+            escape_norm: ESCAPE_NORM,
             noise: 0.0,
             noise_velocity: None,
         }

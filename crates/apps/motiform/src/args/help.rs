@@ -148,7 +148,8 @@ yet, from sizes about those at which terms of the equations balance (a tenth of 
 symmetric shapes and from shapes between known ones, until half as many searches as --starts for each unknown (1.5 as many for \
 the cell) in turn find nothing. Nothing proves that these are all.
 share: of the random starts that lead there; 'deflated' and 'mirrored' (the mirror image of another one) are those that no \
-start led to. unstable: number of growing directions; 0 is stable. Mirror images are listed apart.
+start led to. unstable: number of growing directions; a motion with 0 is stable where its leading \
+eigenvalue is negative. Mirror images are listed apart.
 
 More: docs/continuation.md.";
 

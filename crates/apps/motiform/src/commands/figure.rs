@@ -31,7 +31,7 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
     for path in &options.datasets {
         check(kind_of(path), options)?;
         let pictures = Content::read(path, options)?.pictures(options)?;
-        if pictures.is_empty() && !has_no_body(kind_of(path)) {
+        if pictures.is_empty() && shows_a_part(options)? {
             return Err(nothing(path));
         }
         if let Some(out) = &options.out {
@@ -70,6 +70,13 @@ fn write<'p>(folder: &Folder, pictures: &'p [Picture], force: bool) -> Result<Ve
         }
     }
     Ok(written)
+}
+
+/// Returns `true` if a part of the trajectory is asked for.
+fn shows_a_part(options: &FigureOptions) -> Result<bool, Error> {
+    let mut asked = FigureSettings::default();
+    options.drawing.figure.apply(&mut asked)?;
+    Ok(asked.from > 0.0 || asked.to > 0.0)
 }
 
 /// Says why a folder has no figure.
@@ -147,7 +154,7 @@ fn chosen(path: &Path, name: Option<&str>, options: &FigureOptions) -> anyhow::R
     };
     match place {
         Some(place) => Ok(all.swap_remove(place).1),
-        None if names.is_empty() && !has_no_body(kind_of(path)) => Err(nothing(path)),
+        None if names.is_empty() && shows_a_part(options)? => Err(nothing(path)),
         None if names.is_empty() => anyhow::bail!("{}: it has no figure: leave it out", path.display()),
         None => anyhow::bail!(
             "{}:{}: there is no such figure; it has {}",

@@ -122,3 +122,46 @@ fn scans_and_maps_tell_what_goes_along_a_field_and_across() {
         folder.run("scan tensor --preset fig5a --axis kappa2=0.9:1:2 --out plain --json").expect(0).json();
     assert!(handless["courses"].is_null(), "a model with all symmetries has no courses: {handless}");
 }
+
+/// The oscillator of van der Pol in units of any size: the same name and period, and no blow-up.
+#[test]
+fn sizes_far_from_one_change_no_name() {
+    let folder = Folder::new();
+    for size in [1.0, 1e-7, 1e7] {
+        let text = format!(
+            "[model.amplitudes]\nmodes = [2]\nsymmetry = \"none\"\nvelocity = \"z2\"\n\
+             [model.amplitudes.parameters]\nmu = 1.0\n\
+             [model.amplitudes.equations]\nz2 = \"(mu/2 - i)*z2 - mu/2*conj(z2) - mu/8*(z2 + conj(z2))^2*(z2 - conj(z2))/{}\"\n",
+            size * size
+        );
+        folder.write("vdp.toml", &text);
+        let start = format!("--initial z2_re={:e} --initial z2_im={:e}", 0.5 * size, 0.7 * size);
+        let found = folder.run(&format!("classify vdp.toml {start} --json")).expect(0).json();
+        let period = found["period"].as_f64().unwrap_or(0.0);
+        assert!((period - 6.663_286_859).abs() < 1e-5, "{size}: {found}");
+    }
+}
+
+/// Lorenz's equations in real parts of z2 and z3, and a coordinate that decays beside them, slowly or fast: the dimension of the attractor
+/// is the same (Sprott 2003, app. A: 2.0621).
+#[test]
+fn a_coordinate_that_decays_beside_chaos_is_no_dimension_of_it() {
+    let folder = Folder::new();
+    for rate in [1.0, 20.0] {
+        // z2 = x + iy, z3 = z + iw
+        let text = format!(
+            "[model.amplitudes]\nmodes = [2, 3]\nsymmetry = \"none\"\nvelocity = \"z2\"\n\
+             [model.amplitudes.parameters]\nk = {rate}\n\
+             [model.amplitudes.equations]\n\
+             z2 = \"5*(z2 - conj(z2))*(-i) - 5*(z2 + conj(z2)) \
+             + i*(14*(z2 + conj(z2)) - (z2 + conj(z2))*(z3 + conj(z3))/4) - (z2 - conj(z2))/2\"\n\
+             z3 = \"-i*(z2 + conj(z2))*(z2 - conj(z2))/4 - 4/3*(z3 + conj(z3)) - k/2*(z3 - conj(z3))\"\n"
+        );
+        folder.write("lorenz.toml", &text);
+        let start = "--initial z2_re=1 --initial z2_im=1 --initial z3_re=20 --transient 50 --t-end 1500";
+        let found = folder.run(&format!("lyapunov lorenz.toml {start} --json")).expect(0).json();
+        let dimension = &found["dimension"];
+        let (value, error) = (dimension["value"].as_f64().unwrap(), dimension["error"].as_f64().unwrap());
+        assert!((value - 2.0621).abs() <= error + 1e-3 && error < 3e-3, "{rate}: {found}");
+    }
+}

@@ -85,3 +85,31 @@ fn a_bifurcation_is_no_family() {
     let found = folder.run("classify pitchfork.toml --budget 3000 --json").expect(1).json();
     assert_eq!(found["regime"], "undetermined", "{found}");
 }
+
+/// The orbits around a centre are a family, too, but no two of them do the same: none of them is stable, from any start, and beside any
+/// silent mode.
+#[test]
+fn an_orbit_around_a_centre_is_not_stable() {
+    let folder = Folder::new();
+    let of = |modes: &str, more: &str| {
+        format!(
+            "[model.amplitudes]\nmodes = [{modes}]\nsymmetry = \"none\"\nvelocity = \"z2\"\n\
+             [model.amplitudes.parameters]\nmu = 1.0\n[model.amplitudes.equations]\nz2 = \"-i*mu*z2\"\n{more}"
+        )
+    };
+    folder.write("centre.toml", &of("2", ""));
+    folder.write("silent.toml", &of("2, 3", "z3 = \"-z3\"\n"));
+    for file in ["centre.toml", "silent.toml"] {
+        for start in [
+            "--initial z2_re=0.5 --initial z2_im=0.7",
+            "--initial z2_re=0.5",
+            "--initial z2_re=2 --initial z2_im=-1",
+        ] {
+            let found = folder.run(&format!("classify {file} {start} --budget 3000 --json")).expect(1).json();
+            assert_eq!(found["regime"], "undetermined", "{file} {start}: {found}");
+        }
+    }
+    let branch =
+        folder.run("continue centre.toml --along mu=0.5:1.5 --initial z2_re=0.5 --initial z2_im=0.7");
+    assert!(branch.expect(2).stderr.contains("undetermined"), "no branch along a parameter");
+}

@@ -11,7 +11,7 @@ mod trust;
 
 pub use likelihood::{Likelihood, Parameters, likelihood};
 pub use optimise::Ending;
-pub use result::{Coefficient, Estimate, Fit, Natural, Noise};
+pub use result::{CellScatter, Coefficient, Estimate, Fit, Natural, Noise};
 
 use crate::filter::{NO_CENTRE_NOISE, Problem, Theta};
 use crate::{Error, Library, Result, Scales, Track};

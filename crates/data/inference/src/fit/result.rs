@@ -73,6 +73,20 @@ pub struct Natural {
     pub covariance: Vec<Vec<f64>>,
     /// The sandwich covariance.
     pub robust: Vec<Vec<f64>>,
+    /// Of several cells, how they differ: see [`Fit::with_cells`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cells: Option<CellScatter>,
+}
+
+/// The covariance of coefficients that whole cells give as units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CellScatter {
+    /// Number of cells.
+    pub cells: usize,
+    /// The covariance, in natural units.
+    pub covariance: Vec<Vec<f64>>,
+    /// Factor of standard errors in an interval, as they come from few cells: the quotient of Student's and the normal quantile.
+    pub factor: f64,
 }
 
 /// A fitted model.
@@ -182,6 +196,7 @@ pub(super) fn make(problem: &Problem, settings: &Settings, scales: &Scales, poin
         information: rows(&kept.information),
         covariance: rows(&covariance),
         robust: rows(&robust),
+        cells: None,
     };
     let units = likelihood::units(problem, settings, scales);
     Fit {

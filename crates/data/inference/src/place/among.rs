@@ -101,7 +101,7 @@ fn located(whole: &Fit, plane: Plane, set: &Conditional, scatter: &Scatter) -> O
     }
     let carried = [0, 1].map(|k| &set.covariance * &gradients[k]);
     let mut covariance = [0, 1].map(|i| [0, 1].map(|j| gradients[i].dot(&carried[j])));
-    let robust = [0, 1].map(|k| scatter.error(&carried[k]));
+    let robust = [0, 1].map(|k| scatter.error(&carried[k], covariance[k][k]));
     // the larger one of both errors, as for coefficients; the correlation stays
     let larger = [0, 1].map(|k| (robust[k] / covariance[k][k].max(f64::MIN_POSITIVE).sqrt()).max(1.0));
     (0..2).for_each(|i| (0..2).for_each(|j| covariance[i][j] *= larger[i] * larger[j]));

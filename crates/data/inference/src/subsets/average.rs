@@ -43,7 +43,8 @@ pub struct Averaged {
 /// truth in 81 % of cases only, since each of them is listed from 1.2 errors on, and 0 is outside from 1.96 errors on.
 ///
 /// The error of a set is the larger one of the expected and the robust one: errors with
-/// heavy tails raise the robust one, and in short records either may be too small by chance.
+/// heavy tails raise the robust one, and in short records either may be too small by chance. Of several cells that between them counts, too
+/// ([`Fit::with_cells`]).
 ///
 /// Source: Schwarz's criterion as a weight: Raftery (1995), Sociol. Methodol. 25, 111; Hoeting et al. (1999),
 /// Stat. Sci. 14, 382; without the part at 0, and Akaike's weights: Burnham and Anderson (2002), sec. 2.9, 4.2.
@@ -54,8 +55,9 @@ pub struct Averaged {
 pub fn averaged(whole: &Fit, subsets: &Subsets) -> Vec<Averaged> {
     let scatter = Scatter::of(whole);
     let parts = parts(whole, subsets, |i, set| {
-        let robust = scatter.error(&set.covariance.column(i).into_owned());
-        [set.estimates[i], set.covariance[(i, i)].max(0.0).sqrt().max(robust)]
+        let expected = set.covariance[(i, i)].max(0.0);
+        let robust = scatter.error(&set.covariance.column(i).into_owned(), expected);
+        [set.estimates[i], expected.sqrt().max(robust)]
     });
     let total: f64 = subsets.ties.iter().map(|set| libm::exp(-0.5 * set.excess)).sum();
     let one = |(i, parts): (usize, Vec<[f64; 3]>)| {

@@ -2,6 +2,7 @@
 
 use super::{Conditional, Subset, Subsets};
 use crate::Fit;
+use crate::between::{DIFFER, differ};
 use nalgebra::{DMatrix, DVector};
 
 /// A number over the tied sets: of each its weight, and mean and standard deviation of its normal distribution.
@@ -52,21 +53,41 @@ impl Mixture {
     }
 }
 
-/// The robust covariance of all terms, for sets of them.
-pub(crate) struct Scatter(Option<DMatrix<f64>>);
+/// The robust covariance of all terms, and that between cells, for sets of them.
+pub(crate) struct Scatter {
+    robust: Option<DMatrix<f64>>,
+    /// Also the number of cells, and the factor for few of them.
+    cells: Option<(DMatrix<f64>, usize, f64)>,
+}
 
 impl Scatter {
-    /// `C^-1 R C^-1` of the expected covariance C and the robust one R; none where C has no inverse.
+    /// `C^-1 R C^-1` of the expected covariance C and each robust one R; none where C has no inverse.
     pub(crate) fn of(whole: &Fit) -> Self {
         let n = whole.coefficients.len();
-        let robust = DMatrix::from_fn(n, n, |i, j| whole.natural.robust[i][j]);
-        Self(whole.covariance().try_inverse().map(|inverse| &inverse * robust * &inverse))
+        let inverse = whole.covariance().try_inverse();
+        let within = |rows: &[Vec<f64>]| {
+            let inner = DMatrix::from_fn(n, n, |i, j| rows[i][j]);
+            inverse.as_ref().map(|inverse| inverse * inner * inverse)
+        };
+        let cells = whole.natural.cells.as_ref();
+        Self {
+            robust: within(&whole.natural.robust),
+            cells: cells.and_then(|all| Some((within(&all.covariance)?, all.cells, all.factor))),
+        }
     }
 
     /// The robust standard error of a number of a set, from `D g`: the expected covariance D of the set, and the gradient g. The estimates
-    /// of the set are `D C^-1` times those of all terms, so their robust covariance is `D C^-1 R C^-1 D`. 0 where it is not known.
-    pub(crate) fn error(&self, carried: &DVector<f64>) -> f64 {
-        self.0.as_ref().map_or(0.0, |scatter| carried.dot(&(scatter * carried)).max(0.0).sqrt())
+    /// of the set are `D C^-1` times those of all terms, so their robust covariance is `D C^-1 R C^-1 D`. 0 where it is not known. Of
+    /// several cells, that between them where it is larger. `expected` is the variance by D.
+    pub(crate) fn error(&self, carried: &DVector<f64>, expected: f64) -> f64 {
+        let variance = |scatter: &DMatrix<f64>| carried.dot(&(scatter * carried)).max(0.0);
+        let robust = self.robust.as_ref().map_or(0.0, variance);
+        let between = self.cells.as_ref().map_or(0.0, |(scatter, cells, factor)| {
+            let between = variance(scatter);
+            let differ = differ(between, robust.max(expected), *cells) < DIFFER;
+            between.sqrt() * if differ { *factor } else { 1.0 }
+        });
+        robust.sqrt().max(between)
     }
 }
 

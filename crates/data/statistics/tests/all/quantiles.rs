@@ -6,9 +6,15 @@ use motiform_statistics::{chi_square_quantile, jackknife, student_quantile, wils
 /// Tables: Abramowitz and Stegun 26.10; `SciPy`'s scipy.stats.t.ppf(0.975, n).
 #[test]
 fn students_quantiles_are_those_of_the_tables() {
-    for (freedom, exact) in
-        [(7, 2.364_624_251_593), (15, 2.131_449_545_560), (30, 2.042_272_456), (63, 1.998_340_543)]
-    {
+    for (freedom, exact) in [
+        (1, 12.706_204_7),
+        (2, 4.302_652_7),
+        (6, 2.446_911_9),
+        (7, 2.364_624_251_593),
+        (15, 2.131_449_545_560),
+        (30, 2.042_272_456),
+        (63, 1.998_340_543),
+    ] {
         assert!((student_quantile(freedom) - exact).abs() < 1e-3, "{freedom}: {}", student_quantile(freedom));
     }
 }

@@ -180,8 +180,8 @@ impl PowerLawLife {
         if critical.at_end {
             let nearest = end(if *above { critical.upper } else { critical.lower });
             return format!(
-                "tau = {coefficient} ({side})^-gamma with pc = {:.5}, the end of the range that was searched: pc is not determined ({nearest} \
-                 or further away), nor is gamma ({:.3} there)",
+                "tau = {coefficient} ({side})^-gamma with pc = {:.5}, the end of the range that was searched: pc is not determined \
+                 ({nearest} or further away), nor is gamma ({:.3} there)",
                 critical.value, exponent.value
             );
         }

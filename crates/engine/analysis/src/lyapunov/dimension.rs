@@ -3,10 +3,16 @@
 use super::Lyapunov;
 use crate::Estimate;
 
+/// An exponent this near to the rate of a silent coordinate, against it, is that of this coordinate, beside its error.
+const SAME: f64 = 1e-6;
+
 impl Lyapunov {
     /// The Kaplan-Yorke dimension `j + (lambda_1 + .. + lambda_j) / |lambda_(j+1)|`, with j the largest number of leading exponents whose
     /// sum is not negative; its error is that of the exponents, to first order. Exponents that must be zero ([`Lyapunov::zeros`]) count
     /// as zero.
+    ///
+    /// Coordinates in which the motion rests, and on which the others do not act ([`Lyapunov::silent`]), are left out: the formula
+    /// would count one that decays slowly as a dimension of the motion.
     ///
     /// It is the dimension of the set of shapes, all rotated copies included: the rotation of a body that turns counts as one.
     /// `None` where too few exponents were computed for their sum to become negative, or one has no error. 0 where all are negative.
@@ -20,6 +26,16 @@ impl Lyapunov {
         let exact = |x: &Estimate| if zeros.contains(x) { Estimate { value: 0.0, error: 0.0 } } else { *x };
         let mut exponents: Vec<Estimate> = self.exponents.iter().map(exact).collect();
         exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+        for rate in &self.silent {
+            let off = |x: &Estimate| (x.value - rate).abs();
+            let nearest =
+                (0..exponents.len()).min_by(|&i, &j| off(&exponents[i]).total_cmp(&off(&exponents[j])));
+            if let Some(place) =
+                nearest.filter(|&i| off(&exponents[i]) <= exponents[i].error + SAME * rate.abs())
+            {
+                exponents.remove(place);
+            }
+        }
         if exponents.is_empty() || !exponents.iter().all(Estimate::has_error) {
             return None;
         }

@@ -5,6 +5,7 @@ mod frame;
 mod lanes;
 mod renormalisation;
 mod separation;
+mod silent;
 
 use crate::equilibrium::{RelativeEquilibrium, along_group_and_flow};
 use crate::linear::norm;
@@ -47,6 +48,8 @@ pub struct Lyapunov {
     /// Number of exponents that must be zero on the motion that the run ended on: those of the flow's own
     /// direction, of the rotations, and along a family of steady motions.
     pub neutral: usize,
+    /// Rates of coordinates in which the motion rests and on which the others do not act: among the exponents, but no part of the motion.
+    pub silent: Vec<f64>,
     /// Growth rates over the intervals of the run: end times, and for each interval one rate per vector.
     pub history: Vec<(f64, Vec<f64>)>,
     /// The rate of change of the reduced shape at the end of each interval.

@@ -1,6 +1,7 @@
 //! The times at which tangent vectors are made orthonormal, and their growth in between: the same for one
 //! orbit and for a lane of many.
 
+use super::silent::silent_rates;
 use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions, pace};
 use crate::Result;
 use crate::linear::norm;
@@ -178,6 +179,7 @@ impl Renormalisation {
         Ok(Lyapunov {
             exponents,
             neutral: neutral_directions(body, shape, self.size),
+            silent: if outcome.is_complete() { silent_rates(body, shape) } else { Vec::new() },
             time,
             transient: self.settings.transient,
             reduced_speeds: self.reduced_speeds,

@@ -2,14 +2,17 @@
 //!
 //! Where the equations have more symmetry than stated (a mode whose phase nothing fixes, bodies that do not act on each other) a multiplier
 //! is 1 that belongs to no symmetry which is divided out. Deviations along the family neither grow nor decay; what the body does is
-//! the same on all of its members. (For equilibria: [`crate::RelativeEquilibrium::across_family`].)
+//! the same on all of its members. (For equilibria: [`crate::RelativeEquilibrium::across_family`].) The orbits around a centre are no such
+//! family: they differ in size, period or speed, and a disturbance changes what the body does for good.
 
 use super::settings::Settings;
 use crate::equilibrium::along_group_and_flow;
 use crate::linear::{add, basis, dot, norm};
 use crate::lyapunov::SplitMix;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
-use motiform_dynamics::{Equivariant, Watch};
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::model::velocity;
+use motiform_dynamics::{Equivariant, Request, VectorField, Watch};
 
 /// Neighbouring orbits are looked for at this distance, against the size of the shape,
 const BESIDE: f64 = 1e-3;
@@ -17,10 +20,16 @@ const BESIDE: f64 = 1e-3;
 /// and count as others where they are farther away than this part of it, across the flow and the group.
 const OTHER: f64 = 0.03;
 
+/// Members do the same where it differs by less than this part of their distance, both relative.
+const ALIKE: f64 = 0.03;
+
+/// Moments of a period that means are taken over.
+const MOMENTS: usize = 256;
+
 /// The orbit without the multipliers 1 of a family that it lies in; `None` where it is alone, or a multiplier stays undecided.
 ///
 /// Newton's method takes the smallest step to an orbit: from a shape beside an orbit of a family it goes to another one of them, and back
-/// to an orbit that is alone. The family must have as many dimensions as there are multipliers 1.
+/// to an orbit that is alone. The family must have as many dimensions as there are multipliers 1, and its members must do the same.
 pub(super) fn within_family(
     body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
@@ -38,6 +47,7 @@ pub(super) fn within_family(
     let own = along_group_and_flow(body, &orbit.shape);
     let mut random = SplitMix(3);
     let mut found: Vec<Vec<f64>> = Vec::new();
+    let done = Done::of(body, orbit, settings, watch)?;
     for _ in 0..count {
         let mut beside: Vec<f64> = orbit.shape.iter().map(|_| random.next()).collect();
         let factor = BESIDE * size / norm(&beside);
@@ -45,11 +55,18 @@ pub(super) fn within_family(
         let PeriodicOrbit { time, angle, mirrored, .. } = *orbit;
         let guess = PeriodicGuess { shape: &beside, time, angle, mirrored };
         let other = PeriodicOrbit::find_within(body, &guess, &settings.flow(), effort, watch)?;
-        let mut away = other.shape;
+        let same = |far: f64| {
+            Done::of(body, &other, settings, watch).is_some_and(|other| done.differs(&other) <= ALIKE * far)
+        };
+        let mut away = other.shape.clone();
         add(&mut away, -1.0, &orbit.shape);
         for direction in &own {
             let along = dot(direction, &away);
             add(&mut away, -along, direction);
+        }
+        let far = norm(&away);
+        if far > OTHER * BESIDE * size && !same(far / size) {
+            return None;
         }
         found.push(away);
     }
@@ -61,4 +78,36 @@ pub(super) fn within_family(
     let errors = orbit.errors.iter().zip(&free).filter(|(_, free)| !**free).map(|(x, _)| *x).collect();
     let others = PeriodicOrbit { multipliers: kept(&orbit.multipliers), errors, ..orbit.clone() };
     (basis(&far, OTHER).len() == count && others.is_stable()).then_some(others)
+}
+
+/// The motion of a body along a periodic orbit, as numbers that no symmetry changes.
+struct Done([f64; 3]);
+
+impl Done {
+    /// The period, and the means of the squares of the speed and of the rate of the shape.
+    fn of(
+        body: &dyn Equivariant,
+        orbit: &PeriodicOrbit,
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Option<Self> {
+        let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
+        let mut rate = vec![0.0; body.dim()];
+        let (mut speed, mut change) = (0.0, 0.0);
+        for moment in 1..=MOMENTS {
+            let t = orbit.time * moment as f64 / MOMENTS as f64;
+            drive(flow.as_mut(), &Request { watch, ..settings.request(t, body.dim()) }, &mut ()).ok()?;
+            let [x, y] = velocity(body, flow.state());
+            VectorField::<f64>::eval(body, 0.0, flow.state(), &mut rate);
+            speed += (x * x + y * y) / MOMENTS as f64;
+            change += dot(&rate, &rate) / MOMENTS as f64;
+        }
+        Some(Self([orbit.time, speed, change]))
+    }
+
+    /// The largest relative difference.
+    fn differs(&self, other: &Self) -> f64 {
+        let pairs = self.0.iter().zip(&other.0);
+        pairs.map(|(a, b)| (a - b).abs() / a.abs().max(b.abs()).max(f64::MIN_POSITIVE)).fold(0.0, f64::max)
+    }
 }

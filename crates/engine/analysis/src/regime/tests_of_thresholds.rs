@@ -25,6 +25,7 @@ fn run(value: f64, size: f64, time: f64) -> Lyapunov {
     Lyapunov {
         exponents: vec![Estimate { value, error }],
         neutral: 0,
+        silent: Vec::new(),
         history: rates.iter().zip(1..).map(|(&rate, i)| (step * f64::from(i), vec![rate])).collect(),
         reduced_speeds: vec![1.0; INTERVALS],
         time,

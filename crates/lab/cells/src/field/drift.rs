@@ -3,8 +3,8 @@
 use super::grid::Grid;
 use serde::Serialize;
 
-/// Fewest cells.
-const LEAST_CELLS: usize = 5;
+/// Fewest cells: two velocities have no distribution in the plane.
+const LEAST_CELLS: usize = 3;
 /// Significance.
 const LEVEL: f64 = 1e-3;
 

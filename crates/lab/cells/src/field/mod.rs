@@ -33,7 +33,7 @@ pub struct FieldOfView {
     pub jumps: Vec<StageJump>,
     /// Displacements of whole frames; `None` with fewer than three cells in the same frames.
     pub jitter: Option<Jitter>,
-    /// A velocity that all cells have; `None` with fewer than five cells.
+    /// A velocity that all cells have; `None` with fewer than three cells.
     pub drift: Option<CommonDrift>,
     /// Side of the pixels whose edges or middles the outlines follow; `None` for smooth outlines.
     pub pixel: Option<f64>,

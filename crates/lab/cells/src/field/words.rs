@@ -28,6 +28,11 @@ impl FieldOfView {
                 format!("({x}, {y}) {}, {}: {verdict}", units.unit(Dimension::SPEED), PValue(drift.p_value)),
             ));
         }
+        if self.drift.is_none() && (1..3).contains(&self.cells) {
+            let words =
+                "not tested: fewer than three cells do not tell a drift of the stage from their own motion";
+            rows.push(("drift", words.to_owned()));
+        }
         if !self.jumps.is_empty() {
             rows.push(("stage jumps", self.jumps_in_words(units)));
         }

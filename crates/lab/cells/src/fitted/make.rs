@@ -9,9 +9,19 @@ use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
 use motiform_inference::{
     Beside, Fit, Ladder, PValue, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, Warning,
-    averaged, drift, fit, handed_beside, handedness, identifiability, ladder, place_among, select,
-    walk_p_value, warnings,
+    averaged, between_cells, drift, fit, handed_beside, handedness, identifiability, ladder, place_among,
+    select, walk_p_value, warnings,
 };
+use motiform_statistics::student_quantile;
+
+/// Several tracks: pieces of one record, or cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Units {
+    /// Pieces of the record of one cell.
+    Pieces,
+    /// Cells, two at least.
+    Cells,
+}
 
 /// Fits these tracks, stage by stage.
 ///
@@ -19,11 +29,16 @@ use motiform_inference::{
 /// [`crate::Error::Inference`]: why there is no fit; [`motiform_study::Error::Interrupted`]; stages that cannot be written.
 pub(crate) fn fitted(
     tracks: &[Track],
+    units: Units,
     (settings, options): (&Settings, &FitOptions),
     stages: &Stages<'_>,
     watch: &dyn Watch,
 ) -> Result<Box<Fitted>> {
-    let whole = stages.get("whole", watch, |watch| Ok(fit(tracks, settings, watch)?))?;
+    let mut whole = stages.get("whole", watch, |watch| Ok(fit(tracks, settings, watch)?))?;
+    if units == Units::Cells {
+        let factor = student_quantile(tracks.len() - 1) / student_quantile(usize::MAX);
+        whole = whole.clone().with_cells(&between_cells(tracks, &whole)?, factor);
+    }
     let selection = stages.get("selection", watch, |watch| Ok(select(tracks, &whole, watch)?))?;
     let handedness =
         stages.get("handedness", watch, |watch| Ok(handedness(tracks, &selection.fit, watch)?))?;

@@ -102,7 +102,7 @@ fn places(
     let mut all = Vec::with_capacity(count);
     for place in 1..=count {
         let t = time * place as f64 / count as f64;
-        let request = Request { max_steps: flow.max_steps, ..Request::until(t, shape.len()) };
+        let request = Request { max_steps: flow.max_steps, ..Request::around(t, shape) };
         if !drive(solution.as_mut(), &request, &mut ()).ok()?.is_complete() {
             return None;
         }

@@ -28,7 +28,7 @@ pub struct Equilibrium {
     pub turning_rate: f64,
     /// Eigenvalues of the reduced linearisation, real and imaginary parts, largest real part first (inverse model time).
     pub eigenvalues: Vec<(f64, f64)>,
-    /// Number of eigenvalues with a positive real part, beyond round-off: 0 is stable.
+    /// Number of eigenvalues with a positive real part, beyond round-off.
     pub unstable: usize,
     /// The residual of `f(u) - omega G u` after Newton's method.
     pub residual: f64,

@@ -281,6 +281,7 @@ mod tests {
         let orbit = |value, error, time| Lyapunov {
             exponents: vec![motiform_analysis::Estimate { value, error }],
             neutral: 2,
+            silent: Vec::new(),
             history: Vec::new(),
             reduced_speeds: Vec::new(),
             time,

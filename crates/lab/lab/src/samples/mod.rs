@@ -272,6 +272,7 @@ mod tests {
         let orbit = |value| Lyapunov {
             exponents: vec![estimate(value, 0.01)],
             neutral: 1,
+            silent: Vec::new(),
             history: Vec::new(),
             reduced_speeds: Vec::new(),
             time: 1.0,

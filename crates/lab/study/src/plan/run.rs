@@ -4,6 +4,7 @@ use super::{Control, Named, NoiseSettings, Plan, Question};
 use crate::checks::{check, check_figure, check_stability, check_start, check_steps};
 use crate::error::nearest_of;
 use crate::random::Random;
+use crate::run_settings::unit;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
@@ -148,7 +149,7 @@ impl RunPlan {
             stepper: method.name().to_owned(),
             control,
             max_steps: run.max_steps,
-            escape_norm: run.escape_norm,
+            escape_norm: run.escape_norm_in(unit(study)?),
             return_map: study.return_map.clone(),
             noise: noise(study, model.as_ref(), info.look)?,
         };
@@ -214,8 +215,12 @@ pub fn control(study: &Study, method: Method) -> Result<Control, Error> {
     let run = &study.run;
     let control = match run.step {
         None if method.is_adaptive() => {
-            let follows = study.info()?.absolute_tolerance(run.rtol);
-            Control::Adaptive { rtol: run.rtol, atol: run.atol.unwrap_or(follows) }
+            let info = study.info()?;
+            let atol = match run.atol {
+                Some(atol) => atol,
+                None => info.absolute_tolerance(run.rtol) * unit(study)?.min(1.0),
+            };
+            Control::Adaptive { rtol: run.rtol, atol }
         }
         step => Control::Fixed { step: step.unwrap_or(DEFAULT_STEP) },
     };
