@@ -23,6 +23,9 @@ const OTHER: f64 = 0.03;
 /// Members do the same where it differs by less than this part of their distance, both relative.
 const ALIKE: f64 = 0.03;
 
+/// The square of a speed below this part of that of the rate of the shape is round-off.
+const NOTHING: f64 = 1e-20;
+
 /// Moments of a period that means are taken over.
 const MOMENTS: usize = 256;
 
@@ -105,9 +108,11 @@ impl Done {
         Some(Self([orbit.time, speed, change]))
     }
 
-    /// The largest relative difference.
+    /// The largest relative difference; that of speeds which are nothing beside the rate of the shape is none.
     fn differs(&self, other: &Self) -> f64 {
+        let rests = NOTHING * self.0[2].max(other.0[2]);
+        let against = |a: f64, b: f64| a.max(b).max(rests).max(f64::MIN_POSITIVE);
         let pairs = self.0.iter().zip(&other.0);
-        pairs.map(|(a, b)| (a - b).abs() / a.abs().max(b.abs()).max(f64::MIN_POSITIVE)).fold(0.0, f64::max)
+        pairs.map(|(&a, &b)| (a - b).abs() / against(a, b)).fold(0.0, f64::max)
     }
 }
