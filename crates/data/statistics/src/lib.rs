@@ -49,7 +49,7 @@ pub use oscillation::Oscillation;
 pub use passage::{Passage, first_passages, radii};
 pub use persistence::{Walk, furth, persistent_walk};
 pub use power::{PowerSpectrum, power_spectrum};
-pub use quantiles::{chi_square_quantile, student_quantile, wilson};
+pub use quantiles::{chi_square_quantile, student_factor, student_quantile, wilson};
 pub use quantity::{Quantity, Series};
 pub use residence::{Residence, Side, residence};
 pub use statistics::{Settings, Statistics, statistics};

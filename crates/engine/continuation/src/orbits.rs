@@ -10,6 +10,7 @@ use super::shooting::{Segment, segments};
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::neutral_direction;
 use motiform_analysis::linear::{add, apply, basis, dot, eigenvalues, norm, restrict};
+use motiform_analysis::lyapunov::left_alone;
 use motiform_analysis::periodic::{Flow, back};
 use motiform_dynamics::{Equivariant, VectorField, Watch};
 use nalgebra::DMatrix;
@@ -92,7 +93,7 @@ impl Orbits<'_> {
     }
 
     /// For each coordinate, whether the orbit rests in it at its value in an equilibrium, and the others do not act on it there: how its
-    /// deviations decay says nothing about the orbit. All `false` where some coordinate that rests is acted on.
+    /// deviations decay says nothing about the orbit.
     fn rests<'x>(&self, matrix: &[f64], at: &[f64], shapes: impl Iterator<Item = &'x [f64]>) -> Vec<bool> {
         let mut rests = vec![true; self.dim];
         for shape in shapes {
@@ -101,11 +102,8 @@ impl Orbits<'_> {
             }
         }
         let largest = matrix.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
-        let mut moved = matrix.chunks_exact(self.dim).zip(&rests).filter(|(_, rests)| !**rests);
-        let acts = moved.any(|(column, _)| {
-            column.iter().zip(&rests).any(|(entry, rests)| *rests && entry.abs() > STILL * largest)
-        });
-        if acts || !rests.contains(&false) { vec![false; self.dim] } else { rests }
+        left_alone(&mut rests, |i, j| matrix[j * self.dim + i].abs() > STILL * largest);
+        if rests.contains(&false) { rests } else { vec![false; self.dim] }
     }
 
     /// The node where the reduced shape changes most slowly.

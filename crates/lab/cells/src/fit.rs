@@ -1,6 +1,6 @@
 //! The fit of one cell, with everything that follows from it.
 
-use crate::fitted::{Units, fitted};
+use crate::fitted::{Members, fitted};
 use crate::stages::Stages;
 use crate::{
     CellTrack, Companions, Error, Fitted, NearBifurcation, Prediction, Result, near_bifurcations, predict,
@@ -188,12 +188,12 @@ fn on_stage(
     (settings, options): (&Settings, &FitOptions),
     watch: &dyn Watch,
 ) -> Result<(Box<Fitted>, Track)> {
-    let found = fitted(pieces, Units::Pieces, (settings, options), &Stages::default(), watch)?;
+    let found = fitted(pieces, Members::Pieces, (settings, options), &Stages::default(), watch)?;
     if !(options.stage && found.shows_stage()) {
         return Ok((found, path));
     }
     let still = with_stage(pieces, &found.selection.fit, watch)?;
-    let mut again = fitted(&still.tracks, Units::Pieces, (settings, options), &Stages::default(), watch)?;
+    let mut again = fitted(&still.tracks, Members::Pieces, (settings, options), &Stages::default(), watch)?;
     again.stage = still.velocities;
     let longest = still.tracks.into_iter().max_by_key(|piece| piece.0.len());
     Ok((again, longest.unwrap_or(path)))
@@ -230,7 +230,7 @@ pub(crate) fn fit_in_stages(
         return Ok(refused(TOGETHER, frames, why));
     }
     let settings = Settings { library: library.seen(&tracks), ..Settings::default() };
-    let mut fitted = match fitted(&tracks, Units::Cells, (&settings, options), stages, watch) {
+    let mut fitted = match fitted(&tracks, Members::Cells, (&settings, options), stages, watch) {
         Err(Error::Inference(error)) => return Ok(refused(TOGETHER, frames, error.to_string())),
         found => found?,
     };

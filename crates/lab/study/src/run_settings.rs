@@ -19,9 +19,6 @@ pub(crate) fn unit(study: &Study) -> Result<f64, Error> {
     Ok(Units::of(info.build(&study.values()?)?.as_ref()).length)
 }
 
-/// See [`RunSettings::escape_norm`].
-const ESCAPE_NORM: f64 = 1e6;
-
 settings! {
     /// Settings of a run.
     #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -49,7 +46,8 @@ settings! {
         pub max_steps: u64,
         /// A shape whose norm exceeds this has escaped; by default 1e6, for equations given as text in their unit where that is above 1
         /// (a power of 1000, from the sizes at which their terms balance).
-        pub escape_norm: f64,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub escape_norm: Option<f64>,
         /// Amplitude eta of additive white noise (0 for none): du = f(u) dt + eta dW for every coordinate u of the shape (s11, s12,
         /// u111, u222; c1, s1, c2, ...), and for v1, v2 unless `noise_velocity` is given. Unit of u per square root of model time.
         pub noise: f64,
@@ -66,10 +64,10 @@ impl RunSettings {
         self.noise.max(self.noise_velocity.unwrap_or(0.0))
     }
 
-    /// The size beyond which a shape has escaped, of equations with this unit.
-    pub(crate) fn escape_norm_in(&self, unit: f64) -> f64 {
-        let given = self.escape_norm.to_bits() != ESCAPE_NORM.to_bits();
-        if given { self.escape_norm } else { ESCAPE_NORM * unit.max(1.0) }
+    /// The size beyond which a shape has escaped: what is given, or 1e6 units of the equations, at least 1e6.
+    #[must_use]
+    pub fn escape_norm_in(&self, unit: f64) -> f64 {
+        self.escape_norm.unwrap_or(1e6 * unit.max(1.0))
     }
 
     /// Removes the noise.
@@ -90,7 +88,7 @@ impl Default for RunSettings {
             step: None,
             seed: 1,
             max_steps: 100_000_000,
-            escape_norm: ESCAPE_NORM,
+            escape_norm: None,
             noise: 0.0,
             noise_velocity: None,
         }

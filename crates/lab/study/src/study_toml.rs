@@ -127,7 +127,7 @@ mod tests {
             step: Some(0.01),
             seed: 9,
             max_steps: 1000,
-            escape_norm: 1e3,
+            escape_norm: Some(1e3),
             noise: 0.25,
             noise_velocity: Some(0.0),
         };

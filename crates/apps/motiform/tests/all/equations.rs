@@ -117,7 +117,10 @@ fn scans_and_maps_tell_what_goes_along_a_field_and_across() {
     let both = serde_json::json!({ "straight": { "along-field": 24, "across-field": 24 } });
     assert_eq!((&json["courses"], &json["regimes"]["straight"]), (&both, &48.into()));
     let map = folder.run(&format!("atlas {axes} --out map")).expect(0).stdout;
-    assert!(map.contains("straight: along the field in") && map.contains("across the field in"), "{map}");
+    assert!(
+        map.contains("Motion 'straight' goes along the field in") && map.contains("across the field in"),
+        "{map}"
+    );
     let handless =
         folder.run("scan tensor --preset fig5a --axis kappa2=0.9:1:2 --out plain --json").expect(0).json();
     assert!(handless["courses"].is_null(), "a model with all symmetries has no courses: {handless}");

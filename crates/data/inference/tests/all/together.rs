@@ -85,8 +85,9 @@ fn errors_between_cells_are_the_scatter_of_joint_fits() {
     println!(
         "intervals hold the mean of the law {held} times of 12, without the cells {held_by_one_law}; difference seen {seen} times"
     );
-    // of 60 other experiments 56, without the cells 21; 59 seen (9 of 12 and more: 99.9 % of samples of .93)
-    assert!(held >= 9 && held_by_one_law <= 6 && seen >= 10, "{held} {held_by_one_law} {seen}");
+    // of 60 other experiments 56, without the cells 21 (9 of 12 and more: 99.9 % of samples of .93); the difference is seen at
+    // 1 % over the number of coefficients, where eight cells with a scatter of a tenth are no clear case
+    assert!(held >= 9 && held_by_one_law <= 6 && seen >= 7, "{held} {held_by_one_law} {seen}");
 }
 
 /// The quotient of Student's 97.5 % quantile with 7 degrees of freedom and that of the normal distribution.
@@ -94,14 +95,13 @@ const STUDENT_7: f64 = 2.364_624 / 1.959_964;
 
 #[test]
 fn cells_of_one_law_do_not_differ() {
-    let (mut seen, mut tested) = (0, 0);
+    let mut seen = 0;
     for seed in 20..26 {
         let tracks = population(8, 0.0, seed);
         let found = fit(&tracks, &settings(), &()).unwrap();
         let cells = between_cells(&tracks, &found).unwrap();
-        seen += cells.differing(&found).len();
-        tested += found.coefficients.len();
+        seen += usize::from(!cells.differing(&found).is_empty());
     }
-    println!("{seen} of {tested} coefficients differ");
-    assert!(20 * seen <= tested, "{seen} of {tested}");
+    println!("cells differ in {seen} of 6 experiments");
+    assert!(seen <= 1, "{seen} of 6"); // 1 % each
 }

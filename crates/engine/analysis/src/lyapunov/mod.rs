@@ -19,6 +19,7 @@ use motiform_dynamics::{Equivariant, Mask, Outcome, Request, StepControl, StopOn
 use renormalisation::{Renormalisation, Stretch};
 pub use separation::separates;
 pub(crate) use separation::{GROWN, SECULAR};
+pub use silent::left_alone;
 
 /// The settings of the computation of exponents.
 #[derive(Clone, Copy, Debug)]

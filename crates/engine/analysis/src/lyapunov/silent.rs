@@ -36,13 +36,8 @@ pub(super) fn silent_rates(body: &dyn Equivariant, shape: &[f64]) -> Vec<f64> {
         return Vec::new();
     }
     let entry = |matrix: &Vec<f64>, i: usize, j: usize| matrix[j * dim + i];
-    let acts = |i: usize, rests: &[bool]| {
-        let from = (0..dim).filter(|&j| !rests[j]);
-        from.into_iter().any(|j| matrices.iter().any(|m| entry(m, i, j).abs() > STILL * largest))
-    };
-    while let Some(i) = (0..dim).find(|&i| rests[i] && acts(i, &rests)) {
-        rests[i] = false;
-    }
+    let acts = |i: usize, j: usize| matrices.iter().any(|m| entry(m, i, j).abs() > STILL * largest);
+    left_alone(&mut rests, acts);
     let silent: Vec<usize> = (0..dim).filter(|&i| rests[i]).collect();
     let pairs = || silent.iter().flat_map(|&j| silent.iter().map(move |&i| (i, j)));
     let changes = |m: &Vec<f64>| {
@@ -54,4 +49,13 @@ pub(super) fn silent_rates(body: &dyn Equivariant, shape: &[f64]) -> Vec<f64> {
     let columns: Vec<Vec<f64>> =
         silent.iter().map(|&j| silent.iter().map(|&i| entry(&matrices[0], i, j)).collect()).collect();
     eigenvalues(&columns).unwrap_or_default().iter().map(|value| value.0).collect()
+}
+
+/// Of coordinates that rest keeps those on which the others do not act: `acts(i, j)` says whether coordinate j acts on coordinate i. The
+/// deviations of those that are kept say nothing about the motion, and the motion nothing about them.
+pub fn left_alone(rests: &mut [bool], acts: impl Fn(usize, usize) -> bool) {
+    let acted_on = |rests: &[bool], i: usize| (0..rests.len()).any(|j| !rests[j] && acts(i, j));
+    while let Some(i) = (0..rests.len()).find(|&i| rests[i] && acted_on(rests, i)) {
+        rests[i] = false;
+    }
 }

@@ -203,8 +203,9 @@ pub(super) fn not_stable(orbit: &PeriodicOrbit) -> String {
     } else {
         format!(
             "the orbit stays on a periodic orbit that is neutral in a direction beside those of its \
-            symmetry (largest multiplier {growth:.6} +- {error:.0e}): it is one of the orbits around a centre, which \
-            no disturbance leaves by itself or comes back to, the equations have more symmetry than stated, or the orbit bifurcates"
+            symmetry (largest multiplier {growth:.6} +- {error:.0e}): it is one of the \
+            orbits around a centre (a disturbance neither decays nor grows), or the equations have more symmetry than stated, or the \
+            orbit bifurcates"
         )
     }
 }

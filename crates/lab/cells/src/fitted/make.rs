@@ -12,11 +12,11 @@ use motiform_inference::{
     averaged, between_cells, drift, fit, handed_beside, handedness, identifiability, ladder, place_among,
     select, walk_p_value, warnings,
 };
-use motiform_statistics::student_quantile;
+use motiform_statistics::student_factor;
 
 /// Several tracks: pieces of one record, or cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Units {
+pub(crate) enum Members {
     /// Pieces of the record of one cell.
     Pieces,
     /// Cells, two at least.
@@ -29,15 +29,15 @@ pub(crate) enum Units {
 /// [`crate::Error::Inference`]: why there is no fit; [`motiform_study::Error::Interrupted`]; stages that cannot be written.
 pub(crate) fn fitted(
     tracks: &[Track],
-    units: Units,
+    members: Members,
     (settings, options): (&Settings, &FitOptions),
     stages: &Stages<'_>,
     watch: &dyn Watch,
 ) -> Result<Box<Fitted>> {
     let mut whole = stages.get("whole", watch, |watch| Ok(fit(tracks, settings, watch)?))?;
-    if units == Units::Cells {
-        let factor = student_quantile(tracks.len() - 1) / student_quantile(usize::MAX);
-        whole = whole.clone().with_cells(&between_cells(tracks, &whole)?, factor);
+    if members == Members::Cells {
+        let between = between_cells(tracks, &whole)?;
+        whole = whole.with_cells(&between, student_factor(tracks.len() - 1));
     }
     let selection = stages.get("selection", watch, |watch| Ok(select(tracks, &whole, watch)?))?;
     let handedness =

@@ -4,7 +4,7 @@ mod doubts;
 mod make;
 mod study;
 
-pub(crate) use make::{Units, fitted};
+pub(crate) use make::{Members, fitted};
 
 use crate::Checks;
 use crate::regime::FittedRegime;

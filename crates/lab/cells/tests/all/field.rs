@@ -138,18 +138,22 @@ fn p_values_of_a_jitter_are_uniform() {
     assert!(below(0.01) <= 3 && below(0.1) <= 13 && (18..=42).contains(&below(0.5)), "{p:?}");
 }
 
-/// Without a drift p-values of the common velocity are uniform: 100 fields of six walkers.
+/// Without a drift p-values of the common velocity are uniform: 100 fields each of three, four and six walkers.
 #[test]
 fn p_values_of_a_common_velocity_are_uniform() {
+    [3, 4, 6].into_iter().for_each(uniform_without_a_drift);
+}
+
+fn uniform_without_a_drift(cells: u64) {
     let p_value = |number: u64| {
         let walker = Walker { frames: 12, ..WALK };
-        let cells = (0..6).map(|k| walker.outlines(1000 + 6 * number + k)).collect();
-        field(tracks(cells)).drift.expect("six cells").p_value
+        let all = (0..cells).map(|k| walker.outlines(1000 + cells * number + k)).collect();
+        field(tracks(all)).drift.expect("three cells and more").p_value
     };
     let p: Vec<f64> = (0..100).map(p_value).collect();
     for (level, fewest, most) in [(0.2, 8, 33), (0.5, 34, 66), (0.05, 0, 13)] {
         let below = p.iter().filter(|p| **p < level).count();
-        println!("{below} of 100 below {level}");
+        println!("{cells} cells: {below} of 100 below {level}");
         // three standard deviations of a binomial number
         assert!((fewest..=most).contains(&below), "{below} below {level}");
     }

@@ -19,8 +19,8 @@ pub fn mixed_courses(grid: &Grid) -> Vec<String> {
             .filter(|(cells, _)| *cells > 0)
             .map(|(cells, words)| format!("{words} in {cells} computed cells"))
             .collect();
-        let remedy = "regions do not tell them apart; `motiform scan` writes the course of each motion";
-        (counts.len() > 1).then(|| format!("{}: {}: {remedy}", regime.name(), counts.join(", ")))
+        let remedy = "regions do not tell these apart, the column 'course' of a scan does";
+        (counts.len() > 1).then(|| format!("Motion '{}' goes {}; {remedy}", regime.name(), counts.join(", ")))
     };
     Regime::ALL.into_iter().filter_map(mixed).collect()
 }

@@ -101,11 +101,12 @@ impl Settings {
             step => StepControl::Fixed { step: step.unwrap_or(plan::DEFAULT_STEP) },
         };
         method.validate(control)?;
-        check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
+        let escape_norm = run.escape_norm_in(1.0);
+        check("escape_norm", escape_norm, escape_norm > 0.0, "give a number above 0")?;
         if run.max_steps == 0 {
             return Err(Error::Setting { key: "max_steps", value: "0".into(), remedy: "give at least 1" });
         }
-        Ok(Self { method, control, max_steps: run.max_steps, escape_norm: run.escape_norm })
+        Ok(Self { method, control, max_steps: run.max_steps, escape_norm })
     }
 }
 

@@ -68,7 +68,7 @@ fn equations_with_noise_of_both_kinds_have_them_too() {
 
 #[test]
 fn bodies_that_escape_or_use_up_their_steps_do_so_among_others() {
-    let ended = check(TENSOR, 17, |study| study.run.escape_norm = 1.2);
+    let ended = check(TENSOR, 17, |study| study.run.escape_norm = Some(1.2));
     let escaped = |track: &&Track| matches!(track.outcome, Outcome::Escaped { .. });
     let count = ended.iter().filter(escaped).count();
     assert!((2..=16).contains(&count), "{count}");

@@ -36,7 +36,7 @@ const COMPUTING: &[Change] = &[
     ("rtol", |s| s.run.rtol = 1e-10),
     ("atol", |s| s.run.atol = Some(1e-13)),
     ("max_steps", |s| s.run.max_steps = 5),
-    ("escape_norm", |s| s.run.escape_norm = 1e5),
+    ("escape_norm", |s| s.run.escape_norm = Some(1e5)),
     ("return map", |s| {
         s.return_map = Some(ReturnMapSettings { y: 0.0, x_min: -1.0, x_max: 1.0, centre: false });
     }),

@@ -120,7 +120,12 @@ impl RunPlan {
             run.t_end / dt_out <= MOST_ROWS,
             "this gives more than 20 thousand million rows: give a longer time",
         )?;
-        check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
+        check(
+            "escape_norm",
+            run.escape_norm_in(1.0),
+            run.escape_norm_in(1.0) > 0.0,
+            "give a number above 0",
+        )?;
         study.random.unwrap_or(Random::SMALL).check()?;
         if run.max_steps == 0 {
             return Err(Error::Setting { key: "max_steps", value: "0".into(), remedy: "give at least 1" });

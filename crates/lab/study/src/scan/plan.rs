@@ -243,7 +243,7 @@ impl ScanPlan {
 /// The numbers that a scan uses in addition to its axes.
 fn check_settings(study: &Study) -> Result<(), Error> {
     let (run, scan) = (&study.run, &study.scan);
-    check("escape_norm", run.escape_norm, run.escape_norm > 0.0, "give a number above 0")?;
+    check("escape_norm", run.escape_norm_in(1.0), run.escape_norm_in(1.0) > 0.0, "give a number above 0")?;
     study.random.unwrap_or(Random::SMALL).check()?;
     let budget = scan.budget >= 0.0 && scan.budget <= LONGEST;
     check("budget", scan.budget, budget, "give a model time above 0, at most 1e9, or 0 for the default")?;

@@ -25,7 +25,7 @@ pub(super) struct Approach {
 pub(super) fn follow(context: &Context<'_>, start: &Study) -> Result<Approach, Error> {
     let mut study = start.clone();
     let bound = context.choose(BOUND.0, BOUND.1);
-    (study.run.rtol, study.run.atol, study.run.escape_norm) = (1e-13, Some(1e-16), bound);
+    (study.run.rtol, study.run.atol, study.run.escape_norm) = (1e-13, Some(1e-16), Some(bound));
     let plan = RunPlan::new(&study)?;
     let c = &plan.computation;
     let model = plan.body()?;
