@@ -8,8 +8,8 @@ mod settles;
 mod verify;
 
 pub use branches::{
-    Allowance, BranchEnd, BranchFolder, Branches, Coefficient, Followed, Keep, Leg, Link, Origin, Reading,
-    Sample, SpecialEntry, columns, draw, follow, follow_kept, follow_within, is_stable, nine, path, settle,
-    starts, stated, stretches, summary, sweep,
+    Allowance, BranchEnd, BranchFolder, Branches, Coefficient, Followed, Keep, Leg, Link, NamedPart, Origin,
+    Reading, Sample, SpecialEntry, columns, draw, follow, follow_kept, follow_within, is_stable, nine, path,
+    settle, starts, stated, stretches, summary, sweep,
 };
 pub use verify::Verification;

@@ -100,7 +100,7 @@ fn special<'f>(found: &'f Branches, kind: &'f str) -> impl Iterator<Item = Speci
 
 /// The branches whose motion is of this kind.
 fn of(found: &Branches, regime: Regime) -> impl Iterator<Item = &Followed> {
-    found.branches.iter().filter(move |followed| followed.motion().0 == Some(regime))
+    found.branches.iter().filter(move |followed| followed.named().is_some_and(|part| part.motion == regime))
 }
 
 fn ends(context: &Context<'_>, found: &Branches) -> Claim {

@@ -13,15 +13,15 @@ const DIGITS: (usize, usize) = (6, 10);
 pub(super) fn branch(known: &Known, number: usize) -> Option<BranchTold> {
     let followed = known.found.branches.get(number)?;
     let samples: Vec<&Sample> = followed.samples().collect();
-    let (motion, form) = followed.motion();
+    let named = followed.named();
     let read = |value: &dyn Fn(&Sample) -> f64, digits| {
         samples.iter().map(|sample| short(value(sample), digits)).collect::<Vec<_>>()
     };
     Some(BranchTold {
         epoch: known.epoch,
         branch: number,
-        motion: motion.map_or("", |motion| motion.name()),
-        form: form.map(Form::name),
+        motion: named.map_or("", |part| part.motion.name()),
+        form: named.and_then(|part| part.form).map(Form::name),
         origin: origin(known, followed.origin),
         parameter: read(&|sample| sample.point.parameter, DIGITS.1),
         speed: read(&|sample| sample.reading.speed[0], DIGITS.0),

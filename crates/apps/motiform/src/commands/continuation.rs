@@ -8,8 +8,8 @@ use crate::progress::Progress;
 use motiform_diagrams::draw::branch_figures;
 use motiform_diagrams::starts::StartPoint;
 use motiform_diagrams::{
-    BranchEnd, BranchFolder, Coefficient, Followed, SpecialEntry, follow_kept, nine, stated, stretches,
-    summary,
+    BranchEnd, BranchFolder, Coefficient, Followed, NamedPart, SpecialEntry, follow_kept, nine, stated,
+    stretches, summary,
 };
 use motiform_lab::draw::{self, Figures, Picture};
 use motiform_store::{Folder, Journal, Opening};
@@ -196,11 +196,16 @@ fn branch(
     (number, followed): (usize, &Followed),
     units: &Shown,
 ) -> std::fmt::Result {
-    let (motion, form) = followed.motion();
-    let motion = motion.map_or("", |motion| motion.name());
-    let form = form.map_or(String::new(), |form| format!(" ({})", form.name()));
-    let course = followed.course().map_or(String::new(), |course| format!(" {}", course.words()));
-    write!(f, "\nbranch {number:<3} {motion}{course}{form}, {} points", followed.samples().count())?;
+    let parts = followed.parts();
+    let names = match &parts[..] {
+        [_, _, ..] => parts.iter().map(name).collect::<Vec<_>>().join(", then "),
+        _ => followed.named().as_ref().map_or_else(String::new, name),
+    };
+    write!(f, "\nbranch {number:<3} {names}, {} points", followed.samples().count())?;
+    for pair in parts.windows(2) {
+        let place = between(pair[0].to, pair[1].from);
+        write!(f, "\n           {:<17} {place}", format!("becomes {}", pair[1].motion.name()))?;
+    }
     let stable = stretches(&folder.found, followed);
     if stable.is_empty() {
         write!(f, "\n           stable nowhere")?;
@@ -216,6 +221,18 @@ fn branch(
         write!(f, "\n           ends: {}", leg.ending())?;
     }
     Ok(())
+}
+
+/// The name of a part of a branch, with its course and its form.
+fn name(part: &NamedPart) -> String {
+    let course = part.course.map_or(String::new(), |course| format!(" {}", course.words()));
+    let form = part.form.map_or(String::new(), |form| format!(" ({})", form.name()));
+    format!("{}{course}{form}", part.motion.name())
+}
+
+/// A place between two points of a branch: the middle, and how far off it may be.
+fn between(a: f64, b: f64) -> String {
+    stated(f64::midpoint(a, b), 0.5 * (b - a).abs())
 }
 
 /// The end of a stable range, with its error where that is an extrapolated end of the branch.

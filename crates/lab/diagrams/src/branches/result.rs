@@ -3,7 +3,6 @@
 use super::origin::Origin;
 use super::reading::Reading;
 use super::sweep::Sweeps;
-use motiform_analysis::regime::{Course, Form, Regime};
 use motiform_continuation::{End, Motion, Point};
 use serde::{Deserialize, Serialize};
 
@@ -111,26 +110,6 @@ impl Followed {
         let shared = usize::from(!back.is_empty() && first(back) == first(ahead));
         let back = back.iter().flat_map(|leg| leg.samples.iter().rev());
         back.chain(ahead.iter().flat_map(move |leg| leg.samples.iter().skip(shared)))
-    }
-
-    /// The kind of motion that most of its points have, with the most frequent form.
-    #[must_use]
-    pub fn motion(&self) -> (Option<Regime>, Option<Form>) {
-        let count = |kind: &dyn Fn(&Sample) -> bool| self.samples().filter(|sample| kind(sample)).count();
-        let regime = Regime::ALL.into_iter().max_by_key(|&regime| count(&|s| s.reading.motion == regime));
-        let forms = Form::ALL.into_iter().filter(|form| regime == Some(form.regime()));
-        let form = forms.map(|form| (count(&|s| s.reading.form == Some(form)), form));
-        (regime, form.filter(|entry| entry.0 > 0).max_by_key(|entry| entry.0).map(|entry| entry.1))
-    }
-}
-
-impl Followed {
-    /// The course of its motions, if all that have one have the same.
-    #[must_use]
-    pub fn course(&self) -> Option<Course> {
-        let mut all = self.samples().filter_map(|sample| sample.reading.direction.course);
-        let first = all.next()?;
-        all.all(|course| course == first).then_some(first)
     }
 }
 

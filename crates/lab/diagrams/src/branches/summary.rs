@@ -94,16 +94,19 @@ pub fn summary(plan: &BranchPlan, found: &Branches) -> Value {
 
 fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Followed)) -> Value {
     let name = &plan.computation.along.name;
-    let (motion, form) = followed.motion();
+    let named = followed.named();
     let ends: Vec<String> = followed.legs.iter().map(Leg::ending).collect();
     let special: Vec<Value> = found.special(number).iter().map(|entry| entry.value(name)).collect();
-    let mut object = json!({ "motion": motion });
+    let mut object = json!({ "motion": named.map(|part| part.motion) });
     let mut put = |key: &str, value: Value| object[key] = value;
-    if let Some(form) = form {
+    if let Some(form) = named.and_then(|part| part.form) {
         put("form", json!(form));
     }
-    if let Some(course) = followed.course() {
+    if let Some(course) = named.and_then(|part| part.course) {
         put("course", json!(course));
+    }
+    if let parts @ [_, _, ..] = &followed.parts()[..] {
+        put("parts", json!(parts));
     }
     put("origin", json!(followed.origin));
     put("points", followed.samples().count().into());

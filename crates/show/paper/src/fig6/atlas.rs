@@ -155,7 +155,7 @@ impl Atlas {
     fn stable(&self, context: &Context<'_>) -> Claim {
         let found = &self.found;
         let ranges = found.branches.iter().flat_map(|followed| {
-            let motion = followed.motion().0.map_or("", |motion| motion.name());
+            let motion = followed.named().map_or("", |part| part.motion.name());
             stretches(found, followed).into_iter().map(move |range| (motion, range))
         });
         let mut ranges: Vec<(&str, [f64; 2])> = ranges.collect();

@@ -68,7 +68,7 @@ fn listed(asked: &Asked<'_>, branches: &[Followed]) -> String {
         let values = followed.samples().map(|sample| sample.point.parameter);
         let (low, high) =
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        let motion = followed.motion().0.map_or("", |motion| motion.name());
+        let motion = followed.named().map_or("", |part| part.motion.name());
         let last = last(followed);
         format!(
             "\n  {}:{number}:0 to {number}:{last}  {motion}, {low:.6} to {high:.6}{}",
