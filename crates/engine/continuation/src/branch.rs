@@ -9,7 +9,6 @@ use super::problem::Failure;
 use super::settings::Settings;
 use super::shooting::shape_after;
 use super::tracer::Tracer;
-use motiform_analysis::equilibrium::Units;
 use motiform_analysis::linear::norm;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
@@ -141,7 +140,9 @@ fn shoot<'f>(
     if start.mirrored {
         body.rotate(-0.5 * start.angle, &mut node);
     }
-    let (span, length) = (start.time / settings.parts as f64, Units::of(body.as_ref()).length);
+    let (bodies, widths) = (Bodies::One(family), [settings.width()]);
+    let length = bodies.units(body.as_ref(), &[parameter], &widths).length;
+    let span = start.time / settings.parts as f64;
     let mut nodes = vec![node];
     for _ in 1..settings.parts {
         let last = nodes.last().map_or(&[][..], Vec::as_slice);
@@ -150,13 +151,7 @@ fn shoot<'f>(
     }
     let mut start = start.clone();
     start.angle = if start.mirrored { 0.0 } else { start.angle };
-    Ok(shoot_nodes(
-        Bodies::One(family),
-        body.as_ref(),
-        (&start, &nodes),
-        (&[parameter], &[settings.width()]),
-        settings,
-    ))
+    Ok(shoot_nodes(bodies, body.as_ref(), (&start, &nodes), (&[parameter], &widths), settings))
 }
 
 /// The equations of an orbit with these nodes, and the unknowns.
@@ -168,7 +163,7 @@ pub(super) fn shoot_nodes<'f>(
     settings: &Settings,
 ) -> (Orbits<'f>, Vec<f64>) {
     let shapes: Vec<&[f64]> = nodes.iter().map(Vec::as_slice).collect();
-    let units = Units::of(body);
+    let units = bodies.units(body, parameters, widths);
     let problem = Orbits {
         bodies,
         flow: units.flow(settings.flow),

@@ -5,6 +5,7 @@ use super::hopf::first_lyapunov;
 use super::levels::Level;
 use super::normal_form::Coefficient;
 use super::special::Special;
+use motiform_analysis::equilibrium::Units;
 use motiform_dynamics::Equivariant;
 
 /// Where a curve of special points changes.
@@ -108,7 +109,8 @@ pub(super) struct Seen<'s> {
 const VANISHES: f64 = 1e-3;
 
 fn first_lyapunov_of(seen: &Seen<'_>) -> Option<Coefficient> {
-    first_lyapunov(seen.body, seen.shape, seen.reading.angle.max(0.0).sqrt(), seen.solved).coefficient()
+    let frequency = seen.reading.angle.max(0.0).sqrt();
+    first_lyapunov(seen.body, seen.shape, frequency, seen.solved, Units::of(seen.body).length).coefficient()
 }
 
 impl Sign {

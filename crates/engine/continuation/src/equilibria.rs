@@ -65,7 +65,7 @@ impl<'f> Equilibria<'f> {
     ) -> Result<Self, motiform_analysis::Error> {
         let body = bodies.at(parameters)?;
         let classes = Classes::of(body.as_ref(), &[shape]);
-        let units = Units::of(body.as_ref());
+        let units = bodies.units(body.as_ref(), parameters, widths);
         let size = units.size(norm(shape));
         Ok(Self { bodies, classes, dim: shape.len(), size, units, widths: widths.to_vec() })
     }
@@ -153,7 +153,7 @@ impl Problem for Equilibria<'_> {
         if critical.angle != 0.0 {
             let (body, shape, frequency) = (local.body.as_ref(), &x[..self.dim], critical.angle.abs());
             let part = Oscillation::all(body, shape, frequency).first().map_or(1.0, Oscillation::period_part);
-            let first_lyapunov = first_lyapunov(body, shape, frequency, self.solved(x));
+            let first_lyapunov = first_lyapunov(body, shape, frequency, self.solved(x), self.units.length);
             return Special::Hopf(Hopf { frequency, part, first_lyapunov });
         }
         let body = local.body.as_ref();

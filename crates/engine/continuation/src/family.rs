@@ -2,7 +2,7 @@
 
 use super::allowance::Allowance;
 use super::problem::Failure;
-use motiform_analysis::equilibrium::prefix;
+use motiform_analysis::equilibrium::{Units, prefix};
 use motiform_analysis::{Error, Result};
 use motiform_dynamics::Equivariant;
 
@@ -92,6 +92,26 @@ impl<'f> Bodies<'f> {
             (Self::Two(family), [.., p, q]) => family.at([*p, *q]),
             _ => Err(Error::Shape { what: "the list of parameters", expected: self.count(), got: x.len() }),
         }
+    }
+}
+
+/// Distance of the bodies whose units are compared, in widths of the parameters.
+const BESIDE: f64 = 0.05;
+
+impl Bodies<'_> {
+    /// The units of the body with these parameters, and of those beside it as far as there are any: at a bifurcation a rate vanishes, and
+    /// the body alone may have no size, or a wrong one.
+    pub(super) fn units(self, body: &dyn Equivariant, parameters: &[f64], widths: &[f64]) -> Units {
+        let mut beside = Vec::new();
+        for (i, width) in widths.iter().enumerate() {
+            for side in [-BESIDE, BESIDE] {
+                let mut moved = parameters.to_vec();
+                moved[i] += side * width;
+                beside.extend(self.at(&moved));
+            }
+        }
+        let all: Vec<&dyn Equivariant> = [body].into_iter().chain(beside.iter().map(AsRef::as_ref)).collect();
+        Units::among(&all)
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::normal_form::{Coefficient, NormalForm, Undetermined};
 use super::reduction::extrapolated;
-use motiform_analysis::equilibrium::Units;
 use motiform_analysis::equilibrium::neutral_direction;
 use motiform_analysis::linear::{add, complement, dot, eigenvalues};
 use motiform_dynamics::{Dual, Equivariant, VectorField};
@@ -14,6 +13,10 @@ pub(super) type Vector = DVector<Complex<f64>>;
 
 /// Shapes below this part of the unit of the equations are 0.
 const ROUND_OFF: f64 = 1e-9;
+
+/// A coefficient below this one, for shapes in the unit of the equations, may be 0: one that vanishes with the parameter has the sign of the
+/// error of the place.
+const VANISHES: f64 = 1e-10;
 
 /// The reduced field on the slice normal to the group orbit through a shape `u`:
 /// `g(w) = Q' (f - xi G)(u + Q w)`, `xi = Gu . f(u + Q w) / Gu . G(u + Q w)`, with `Q` a basis of the slice.
@@ -147,8 +150,8 @@ const SAME: f64 = 1e-7;
 /// `l1 = Re( <p, C(q,q,q*)> - 2 <p, B(q, A^-1 B(q,q*))> + <p, B(q*, (2 i omega - A)^-1 B(q,q))> ) / (2 omega)`.
 ///
 /// Its error is the difference of two results from steps of different size, and of those for two shapes that differ by `solved`, the error
-/// of the solution: near a double eigenvalue 0, and where a part of the shape vanishes, the latter is the larger one. Where two pairs have
-/// the same frequency (a rotating and a standing oscillation of a symmetric shape) one coefficient says nothing.
+/// of the solution: near a double eigenvalue 0, and where a part of the shape vanishes, the latter is the larger one; `length` is the unit of
+/// the equations. Where two pairs have the same frequency (a rotating and a standing oscillation of a symmetric shape) one coefficient says nothing.
 ///
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, eq. (5.62).
 ///
@@ -158,16 +161,19 @@ pub(super) fn first_lyapunov(
     shape: &[f64],
     frequency: f64,
     solved: f64,
+    length: f64,
 ) -> NormalForm {
     let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     // Newton's method leaves a body at rest at round-off: that is no size.
-    let size = if size > ROUND_OFF * Units::of(body).length { size } else { 0.0 };
-    let found = at_shape(body, shape, size, frequency);
+    let size = if size > ROUND_OFF * length { size } else { 0.0 };
+    let found = at_shape(body, shape, (size, length), frequency);
+    let found =
+        found.map(|found| Coefficient { error: found.error.max(VANISHES / (length * length)), ..found });
     if size == 0.0 {
         return found.into();
     }
     let moved: Vec<f64> = shape.iter().enumerate().map(|(i, x)| x + solved * [1.0, -1.0][i % 2]).collect();
-    let beside = at_shape(body, &moved, size, frequency);
+    let beside = at_shape(body, &moved, (size, length), frequency);
     let both = found.and_then(|here| Ok((here, beside?)));
     both.map(|(here, beside)| Coefficient { error: here.error + (here.value - beside.value).abs(), ..here })
         .into()
@@ -177,7 +183,7 @@ pub(super) fn first_lyapunov(
 fn at_shape(
     body: &dyn Equivariant,
     shape: &[f64],
-    size: f64,
+    (size, length): (f64, f64),
     frequency: f64,
 ) -> Result<Coefficient, Undetermined> {
     let slice = slice(body, shape);
@@ -185,8 +191,7 @@ fn at_shape(
     if copies(&a, frequency) > 1 {
         return Err(Undetermined::Directions);
     }
-    let (unit, (first, count)) =
-        if size > 0.0 { (size, STEPS) } else { (Units::of(body).length, STEPS_AT_REST) };
+    let (unit, (first, count)) = if size > 0.0 { (size, STEPS) } else { (length, STEPS_AT_REST) };
     let all: Option<Vec<f64>> = critical(&a, frequency).and_then(|pair| {
         (0..count).map(|j| coefficient(&slice, &a, &pair, unit * first * 2.0_f64.powi(j))).collect()
     });

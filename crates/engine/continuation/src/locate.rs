@@ -242,9 +242,14 @@ fn second<P: Problem>(problem: &P, at: &Place<P::Local>) -> Option<(f64, f64)> {
 /// Where the second part is smaller than this part of the next one, two branches may cross nearby.
 const NEARLY: f64 = 1e-3;
 
+/// Below this part of the largest one a part of the equations is 0: where several directions are critical at once, the next one is no scale.
+const NOTHING: f64 = 1e-12;
+
 /// Returns `true` if the equations leave one direction only, and clearly so: no other branch crosses here.
 fn is_alone<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
-    second(problem, at).is_some_and(|(second, next)| second > NEARLY * next)
+    let all = seen(problem.linear(&at.local), &problem.weights(&at.x));
+    let largest = all.last().map_or(0.0, |part| part.0);
+    second(problem, at).is_some_and(|(second, next)| second > NEARLY * next && second > NOTHING * largest)
 }
 
 /// Returns `true` if the place where a branch turns back may be beside a crossing. Solutions are exact to about the tolerance of the

@@ -54,7 +54,7 @@ impl std::fmt::Display for Undetermined {
 
 /// The leading coefficient, as far as it is known, of the normal form `xi' = c xi^n` at a special point, with time in the model's units
 /// and `xi` the size of the critical deviation normal to the group: the Euclidean norm of the shape, of an orbit its root mean square over
-/// the period, normal to the flow too. `n` is 2 at folds and where branches cross, 3 where a symmetry is broken. At a doubling of the
+/// the period, normal to the flow too. `n` is 2 at folds and where branches cross (3 if the coefficient of second order vanishes), 3 where a symmetry is broken. At a doubling of the
 /// period (or of half the period) the deviation is that of the orbit of twice the time; multiplied by that time, `c` is the coefficient of
 /// its return map. For `n = 2` the sign of `xi`, and so that of `c`, is free: `c` is positive. For `n = 3` what begins is stable in the
 /// critical direction where `c` is negative.
@@ -66,6 +66,9 @@ impl std::fmt::Display for Undetermined {
 pub enum NormalForm {
     /// The coefficient.
     Coefficient(Coefficient),
+    /// The coefficient of third order where branches cross and that of second order vanishes: a pitchfork of a symmetry that the model
+    /// does not state.
+    Cubic(Coefficient),
     /// Why there is none.
     Undetermined(Undetermined),
 }
@@ -75,7 +78,7 @@ impl NormalForm {
     #[must_use]
     pub const fn coefficient(self) -> Option<Coefficient> {
         match self {
-            Self::Coefficient(coefficient) => Some(coefficient),
+            Self::Coefficient(coefficient) | Self::Cubic(coefficient) => Some(coefficient),
             Self::Undetermined(_) => None,
         }
     }
@@ -91,7 +94,8 @@ impl From<Result<Coefficient, Undetermined>> for NormalForm {
 /// computed here.
 pub(super) const fn asked(special: Special) -> Option<(Order, bool)> {
     match special {
-        Special::Fold | Special::BranchPoint => Some((Order::Second, false)),
+        Special::Fold => Some((Order::Second, false)),
+        Special::BranchPoint => Some((Order::Lowest, false)),
         Special::Pitchfork { .. } => Some((Order::Third, false)),
         Special::PeriodDoubling | Special::SymmetryBreaking => Some((Order::Third, true)),
         _ => None,
@@ -101,8 +105,10 @@ pub(super) const fn asked(special: Special) -> Option<(Order, bool)> {
 /// The order of the leading term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
-    /// At folds and crossings.
+    /// At folds.
     Second,
+    /// At crossings: the second one, unless it vanishes and the third one does not.
+    Lowest,
     /// Where a symmetry is broken.
     Third,
 }

@@ -57,7 +57,15 @@ const DIRECTIONS: usize = 4;
 /// The derivatives of `DF` along `v` are differences of fourth order, from steps that are doubled several times; two of their results make
 /// one of sixth order, and the two of these that differ least, the coefficient and its error.
 pub(super) fn leading(system: &System<'_>, order: Order) -> NormalForm {
-    reduced(system).and_then(|reduced| reduced.leading(order)).into()
+    let reduced = match reduced(system) {
+        Ok(reduced) => reduced,
+        Err(why) => return NormalForm::Undetermined(why),
+    };
+    let third = (order == Order::Lowest).then(|| reduced.leading(Order::Third).ok()).flatten();
+    match third.filter(|found| found.is_negative().is_some()) {
+        Some(found) => NormalForm::Cubic(found),
+        None => reduced.leading(order).into(),
+    }
 }
 
 /// The critical direction and what is needed around it.
@@ -244,7 +252,7 @@ impl Reduced<'_> {
         let second = extrapolated(&all(&|j| self.quadratic(j)));
         let second = Coefficient { value: second.value.abs(), ..second };
         let (found, power) = match order {
-            Order::Second => (second, 1.0),
+            Order::Second | Order::Lowest => (second, 1.0),
             Order::Third => (extrapolated(&all(&|j| self.cubic(j))), 2.0),
         };
         let Coefficient { value, error } = found;

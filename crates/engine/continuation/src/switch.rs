@@ -15,7 +15,6 @@ use super::settings::Settings;
 use super::special::Special;
 use super::tangents::tangents;
 use super::tracer::Tracer;
-use motiform_analysis::equilibrium::Units;
 use motiform_analysis::linear::{add, norm};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
@@ -193,7 +192,7 @@ fn leave<'f>(
         angle = if orbit.mirrored { 0.0 } else { 2.0 * angle };
     }
     let mirrored = orbit.mirrored && !doubled;
-    let problem = orbits(family, body.as_ref(), (&all, mirrored), settings);
+    let problem = orbits(family, (body.as_ref(), parameter), (&all, mirrored), settings);
     let x = unknowns(&problem, &all, (time, angle, parameter));
     let direction = direction(&problem, &x, point).ok_or_else(|| nothing(parameter))?;
     let direction: Vec<f64> = direction.iter().map(|d| side * d).collect();
@@ -214,14 +213,15 @@ pub(super) fn symmetric(mut tracer: Tracer<Orbits<'_>>) -> Tracer<Orbits<'_>> {
 
 pub(super) fn orbits<'f>(
     family: &'f dyn Family,
-    body: &dyn Equivariant,
+    (body, parameter): (&dyn Equivariant, f64),
     (nodes, mirrored): (&[Vec<f64>], bool),
     settings: &Settings,
 ) -> Orbits<'f> {
     let size = nodes.iter().map(|node| norm(node)).fold(0.0, f64::max);
-    let units = Units::of(body);
+    let (bodies, width) = (Bodies::One(family), settings.width());
+    let units = bodies.units(body, &[parameter], &[width]);
     Orbits {
-        bodies: Bodies::One(family),
+        bodies,
         flow: units.flow(settings.flow),
         classes: Classes::of(body, &[]),
         dim: body.dim(),
@@ -230,7 +230,7 @@ pub(super) fn orbits<'f>(
         turns: body.symmetry().rotations && !mirrored,
         size: units.size(size),
         length: units.length,
-        widths: vec![settings.width()],
+        widths: vec![width],
     }
 }
 

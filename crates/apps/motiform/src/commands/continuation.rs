@@ -249,6 +249,9 @@ fn bound(followed: &Followed, value: f64) -> String {
 
 /// A coefficient with its error, where that shows in six digits.
 fn six(found: Coefficient) -> String {
+    if found.value == 0.0 && found.error == 0.0 {
+        return "0".to_owned();
+    }
     let least = 1e-6 * found.value.abs();
     let text = stated(found.value, found.error.max(least));
     let value = text.split_once(" +- ").filter(|_| found.error < least).map(|parts| parts.0.to_owned());
@@ -276,13 +279,16 @@ fn line(special: &SpecialEntry, units: &Shown) -> String {
         None => word.to_owned(),
     });
     let coefficient = special.coefficient.map(|(name, found)| format!("{name} {}", six(found)));
+    let crosses =
+        special.coefficient.is_some_and(|(name, _)| special.kind == "branch-point" && name == "cubic");
+    let pitchfork = crosses.then(|| "a pitchfork".to_owned());
     let breaks = special.breaks.map(|what| format!("breaks the {what}"));
     let others: String = special.others.iter().map(|other| format!(" and {other}")).collect();
     let next = special.branch.map(|branch| {
         let word = if special.others.is_empty() { "branch" } else { "branches" };
         format!("to {word} {branch}{others}")
     });
-    for part in [period, words, coefficient, breaks, next].into_iter().flatten() {
+    for part in [period, pitchfork, words, coefficient, breaks, next].into_iter().flatten() {
         line += "  ";
         line += &part;
     }

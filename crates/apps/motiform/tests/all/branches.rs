@@ -194,6 +194,37 @@ fn a_transcritical_point_is_where_the_branches_cross() {
     }
 }
 
+/// What begins at a pitchfork of a body at rest, `x = sqrt(mu)`, is followed to the end of the range: a rate vanishes at the pitchfork, and
+/// the equations have their size from the values of the parameter beside it.
+#[test]
+fn the_branches_of_a_pitchfork_at_rest_are_followed_to_their_ends() {
+    let folder = Folder::new();
+    planar(&folder, "two.toml", "mu = -0.5", ["mu*x-x^3", "-y"]);
+    for (name, modes, more) in [("one", "1", ""), ("with", "1, 2", "z2 = \"-z2\"\n")] {
+        folder.write(
+            &format!("{name}.toml"),
+            &format!(
+                "[model.amplitudes]\nmodes = [{modes}]\n[model.amplitudes.parameters]\nmu = -0.5\n\
+                 [model.amplitudes.equations]\nz1 = \"mu*z1 - |z1|^2*z1\"\n{more}"
+            ),
+        );
+    }
+    for (file, kind, ends) in [("one", "pitchfork", 1), ("with", "pitchfork", 1), ("two", "branch-point", 2)]
+    {
+        let json = follow(&folder, &format!("{file}.toml --along mu=-1:1"));
+        assert!(same(&special(&json, "mu"), &expected(&[(kind, 0.0)]), 1e-9), "{file}: {json}");
+        let place = &json["branches"][0]["special"][0];
+        assert_eq!(place["criticality"], "supercritical", "{file}: {json}");
+        assert_eq!(place["normal_form"], "cubic", "{file}: {json}");
+        assert!((place["coefficient"].as_f64().unwrap() + 1.0).abs() < 1e-4, "{file}: {json}");
+        let begins = &json["branches"][1];
+        assert!(begins["points"].as_u64().unwrap() < 200, "{file}: {json}");
+        let left: Vec<&str> = begins["ends"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+        let expected = ["the parameter left its range at 1.000000000"; 2];
+        assert_eq!(left, expected[..ends], "{file}: {json}");
+    }
+}
+
 /// A circle without a mirror begins to turn at mu = 0, with an amplitude of the root of mu: a steady motion, which `--steady` follows.
 #[test]
 fn a_circle_that_begins_to_turn_begins_a_steady_motion() {

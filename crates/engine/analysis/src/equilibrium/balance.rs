@@ -7,6 +7,9 @@ use motiform_dynamics::{Equivariant, VectorField};
 /// Powers of 2 between which sizes are looked at.
 const POWERS: std::ops::RangeInclusive<i32> = -40..=40;
 
+/// A rate below this part of that of the whole shape may be round-off: a coefficient that vanishes at a bifurcation, terms that cancel.
+const ROUND_OFF: f64 = 1e-13;
+
 /// A slope is that of one term if it is this close to a whole number.
 const WHOLE: f64 = 0.1;
 
@@ -35,8 +38,12 @@ fn along(body: &dyn Equivariant, ray: &[f64]) -> Vec<f64> {
         rate
     };
     let rates: Vec<Vec<f64>> = POWERS.map(rate).collect();
+    let seen = |rate: &[f64], i: usize| {
+        let value: f64 = rate[i].abs();
+        if value > ROUND_OFF * norm(rate) { value } else { f64::NAN }
+    };
     (0..ray.len())
-        .flat_map(|i| changes(&rates.iter().map(|rate| rate[i].abs()).collect::<Vec<_>>()))
+        .flat_map(|i| changes(&rates.iter().map(|rate| seen(rate, i)).collect::<Vec<_>>()))
         .collect()
 }
 

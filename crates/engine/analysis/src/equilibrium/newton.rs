@@ -1,12 +1,15 @@
 //! Newton's method for relative equilibria.
 
-use super::uncertainty::residual;
+use super::uncertainty::{residual, rounding_of};
 use super::{RelativeEquilibrium, linearisation};
 use crate::graded::scale;
 use crate::isotropy::mean_over_rotations;
 use crate::linear::{add, least_squares, norm};
 use crate::symmetry::turning_of_shape;
 use motiform_dynamics::{Equivariant, VectorField};
+
+/// A residual that no longer falls is at most so many times the rounding of its terms.
+const LEFT: f64 = 1e6;
 
 /// Steps that Newton's method may take.
 const STEPS: usize = 30;
@@ -37,7 +40,9 @@ impl RelativeEquilibrium {
             let floor = 1e-14 * norm(&shape).max(norm(guess));
             let still = size >= 0.5 * last && size <= 1e-9 * norm(&shape).max(1e-12);
             let step = least_squares(&unknowns, &target);
-            if size <= floor || still {
+            // a circle has no terms to compare with
+            let shrinks = norm(&shape) <= CIRCLE * norm(guess);
+            if (size <= floor || still) && (size <= floor && shrinks || is_rounding(body, &shape, omega)) {
                 let is_circle = step.is_some_and(|step| round(body, &mut shape, &step));
                 return Self::describe(body, shape, if is_circle { 0.0 } else { omega });
             }
@@ -49,6 +54,17 @@ impl RelativeEquilibrium {
         }
         None
     }
+}
+
+/// A shape below this part of the guess is on its way to a circle.
+const CIRCLE: f64 = 1e-6;
+
+/// Returns `true` if the residual is rounding: one that is small against the largest coefficients alone may be no solution, as along a
+/// slow direction far out.
+fn is_rounding(body: &dyn Equivariant, shape: &[f64], omega: f64) -> bool {
+    let columns = linearisation(body, shape, omega);
+    let bounds = rounding_of(body, (shape, omega), &columns);
+    norm(&residual(body, shape, omega)) <= LEFT * norm(&bounds)
 }
 
 /// Least part of its distance from a circle that a Newton step from a solution moves a shape which is a circle but for its error.

@@ -24,7 +24,7 @@ pub struct Uncertainty {
 
 impl Uncertainty {
     /// Of the solution `(u, omega)` of `f(u) - omega Gu = 0`, `Gu . du = 0`: `|M^-1| (|r| + rho)` with the matrix M of these equations,
-    /// their residual r and its rounding `rho_i = 2 eps sum_j |A_ij u_j|`.
+    /// their residual r and its rounding `rho_i = 2 eps sum_j |A_ij u_j|`, or what is seen of it where that is more (terms that cancel).
     ///
     /// A residual in a mode that decays fast moves nothing by much: it is divided by that mode's rate. Where
     /// M is singular the equilibrium is one of a family, and the distance is that to the nearest of them.
@@ -34,10 +34,8 @@ impl Uncertainty {
         let mut spin = vec![0.0; dim];
         body.spin(shape, &mut spin);
         let mut bounds = residual(body, shape, omega);
-        for (i, bound) in bounds.iter_mut().enumerate() {
-            let terms: f64 = columns.iter().zip(shape).map(|(column, u)| (column[i] * u).abs()).sum();
-            *bound = bound.abs() + ROUNDINGS * EPS * (terms + (omega * spin[i]).abs());
-        }
+        let rounding = rounding_of(body, (shape, omega), &columns);
+        bounds.iter_mut().zip(&rounding).for_each(|(bound, rounding)| *bound = bound.abs() + rounding);
         bounds.push(0.0);
         let entry = |i: usize, j: usize| match (i < dim, j < dim) {
             (true, true) => columns[j][i],
@@ -99,6 +97,47 @@ impl RelativeEquilibrium {
     pub fn uncertainty(&self, body: &dyn Equivariant) -> Uncertainty {
         Uncertainty::of(body, &self.shape, self.turning_rate, self.neutral > 0)
     }
+}
+
+/// Relative changes of a shape under which its residual changes by its derivatives, and by rounding.
+const NUDGE: f64 = 8.0 * EPS;
+
+/// Bound of the rounding of `f - omega Gu` with the derivatives `columns`: `2 eps sum_j |A_ij u_j|`, or what is seen of it where that is more.
+pub(super) fn rounding_of(
+    body: &dyn Equivariant,
+    (shape, omega): (&[f64], f64),
+    columns: &[Vec<f64>],
+) -> Vec<f64> {
+    let mut spin = vec![0.0; shape.len()];
+    body.spin(shape, &mut spin);
+    let mut bounds = seen(body, (shape, omega), columns);
+    for (i, bound) in bounds.iter_mut().enumerate() {
+        let terms: f64 = columns.iter().zip(shape).map(|(column, u)| (column[i] * u).abs()).sum();
+        *bound = bound.max(ROUNDINGS * EPS * (terms + (omega * spin[i]).abs()));
+    }
+    bounds
+}
+
+/// The rounding that is seen in `f - omega Gu`: by how much its changes under small changes of the shape differ from those of its
+/// derivatives. Where terms cancel, as those of `(z + conj z)^3`, the derivatives do not show how large they are.
+fn seen(body: &dyn Equivariant, (shape, omega): (&[f64], f64), columns: &[Vec<f64>]) -> Vec<f64> {
+    let here = residual(body, shape, omega);
+    let mut seen = vec![0.0_f64; shape.len()];
+    for seed in 0..TRIES {
+        let mut random = SplitMix(300 + seed);
+        let moved: Vec<f64> = shape.iter().map(|x| x + x * NUDGE * random.next().signum()).collect();
+        let there = residual(body, &moved, omega);
+        for (i, seen) in seen.iter_mut().enumerate() {
+            let change: f64 = columns
+                .iter()
+                .zip(&moved)
+                .zip(shape)
+                .map(|((column, to), from)| column[i] * (to - from))
+                .sum();
+            *seen = seen.max((there[i] - here[i] - change).abs());
+        }
+    }
+    seen
 }
 
 /// `f - omega Gu`.

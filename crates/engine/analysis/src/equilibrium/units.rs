@@ -3,6 +3,7 @@
 use super::balance::balances;
 use crate::linear::norm;
 use crate::periodic::Flow;
+use motiform_dynamics::order::ascending;
 use motiform_dynamics::{Equivariant, StepControl, VectorField, model};
 
 /// Rays along which sizes are looked for.
@@ -27,11 +28,19 @@ impl Units {
     /// of the sizes at which terms balance, and the rate there.
     #[must_use]
     pub fn of(body: &dyn Equivariant) -> Self {
-        let rays = rays(body);
-        let sizes = balances(body, &rays);
+        Self::among(&[body])
+    }
+
+    /// The units of several fields that differ in the values of parameters: where a coefficient vanishes at one of them, the others have it.
+    #[must_use]
+    pub fn among(bodies: &[&dyn Equivariant]) -> Self {
+        let rays: Vec<Vec<Vec<f64>>> = bodies.iter().map(|body| rays(*body)).collect();
+        let of_each = || bodies.iter().zip(&rays);
+        let mut sizes: Vec<f64> = of_each().flat_map(|(body, rays)| balances(*body, rays)).collect();
+        ascending(&mut sizes);
         let length = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
-        let rate = rays.iter().map(|ray| rate(body, ray, length)).fold(0.0, f64::max);
-        Self { length: prefix(length), rate: prefix(rate) }
+        let rates = of_each().flat_map(|(body, rays)| rays.iter().map(|ray| rate(*body, ray, length)));
+        Self { length: prefix(length), rate: prefix(rates.fold(0.0, f64::max)) }
     }
 
     /// A flow whose absolute tolerance is that of shapes of the unit's size.

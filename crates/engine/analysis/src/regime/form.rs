@@ -69,9 +69,7 @@ impl Form {
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::PulsatingAtRest => "the centre of mass rests while the shape repeats",
-            Self::PulsatingStraight => {
-                "the shape is mirror symmetric at every moment and repeats: constant heading, changing speed"
-            }
+            Self::PulsatingStraight => "the shape repeats while the body keeps to a line: constant heading",
             Self::BackAndForth => "the body goes back and forth on a line: after a period it is where it was",
             Self::MirrorZigzag => {
                 "half a period later the motion is its own mirror image, so it has no net rotation"

@@ -79,9 +79,7 @@ impl Regime {
         match self {
             Self::Motionless => "A fixed shape at rest: a circle, or a deformed body.",
             Self::Straight => "A fixed shape that moves without turning.",
-            Self::PulsatingStraight => {
-                "A shape that repeats and stays mirror symmetric: the heading is constant, the speed changes."
-            }
+            Self::PulsatingStraight => "A shape that repeats while the body keeps to a straight line.",
             Self::Circular => {
                 "A fixed shape that moves and turns at a constant rate: the body goes round a circle."
             }

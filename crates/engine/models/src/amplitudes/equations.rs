@@ -6,6 +6,7 @@ use super::noise::NoiseTerms;
 use super::parser::{Names, is_real, parse};
 use super::polynomial::{MOST_MODES, Monomial, Polynomial};
 use super::program::{Program, REGISTERS};
+use super::real_parts::fewer;
 use super::reserved::meaning;
 use super::tokens::TextError;
 use motiform_dynamics::Symmetry;
@@ -73,7 +74,13 @@ impl Equations {
                 )
             })
         };
-        let (rates_program, velocity_program) = (program(&rates)?, program(std::slice::from_ref(&velocity))?);
+        let defaults: Vec<f64> = definition.parameters.iter().map(|parameter| parameter.default).collect();
+        let parts = |polynomials: &[Polynomial]| {
+            let parts = (!symmetry.rotations).then(|| fewer(polynomials, modes, &tape, &defaults)).flatten();
+            parts.and_then(|parts| Program::of_parts(&parts, modes))
+        };
+        let either = |polynomials: &[Polynomial]| parts(polynomials).map_or_else(|| program(polynomials), Ok);
+        let (rates_program, velocity_program) = (either(&rates)?, either(std::slice::from_ref(&velocity))?);
         Ok(Self {
             definition: definition.clone(),
             tape,

@@ -75,13 +75,20 @@ impl<T: Scalar, L: List, const N: usize> Kernel for Evaluation<'_, T, L, N> {
     }
 }
 
-/// The amplitudes, then 1 if a term needs it, then the products.
+/// The amplitudes or their parts, then 1 if a term needs it, then the products.
 #[inline(always)]
 fn products<T: Scalar, L: List, const N: usize>(program: &L, u: &[T], registers: &mut [Complex<T>; N]) {
     let mut next = 0;
-    for z in u.chunks_exact(2) {
-        registers[next % N] = Complex::new(z[0], z[1]);
-        next += 1;
+    if program.parts() {
+        for &part in u {
+            registers[next % N].re = part;
+            next += 1;
+        }
+    } else {
+        for z in u.chunks_exact(2) {
+            registers[next % N] = Complex::new(z[0], z[1]);
+            next += 1;
+        }
     }
     if program.one() {
         registers[next % N].re = registers[0].re.constant(1.0);

@@ -17,6 +17,7 @@ mod paper;
 mod parser;
 mod polynomial;
 mod program;
+mod real_parts;
 mod reserved;
 mod tensor_form;
 #[cfg(test)]
@@ -51,7 +52,7 @@ pub struct Amplitudes {
     rates: Box<[Value]>,
     /// The same without the real linear rates.
     nonlinear: Box<[Value]>,
-    /// The real linear rate of each amplitude (inverse model time).
+    /// The real linear rate of each unknown (inverse model time).
     linear: Box<[f64]>,
     /// Coefficients of the velocity.
     velocity: Box<[Value]>,
@@ -65,11 +66,11 @@ impl Amplitudes {
         let values = equations.tape.evaluate(parameters);
         let rates = equations.program.coefficients(&values);
         let mut nonlinear = rates.clone();
-        let own = |n: usize| {
-            let places: Vec<usize> = equations.program.linear(n, n as u16).collect();
-            places.into_iter().map(|place| std::mem::take(&mut nonlinear[place][0])).sum()
-        };
-        let linear = (0..equations.definition().modes.len()).map(own).collect();
+        let mut linear = Vec::new();
+        for n in 0..equations.definition().modes.len() {
+            linear.extend(equations.program.take_linear(n, &mut nonlinear));
+        }
+        let linear = linear.into();
         let velocity = equations.velocity_program.coefficients(&values);
         let noise = equations.noise.program.coefficients(&values);
         Self { known, rates, nonlinear, linear, velocity, noise }
@@ -108,9 +109,7 @@ impl<T: Scalar<Real = f64>> VectorField<T> for Amplitudes {
 
 impl<T: Scalar<Real = f64>> Semilinear<T> for Amplitudes {
     fn linear(&self, lambda: &mut [f64]) {
-        for (pair, &rate) in lambda.chunks_exact_mut(2).zip(&self.linear) {
-            pair.fill(rate);
-        }
+        lambda.copy_from_slice(&self.linear);
     }
 
     #[inline]

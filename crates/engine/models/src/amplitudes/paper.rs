@@ -15,6 +15,7 @@ impl Paper {
     pub(super) fn is(program: &Program) -> bool {
         let norms: Vec<Option<u16>> = program.factors.iter().map(|factor| factor.norm).collect();
         program.one == Self.one()
+            && program.parts() == Self.parts()
             && program.products == Self.products()
             && program.norms == Self.norms()
             && program.norm_products == Self.norm_products()
@@ -52,6 +53,11 @@ impl List for Paper {
 
     #[inline(always)]
     fn one(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn parts(&self) -> bool {
         false
     }
 

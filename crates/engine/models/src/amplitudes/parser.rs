@@ -6,6 +6,9 @@
 //! power   = atom [ ^ exponent ]
 //! atom    = number | i | pi | parameter | z1, z2, .. | function(sum) | (sum) | |z1|
 //! ```
+//!
+//! Functions of any sum are `conj`, `re(z) = (z + conj(z))/2` and `im(z) = (z - conj(z))/(2i)`. A parameter may be called `re` or `im`: then
+//! the function has no name.
 
 use super::coefficient::{Function, Kind, Tape};
 use super::polynomial::{MOST_ORDER, MOST_TERMS, Monomial, Polynomial, Refusal};
@@ -280,11 +283,31 @@ impl Parser<'_> {
                 let inside = self.argument(name)?;
                 Ok(inside.conj(self.tape))
             }
+            "re" | "im" => {
+                let first = self.next;
+                let inside = self.argument(name)?;
+                self.part(inside, name == "im").map_err(|refusal| self.refused(first, refusal))
+            }
             _ => match Function::ALL.iter().find(|(known, _)| *known == name) {
                 Some(&(_, function)) => self.function(name, function, span),
                 None => Err(TextError::new(span, self.unknown(name))),
             },
         }
+    }
+
+    /// The real or the imaginary part.
+    fn part(&mut self, whole: Polynomial, imaginary: bool) -> Result<Polynomial, Refusal> {
+        let conjugate = whole.clone().conj(self.tape);
+        let sum = whole.add(&conjugate, imaginary, self.tape)?;
+        let half = self.tape.real(0.5);
+        let factor = if imaginary {
+            let unit = self.tape.imaginary_unit();
+            let negative = self.tape.negate(unit);
+            self.tape.multiply(negative, half)
+        } else {
+            half
+        };
+        Ok(sum.map(|place| self.tape.multiply(place, factor)))
     }
 
     fn argument(&mut self, name: &str) -> Result<Polynomial, TextError> {
@@ -322,7 +345,7 @@ impl Parser<'_> {
             return format!("there is no amplitude z{index}: modes gives {known}");
         }
         let names = self.names.parameters.iter().map(String::as_str);
-        let known: Vec<&str> = names.chain(RESERVED).collect();
+        let known: Vec<&str> = names.chain(RESERVED).chain(["re", "im"]).collect();
         match nearest(name, known.iter().copied()) {
             Some(found) => format!("unknown name {name} (did you mean {found}?)"),
             None => format!("unknown name {name}: give it a value in [model.amplitudes.parameters]"),

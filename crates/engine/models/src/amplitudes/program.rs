@@ -1,11 +1,13 @@
 //! Polynomials as a list of products (evaluated in `evaluation`).
 //!
 //! Each equation is a sum over products of amplitudes, each times a sum over products of squared moduli:
-//! `sum_b b (c_b + sum_k c_bk N_k)`. A product that occurs several times is computed once.
+//! `sum_b b (c_b + sum_k c_bk N_k)`. A product that occurs several times is computed once. Where that is shorter the products are those of
+//! the real and imaginary parts of the amplitudes ([`super::real_parts`]).
 
 use super::coefficient::{Kind, Place, Tape, Value};
 use super::paper::Paper;
 use super::polynomial::{Monomial, Polynomial};
+use super::real_parts::{Combination, RealTerms, value};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -48,6 +50,8 @@ pub(super) trait List {
     fn lengths(&self, given: [usize; 3]) -> [usize; 3];
     /// [`Program::one`].
     fn one(&self) -> bool;
+    /// `true` if the first registers are the real and imaginary parts of the amplitudes.
+    fn parts(&self) -> bool;
     /// [`Program::products`].
     fn products(&self) -> &[[Operand; 2]];
     /// [`Program::norms`].
@@ -71,6 +75,11 @@ impl List for Program {
     #[inline(always)]
     fn one(&self) -> bool {
         self.one
+    }
+
+    #[inline(always)]
+    fn parts(&self) -> bool {
+        !self.combined.is_empty()
     }
 
     #[inline(always)]
@@ -119,6 +128,8 @@ pub(super) struct Program {
     pub(super) factors: Vec<Factor>,
     pub(super) groups: Vec<Group>,
     pub(super) sums: Vec<Sum>,
+    /// In real and imaginary parts: the coefficients, which are combinations of those of the polynomials. Empty in amplitudes.
+    pub(super) combined: Vec<Combination>,
     /// `true` if it is the list of [`Paper`].
     pub(super) paper: bool,
 }
@@ -139,20 +150,53 @@ impl Program {
         for polynomial in polynomials {
             sums.push(builder.sum(polynomial, tape));
         }
-        let Builder { products, norms, norm_products, factors, groups, .. } = builder;
-        let fits = products.len() <= REGISTERS && norms.len() + norm_products.len() <= REGISTERS;
-        let mut program = Self { one, products, norms, norm_products, factors, groups, sums, paper: false };
+        let mut program = builder.finish(one, sums, Vec::new())?;
         program.paper = modes == 3 && Paper::is(&program);
-        fits.then_some(program)
+        Some(program)
+    }
+
+    /// The program of polynomials in the real and imaginary parts of `modes` amplitudes; `None` if it needs too many registers.
+    pub(super) fn of_parts(polynomials: &[RealTerms], modes: usize) -> Option<Self> {
+        let one =
+            polynomials.iter().flat_map(BTreeMap::keys).any(|powers| powers.iter().all(|power| *power == 0));
+        let mut builder =
+            Builder { modes: 2 * modes, first: 2 * modes + usize::from(one), ..Builder::default() };
+        let (mut sums, mut combined) = (Vec::new(), Vec::new());
+        for polynomial in polynomials {
+            let first = builder.groups.len();
+            for (powers, combination) in polynomial {
+                let part = |(part, &power): (usize, &u8)| (0..power).map(move |_| 2 * part as u16);
+                let base: Vec<u16> = powers.iter().enumerate().flat_map(part).collect();
+                builder.group(&base, vec![(Vec::new(), combined.len() as Place)]);
+                combined.push(combination.clone());
+            }
+            let end = builder.groups.len();
+            sums.push(Sum { plain: first..first, real: first..first, complex: first..end });
+        }
+        builder.finish(one, sums, combined)
     }
 
     /// The coefficient of each factor, of all values of a tape.
     pub(super) fn coefficients(&self, values: &[Value]) -> Box<[Value]> {
-        self.factors.iter().map(|factor| values[factor.place as usize]).collect()
+        let of =
+            |place: usize| self.combined.get(place).map_or_else(|| values[place], |sum| value(sum, values));
+        self.factors.iter().map(|factor| of(factor.place as usize)).collect()
     }
 
-    /// The factors whose coefficient multiplies amplitude `register` alone in polynomial `sum`.
-    pub(super) fn linear(&self, sum: usize, register: u16) -> impl Iterator<Item = usize> + '_ {
+    /// Takes the real linear rates of the unknowns of amplitude `n` out of the coefficients of polynomial `n`.
+    pub(super) fn take_linear(&self, n: usize, coefficients: &mut [Value]) -> [f64; 2] {
+        let mut take = |register: usize, part: usize| {
+            let own = self.linear(n, register as u16);
+            own.map(|place| std::mem::take(&mut coefficients[place][part])).sum()
+        };
+        if self.parts() {
+            return [take(2 * n, 0), take(2 * n + 1, 1)];
+        }
+        [take(n, 0); 2]
+    }
+
+    /// The factors whose coefficient multiplies `register` alone in polynomial `sum`.
+    fn linear(&self, sum: usize, register: u16) -> impl Iterator<Item = usize> + '_ {
         let own = Operand { register, conj: false };
         let all = self.sums[sum].plain.start..self.sums[sum].complex.end;
         let groups = self.groups[all].iter().filter(move |group| group.base == own);
@@ -169,7 +213,8 @@ impl Program {
     /// Registers of the kind of which most are needed.
     #[inline(always)]
     pub(super) fn registers(&self, modes: usize) -> usize {
-        (modes + usize::from(self.one) + self.products.len()).max(self.norms.len() + self.norm_products.len())
+        let first = if self.parts() { 2 * modes } else { modes };
+        (first + usize::from(self.one) + self.products.len()).max(self.norms.len() + self.norm_products.len())
     }
 }
 
@@ -189,6 +234,15 @@ struct Builder {
 }
 
 impl Builder {
+    /// The program of these sums; `None` if it needs too many registers.
+    fn finish(self, one: bool, sums: Vec<Sum>, combined: Vec<Combination>) -> Option<Program> {
+        let Self { products, norms, norm_products, factors, groups, .. } = self;
+        let fits = products.len() <= REGISTERS && norms.len() + norm_products.len() <= REGISTERS;
+        let program =
+            Program { one, products, norms, norm_products, factors, groups, sums, combined, paper: false };
+        fits.then_some(program)
+    }
+
     /// The groups of one polynomial.
     fn sum(&mut self, polynomial: &Polynomial, tape: &Tape) -> Sum {
         let mut groups: BTreeMap<Vec<u16>, Vec<(Vec<u16>, Place)>> = BTreeMap::new();

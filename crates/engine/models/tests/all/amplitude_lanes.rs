@@ -126,6 +126,11 @@ fn fields_in_lanes_have_the_bits_of_single_ones() {
     check_field::<4>(model(&[1, 2], &["(a - |z1|^2)*z1 - 2*b*conj(z1)*z2", "-z2 + b*z1^2"], None, None));
     check_field::<4>(model(&[2, 3], &["(1 - |z2|^2)*z2", "-z3 + a*|z2|^2*z3"], Some("2*z2*conj(z3)"), None));
     check_field::<6>(three());
+    // in real variables
+    let brusselator = "a - (b + 1)*re(z2) + re(z2)^2*im(z2) + i*(b*re(z2) - re(z2)^2*im(z2))";
+    check_field::<2>(model(&[2], &[brusselator], Some("z2"), Some("none")));
+    let two = ["re(z2)*(1 - re(z2) - a*im(z2)) + i*im(z2)*re(z3)", "b*re(z3)^3*im(z2) - i*im(z3)"];
+    check_field::<4>(model(&[2, 3], &two, Some("z2"), Some("none")));
     let four = ["a*z1 - |z1|^6*z1", "-z2 + z1^2", "-z3 + z1*z2 + conj(z1)*z4", "-z4 + z2^2 + z1*z3 + w*z1^4"];
     check_field::<8>(model(&[1, 2, 3, 4], &four, None, None));
     // Many products: registers of the larger classes.

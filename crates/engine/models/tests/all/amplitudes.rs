@@ -122,6 +122,58 @@ fn a_handed_swimmer_turns_at_its_rate() {
     assert_eq!(coordinates, [0.1, -0.2]);
 }
 
+/// FitzHugh and Nagumo's equations in real variables, written with `re` and `im`.
+#[test]
+fn equations_in_real_variables_are_written_with_real_and_imaginary_parts() {
+    let text =
+        "re(z2) - re(z2)^3/3 - im(z2) + J + i*0.08*(re(z2) + 0.7 - 0.8*im(i*conj(i*z2) + z2) + 0*im(J))";
+    let mut fields = definition(&[2], &[text], &[("J", 0.5)]);
+    fields.velocity = Some("z2".to_owned());
+    fields.symmetry = Some("none".to_owned());
+    let body = info(&fields).unwrap().build(&[0.5]).unwrap();
+    for [x, y] in [[0.3_f64, -1.2], [-1.7, 0.4], [0.0, 2.0]] {
+        let mut rate = [0.0; 2];
+        VectorField::<f64>::eval(body.as_ref(), 0.0, &[x, y], &mut rate);
+        // i conj(i z) = conj(z): the sum in im() is real, and the term with 0.8 is nothing
+        let expected = [x - x.powi(3) / 3.0 - y + 0.5, 0.08 * (x + 0.7)];
+        assert!(largest(&rate, &expected) < 1e-15 * 5.0, "{rate:?} {expected:?}");
+    }
+    let wrong = definition(&[2], &["rre(z2)"], &[]);
+    assert!(info(&wrong).unwrap_err().problem.contains("did you mean re?"));
+    let open = definition(&[2], &["im z2"], &[]);
+    assert!(info(&open).unwrap_err().problem.contains("expected ( after im"));
+}
+
+/// The Brusselator far out, where powers of z are 10^8 times what is left of them, in two forms of one text; the plane x = 0 of a product.
+#[test]
+fn terms_in_real_variables_that_cancel_leave_nothing() {
+    let forms = [
+        "1 - (b+1)*re(z2) + re(z2)^2*im(z2) + i*(b*re(z2) - re(z2)^2*im(z2))",
+        "1 - (b+1)*(z2+conj(z2))/2 + (1 - i)*(z2+conj(z2))^2/4*(z2-conj(z2))/(2*i) + i*b*(z2+conj(z2))/2",
+    ];
+    let b = 2.3;
+    for text in forms {
+        let mut fields = definition(&[2], &[text], &[("b", b)]);
+        (fields.velocity, fields.symmetry) = (Some("z2".to_owned()), Some("none".to_owned()));
+        let body = info(&fields).unwrap().build(&[b]).unwrap();
+        for [x, y] in [[1.3e-4, 7.1e7], [1.0, b], [-3e3, 0.2], [0.0, 1e8]] {
+            let mut rate = [0.0; 2];
+            VectorField::<f64>::eval(body.as_ref(), 0.0, &[x, y], &mut rate);
+            let product: f64 = x * x * y;
+            let expected = [1.0 - (b + 1.0) * x + product, b * x - product];
+            let terms = 1.0 + (b + 1.0) * x.abs() + product.abs();
+            assert!(largest(&rate, &expected) < 1e-15 * terms, "{text} {x} {y}: {rate:?} {expected:?}");
+        }
+    }
+    let mut plane = definition(&[2], &["re(z2)*(1 - re(z2)^2/3 - b*im(z2)) - i*im(z2)"], &[("b", b)]);
+    (plane.velocity, plane.symmetry) = (Some("z2".to_owned()), Some("none".to_owned()));
+    let body = info(&plane).unwrap().build(&[b]).unwrap();
+    let mut rate = [0.0; 2];
+    VectorField::<f64>::eval(body.as_ref(), 0.0, &[0.0, 0.7], &mut rate);
+    assert_eq!(rate, [0.0, -0.7]);
+    assert!(semilinear_defect(&body.as_ref(), &[0.3, -0.4]) < 1e-15);
+}
+
 #[test]
 fn definitions_that_are_no_model_are_refused_at_their_place() {
     let two = |first: &str, second: &str| definition(&[1, 2], &[first, second], &[("a", 1.0)]);

@@ -201,9 +201,17 @@ fn normal_form(point: &Point) -> Option<(&'static str, NormalForm)> {
     let leading = point.certificate.and_then(|certificate| certificate.normal_form);
     match point.special? {
         Special::Hopf(hopf) => Some(("l1", hopf.first_lyapunov)),
-        Special::Fold | Special::BranchPoint => leading.map(|form| ("quadratic", form)),
+        Special::Fold => leading.map(|form| ("quadratic", form)),
+        Special::BranchPoint => {
+            leading.map(|form| (if is_cubic(form) { "cubic" } else { "quadratic" }, form))
+        }
         _ => leading.map(|form| ("cubic", form)),
     }
+}
+
+/// Returns `true` for the coefficient of a pitchfork where branches cross.
+const fn is_cubic(form: NormalForm) -> bool {
+    matches!(form, NormalForm::Cubic(_))
 }
 
 fn coefficient(point: &Point) -> Option<(&'static str, Coefficient)> {
@@ -214,14 +222,17 @@ fn coefficient(point: &Point) -> Option<(&'static str, Coefficient)> {
 /// The criticality by the sign of the coefficient, or `undecided` and why. Where there is no coefficient the one branch that begins may say
 /// it, by the side to which it goes.
 fn judged(point: &Point, next: impl Fn() -> Option<&'static str>) -> (Option<&'static str>, Option<String>) {
-    if matches!(
-        point.special,
-        None | Some(Special::Fold | Special::BranchPoint | Special::Continuum | Special::Unresolved { .. })
-    ) {
+    let form = normal_form(point).map(|form| form.1);
+    let silent = match point.special {
+        None | Some(Special::Fold | Special::Continuum | Special::Unresolved { .. }) => true,
+        Some(Special::BranchPoint) => !form.is_some_and(is_cubic),
+        _ => false,
+    };
+    if silent {
         return (None, None);
     }
-    let known = match normal_form(point).map(|form| form.1) {
-        Some(NormalForm::Coefficient(found)) => match found.is_negative() {
+    let known = match form {
+        Some(NormalForm::Coefficient(found) | NormalForm::Cubic(found)) => match found.is_negative() {
             Some(is_negative) => Ok(critical(is_negative)),
             None => Err("the coefficient is not three times its error".to_owned()),
         },

@@ -140,3 +140,19 @@ fn rounding_far_away_is_no_equilibrium() {
         assert!((x - x * x * x / 3.0 - y).abs() + (x + 0.7 - 0.8 * y).abs() < 1e-12, "{x} {y}");
     }
 }
+
+/// The Brusselator, `1 - (b + 1) x + x^2 y = 0`, `b x - x^2 y = 0`, has one solution, (1, b). Along `x y = b`, far out, all terms but one
+/// cancel: the residual is small against the largest of them, but no rounding.
+#[test]
+fn a_small_part_of_large_terms_is_no_equilibrium() {
+    let text = "[model.amplitudes]\nmodes = [2]\nvelocity = \"z2\"\nsymmetry = \"none\"\n[model.amplitudes.parameters]\nb = 2.5\n\
+        [model.amplitudes.equations]\nz2 = \"1 - (b+1)*re(z2) + re(z2)^2*im(z2) + i*(b*re(z2) - re(z2)^2*im(z2))\"";
+    for (starts, seed, b) in [(200, 1, 2.5), (2000, 1, 2.5), (2000, 2, 1.5), (2000, 1, 4.0)] {
+        let mut study = study(&text.replace("b = 2.5", &format!("b = {b}")));
+        study.run.seed = seed;
+        let found = list_from(&study, starts);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let (x, y) = (values(&found[0])[0], values(&found[0])[1]);
+        assert!((x - 1.0).abs() + (y - b).abs() < 1e-12, "{x} {y}");
+    }
+}
