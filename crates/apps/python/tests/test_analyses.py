@@ -120,3 +120,16 @@ def test_what_is_probably_not_meant_is_a_warning() -> None:
         tied.replace(d3=0.05).classify()
     with pytest.warns(motiform.Doubtful, match="the equations of cell are stiff, and dop853 is an explicit method"):
         motiform.preset("fig6a").simulate(0.01, stepper="dop853", max_steps=50, transient=0.0)
+
+
+def test_wishes_that_are_none_are_refused_before_the_run() -> None:
+    body = motiform.preset("fig5a")
+    for call in (
+        lambda: body.simulate(1.0, on_end="stop"),  # type: ignore[arg-type]
+        lambda: body.lyapunov(1, on_end="stop"),  # type: ignore[arg-type]
+        lambda: body.section("y", on_end="stop"),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(ValueError, match="on_end = 'stop': give 'warn'"):
+            call()
+    with pytest.raises(ValueError, match="starts = -1: give at least 1"):
+        body.equilibria(starts=-1)

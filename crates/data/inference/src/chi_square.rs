@@ -3,7 +3,7 @@
 /// Probability that a chi-square variable with `n` degrees of freedom exceeds `x`: `Q(n/2, x/2)`.
 ///
 /// Source: Press et al., Numerical Recipes, 3rd ed., 6.2 (series and continued fraction).
-pub(crate) fn chi_square_tail(x: f64, n: usize) -> f64 {
+pub fn chi_square_tail(x: f64, n: usize) -> f64 {
     let (a, x) = (0.5 * n as f64, 0.5 * x);
     if n == 0 || x <= 0.0 {
         return 1.0;

@@ -139,8 +139,8 @@ impl std::fmt::Display for Warning {
                 });
                 write!(
                     f,
-                    "a velocity{size} does not turn with the cell ({}): the stage drifts, or a flow carries it; the \
-                    correction 'drift' subtracts it",
+                    "a velocity{size} does not turn with the cell ({}): the stage drifts, a flow carries it, or it is held \
+                    near a place; the correction 'drift' subtracts a drift",
                     PValue(*p_value)
                 )
             }

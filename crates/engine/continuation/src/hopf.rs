@@ -14,8 +14,8 @@ pub(super) type Vector = DVector<Complex<f64>>;
 /// Shapes below this part of the unit of the equations are 0.
 const ROUND_OFF: f64 = 1e-9;
 
-/// A coefficient below this one, for shapes in the unit of the equations, may be 0: one that vanishes with the parameter has the sign of the
-/// error of the place.
+/// A coefficient below this one, for shapes in the unit of the equations, may be 0: one that vanishes with the parameter has the sign of
+/// the error of the place.
 const VANISHES: f64 = 1e-10;
 
 /// The reduced field on the slice normal to the group orbit through a shape `u`:
@@ -150,8 +150,9 @@ const SAME: f64 = 1e-7;
 /// `l1 = Re( <p, C(q,q,q*)> - 2 <p, B(q, A^-1 B(q,q*))> + <p, B(q*, (2 i omega - A)^-1 B(q,q))> ) / (2 omega)`.
 ///
 /// Its error is the difference of two results from steps of different size, and of those for two shapes that differ by `solved`, the error
-/// of the solution: near a double eigenvalue 0, and where a part of the shape vanishes, the latter is the larger one; `length` is the unit of
-/// the equations. Where two pairs have the same frequency (a rotating and a standing oscillation of a symmetric shape) one coefficient says nothing.
+/// of the solution: near a double eigenvalue 0, and where a part of the shape vanishes, the latter is the larger one; `length` is the
+/// unit of the equations. Where two pairs have the same frequency (a rotating and a standing oscillation of a symmetric shape) one
+/// coefficient says nothing.
 ///
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, eq. (5.62).
 ///

@@ -242,7 +242,8 @@ fn second<P: Problem>(problem: &P, at: &Place<P::Local>) -> Option<(f64, f64)> {
 /// Where the second part is smaller than this part of the next one, two branches may cross nearby.
 const NEARLY: f64 = 1e-3;
 
-/// Below this part of the largest one a part of the equations is 0: where several directions are critical at once, the next one is no scale.
+/// Below this part of the largest one a part of the equations is 0: where several directions are critical at once, the next one is no
+/// scale.
 const NOTHING: f64 = 1e-12;
 
 /// Returns `true` if the equations leave one direction only, and clearly so: no other branch crosses here.

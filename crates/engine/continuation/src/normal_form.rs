@@ -54,10 +54,10 @@ impl std::fmt::Display for Undetermined {
 
 /// The leading coefficient, as far as it is known, of the normal form `xi' = c xi^n` at a special point, with time in the model's units
 /// and `xi` the size of the critical deviation normal to the group: the Euclidean norm of the shape, of an orbit its root mean square over
-/// the period, normal to the flow too. `n` is 2 at folds and where branches cross (3 if the coefficient of second order vanishes), 3 where a symmetry is broken. At a doubling of the
-/// period (or of half the period) the deviation is that of the orbit of twice the time; multiplied by that time, `c` is the coefficient of
-/// its return map. For `n = 2` the sign of `xi`, and so that of `c`, is free: `c` is positive. For `n = 3` what begins is stable in the
-/// critical direction where `c` is negative.
+/// the period, normal to the flow too. `n` is 2 at folds and where branches cross (3 if the coefficient of second order vanishes), 3
+/// where a symmetry is broken. At a doubling of the period (or of half the period) the deviation is that of the orbit of twice the time;
+/// multiplied by that time, `c` is the coefficient of its return map. For `n = 2` the sign of `xi`, and so that of `c`, is free: `c` is
+/// positive. For `n = 3` what begins is stable in the critical direction where `c` is negative.
 ///
 /// Source: Kuznetsov (2004), sections 5.4 and 7.3; per time as in Kuznetsov, Govaerts, Doedel and Dhooge (2005), SIAM J. Numer. Anal. 43,
 /// 1407.

@@ -2,6 +2,7 @@
 //!
 //! Definitions and limits: docs/cells.md, section 'Observed motion'.
 
+mod course;
 mod measures;
 mod relatives;
 mod repeats;
@@ -35,6 +36,8 @@ const CLEAR: f64 = 4.0;
 const MOST_WOBBLE: f64 = 0.05;
 /// Largest scatter of heading (rad), and of speed and turning rate relative to their means, of a steady motion.
 const STEADY: f64 = 0.25;
+/// Largest change of the speed of a circle over the record, and amplitude with the direction, relative to its mean.
+const MOST_COURSE: f64 = 0.1;
 /// Largest share of the time without a turn on a circle: where noise scatters the turns by their mean, it is 0.23.
 const MOST_STRAIGHT: f64 = 0.3;
 /// Smallest scatter of the heading (rad) of a body that goes to and fro, and in units of the error of one heading.
@@ -186,9 +189,11 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
             return (None, why);
         }
         let why = format!(
-            "straight over a path of {}: net displacement is {:.1} % of the path, and the turning rate is 0 within its error",
+            "straight over a path of {}: net displacement is {:.1} % of the path, and the turning rate, {} rad per unit of time, is within \
+             {CLEAR} of its errors of 0",
             four_digits(m.length),
-            100.0 * m.directness
+            100.0 * m.directness,
+            with_error(m.turning, m.turning_error)
         );
         return (Some(Regime::Straight), why);
     }
@@ -207,6 +212,9 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
             );
             return (None, why);
         }
+        if let Some(why) = unsteady(m) {
+            return (None, format!("{turns:.1} turns at a steady rate, but {why}"));
+        }
         let why = format!(
             "{turns:.1} turns at a steady rate, {} rad per unit of time, and a steady speed",
             with_error(m.turning, m.turning_error)
@@ -221,6 +229,20 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
             (None, why.to_owned())
         }
     }
+}
+
+/// The course of the speed of a cell that turns steadily, if it has one: a circle of the models has one speed.
+fn unsteady(m: &Measures) -> Option<String> {
+    if m.speed_axis > MOST_COURSE {
+        return Some(format!(
+            "the speed changes by {:.0} % of its mean with the direction, twice per turn: an ellipse, or lengths that differ along x and y",
+            200.0 * m.speed_axis
+        ));
+    }
+    (m.speed_trend.abs() > MOST_COURSE).then(|| {
+        let what = if m.speed_trend < 0.0 { "falls" } else { "grows" };
+        format!("the speed {what} by {:.0} % of its mean over the record", 100.0 * m.speed_trend.abs())
+    })
 }
 
 fn rest(m: &Measures) -> (Option<Regime>, String) {

@@ -146,11 +146,16 @@ fn intervals(values: &[f64]) -> [Option<[f64; 2]>; 2] {
         found[1].push(median(&drawn));
     }
     let wider = (n as f64 / (n - 1) as f64).sqrt();
+    // a length is not negative, and neither is the end of its interval
+    let least = if values.iter().all(|&value| value >= 0.0) { 0.0 } else { f64::NEG_INFINITY };
     let [means, medians] = found;
     [(means, mean(values)), (medians, median(values))].map(|(mut resampled, value)| {
         ascending(&mut resampled);
         let low = (0.025 * RESAMPLES as f64) as usize;
-        Some([resampled[low], resampled[RESAMPLES - 1 - low]].map(|end| value + wider * (end - value)))
+        Some(
+            [resampled[low], resampled[RESAMPLES - 1 - low]]
+                .map(|end| (value + wider * (end - value)).max(least)),
+        )
     })
 }
 

@@ -9,6 +9,7 @@ pub mod atlas;
 pub mod branches;
 mod checks;
 mod control;
+mod counted;
 pub mod curves;
 pub mod dataset;
 mod described;
@@ -39,6 +40,7 @@ mod written;
 
 pub use atlas::AtlasPlan;
 pub use branches::BranchPlan;
+pub use counted::counted;
 pub use curves::CurvePlan;
 pub use dataset::{Dataset, Manifest};
 pub use described::{Key, Settings};

@@ -71,7 +71,7 @@ Regimes, by the dynamics of the shape with rotations divided out:
   zigzag, quasi-periodic           a shape that returns after a period, without or with a net rotation
   rectangular                      rests near motionless shapes, along an attracting heteroclinic cycle
   chaotic                          the largest Lyapunov exponent is positive by more than its error
-  blow-up                          the shape grows without bound in finite time
+  blow-up                          the shape grows without bound
   undetermined                     the evidence is inconclusive; the output states what is missing (exit code 1)
 The transient of a preset is ignored: the motion is integrated for longer and longer until the evidence is conclusive.
 --samples M reports the shares of the motions with 95 % intervals, what was sampled (--random), and how many starts blow up.

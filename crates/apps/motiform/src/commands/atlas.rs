@@ -12,7 +12,7 @@ use motiform_diagrams::atlas::{
 };
 use motiform_store::Folder;
 use motiform_study::atlas::{AtlasPlan, axis, samples};
-use motiform_study::{Error, Study};
+use motiform_study::{Error, Study, counted};
 use serde::{Serialize, Serializer};
 use std::fmt::{Display, Formatter};
 use std::path::{Path, PathBuf};
@@ -123,7 +123,7 @@ impl Display for Surveyed<'_> {
         }
         mixed_courses(grid).iter().try_for_each(|words| writeln!(f, "note       {words}"))?;
         let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
-        writeln!(f, "followed   {} lines, {curves} curves", lines.len())?;
+        writeln!(f, "followed   {}, {}", counted(lines.len(), "line"), counted(curves, "curve"))?;
         let short = lines.iter().filter(|line| line.refused.is_some()).count();
         if short > 0 {
             writeln!(

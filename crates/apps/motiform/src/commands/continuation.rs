@@ -15,7 +15,7 @@ use motiform_lab::draw::{self, Figures, Picture};
 use motiform_store::{Folder, Journal, Opening};
 use motiform_study::branches::BranchSettings;
 use motiform_study::quantity::motion::PERIOD;
-use motiform_study::{BranchPlan, CurvePlan, Error, Given, Shown, Study};
+use motiform_study::{BranchPlan, CurvePlan, Error, Given, Shown, Study, counted};
 use serde::{Serialize, Serializer};
 use std::fmt::{Display, Formatter};
 use std::path::{Path, PathBuf};
@@ -201,7 +201,7 @@ fn branch(
         [_, _, ..] => parts.iter().map(name).collect::<Vec<_>>().join(", then "),
         _ => followed.named().as_ref().map_or_else(String::new, name),
     };
-    write!(f, "\nbranch {number:<3} {names}, {} points", followed.samples().count())?;
+    write!(f, "\nbranch {number:<3} {names}, {}", counted(followed.samples().count(), "point"))?;
     for pair in parts.windows(2) {
         let place = between(pair[0].to, pair[1].from);
         write!(f, "\n           {:<17} {place}", format!("becomes {}", pair[1].motion.name()))?;

@@ -20,7 +20,8 @@ pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result
     }
     let out = output(options, plan.default_folder());
     let (files, before) = prepare(options, out, |path, opening| CurveFolder::open(path, plan, opening))?;
-    let watch = Progress::new(1.0, "of branches and curves");
+    let watch = Progress::staged(1);
+    watch.stage("branches and curves", [0.0, 1.0], ("of those known so far", false));
     let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| CurveFolder::keep(found, folder));
     let found = follow_curves_kept(plan, before, &mut keep, &watch);
     watch.finish();

@@ -153,6 +153,12 @@ impl Display for Fits<'_> {
     }
 }
 
+/// A value with the digits that its error leaves.
+fn rounded(value: f64, error: f64) -> String {
+    let both = with_error(value, error);
+    both.split_once(" ±").map_or(both.clone(), |parts| parts.0.to_owned())
+}
+
 fn regime(fitted: &Fitted) -> &'static str {
     fitted.motion_name()
 }
@@ -182,6 +188,8 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
         let estimate = &coefficient.estimate;
         // where a search ended that did not converge is no maximum, and has no errors
         let value = match model.converged() {
+            // an error that is no interval would be read as one
+            true if fitted.no_intervals().is_some() => rounded(estimate.value, estimate.error),
             true => with_error(estimate.value, estimate.error),
             false => format!("{} (not converged)", four_digits(estimate.value)),
         };

@@ -11,7 +11,7 @@ use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::{Axis, ScanComputation};
 use motiform_store::{Folder, Kind};
 use motiform_study::quantity::statistic::LIFE;
-use motiform_study::{Error, Random, ScanPlan, Shown};
+use motiform_study::{Error, Random, ScanPlan, Shown, counted};
 use serde::Serialize;
 use std::fmt::{Display, Formatter};
 use std::path::Path;
@@ -161,7 +161,7 @@ impl<'a> Lived<'a> {
             ),
             false => (found.until.to_string(), String::new()),
         };
-        let starts = format!("{} starts each, {}, seed {}", c.samples, c.random.words(), c.seed);
+        let starts = format!("{} each, {}, seed {}", counted(c.samples, "start"), c.random.words(), c.seed);
         writeln!(f, "{starts}, followed to {until}")?;
         write!(f, "{:>12}", found.parameter)?;
         for title in ["blew up", "captured", "lasting", "delay", "events", "watched", "mean life"] {

@@ -194,8 +194,8 @@ fn a_transcritical_point_is_where_the_branches_cross() {
     }
 }
 
-/// What begins at a pitchfork of a body at rest, `x = sqrt(mu)`, is followed to the end of the range: a rate vanishes at the pitchfork, and
-/// the equations have their size from the values of the parameter beside it.
+/// The branch that begins at a pitchfork of a body at rest, `x = sqrt(mu)`, is followed to the end of the range: a rate vanishes at the
+/// pitchfork, and the equations have their size from the values of the parameter beside it.
 #[test]
 fn the_branches_of_a_pitchfork_at_rest_are_followed_to_their_ends() {
     let folder = Folder::new();

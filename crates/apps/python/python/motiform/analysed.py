@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Literal
 
 from . import _motiform
-from .calls import OnEnd, Random, ended_early, remark, span, with_given
+from .calls import OnEnd, Random, ended_early, known_end, remark, span, with_given
 from .described import Described
 from .progress import Bar, Progress
 from .results import (
@@ -95,6 +95,7 @@ class Analysed(Described):
 
         More: docs/regimes.md.
         """
+        known_end(on_end)
         study = with_given(self._study, initial, {"random": random, "seed": seed})
         remark(study)
         count = min(6, len(study.coordinates())) if count is None else count
@@ -110,6 +111,8 @@ class Analysed(Described):
 
         More: docs/continuation.md.
         """
+        if starts < 1:
+            raise ValueError(f"starts = {starts}: give at least 1")
         study = with_given(self._study, None, {"seed": seed})
         with Bar(progress, starts, "starts") as bar:
             raw = json.loads(_motiform.equilibria(study, starts, bar.callable()))
@@ -132,6 +135,7 @@ class Analysed(Described):
 
         More: docs/python.md.
         """
+        known_end(on_end)
         study = with_given(self._study, initial, {"t_end": t_end, "transient": transient, "seed": seed})
         remark(study)
         with Bar(progress, lambda: span(study), "model time") as bar:

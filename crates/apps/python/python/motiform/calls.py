@@ -59,14 +59,18 @@ def real(values: npt.ArrayLike) -> Floats:
     return array.astype(np.float64, copy=False)
 
 
+def known_end(on_end: OnEnd | None) -> None:
+    """Raises for a wish that is none, before the run."""
+    if on_end not in (None, "warn", "ignore", "raise"):
+        raise ValueError(f"on_end = {on_end!r}: give 'warn', 'ignore' or 'raise'")
+
+
 def ended_early(how: str, on_end: OnEnd) -> None:
     """Does what was asked for a run that ended early."""
     if on_end == "raise":
         raise RuntimeError(f"the run {how}")
     if on_end == "warn":
         warnings.warn(f"the run {how}; see the result's outcome", EndedEarly, stacklevel=3)
-    elif on_end != "ignore":
-        raise ValueError(f"on_end = {on_end!r}: give 'warn', 'ignore' or 'raise'")
 
 
 def raised_with(raised: BaseException, result: object) -> BaseException:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _motiform
 from .addresses import address_of
-from .calls import OnEnd, ended_early, raised_with, real
+from .calls import OnEnd, ended_early, known_end, raised_with, real
 from .progress import Bar, Progress
 from .results import Crossings, Exponents, Outcome, exponents_of, outcome_of
 from .trajectory import Floats, crossing_frame
@@ -139,6 +139,7 @@ class Field:
         The function is asked for times from ``-transient`` to ``t_end``. Steppers: dop853 (the default, rtol 1e-9), dopri5; rk4, heun, euler with a fixed `step`. An
         orbit that does not reach its end is a value with its outcome: see :meth:`Model.simulate`.
         """
+        known_end(on_end)
         run = _given(
             t_end=t_end, transient=transient, dt_out=dt_out, stepper=stepper, rtol=rtol, atol=atol, step=step, max_steps=max_steps,
             escape_norm=escape_norm,
@@ -168,6 +169,7 @@ class Field:
         progress: Progress = None,
     ) -> Crossings:
         """The crossings of the orbit with ``coordinate = value``, located to round-off."""
+        known_end(on_end)
         if coordinate not in self.coordinates:
             raise ValueError(f"no coordinate {coordinate!r}: give one of {', '.join(self.coordinates)}")
         run = _given(t_end=t_end, transient=transient, rtol=rtol)
@@ -198,6 +200,7 @@ class Field:
         function is smooth on the scale of its coordinates. The function must not depend on the time (``ValueError``): make the phase a
         coordinate. `neutral` counts the flow's direction only: symmetries are not known.
         """
+        known_end(on_end)
         run = _given(stepper=stepper, rtol=rtol, atol=atol)
         count = min(6, len(self.coordinates)) if count is None else count
         with Bar(progress, 100.0, "%") as bar:

@@ -14,7 +14,7 @@ from ._registry import PRESETS
 from .analysed import Analysed
 from .atlases import Atlas, atlas_of, axis_text
 from .branches import Branches, branches_of
-from .calls import OnEnd, Random, ended_early, raised_with, range_of, real, remark, span, with_given
+from .calls import OnEnd, Random, ended_early, known_end, raised_with, range_of, real, remark, span, with_given
 from .curves import Curves, curves_of
 from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
@@ -79,6 +79,7 @@ class Model(Analysed):
 
         More: docs/recipes.md, units in docs/units.md.
         """
+        known_end(on_end)
         given = {
             "t_end": t_end, "transient": transient, "dt_out": dt_out, "random": random, "seed": seed, "noise": noise,
             "noise_velocity": noise_velocity, "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,

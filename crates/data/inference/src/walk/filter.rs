@@ -91,8 +91,20 @@ impl State {
     }
 }
 
-/// Each innovation with its variance, piece by piece. The first place of a piece starts it: no velocity is known.
-fn run(pieces: &[Vec<Fix>], persistence: f64, error: f64, mut each: impl FnMut(usize, [f64; 2], f64)) {
+/// One step of the filter.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    piece: usize,
+    /// The velocity that is expected before the step.
+    pub(super) velocity: [f64; 2],
+    /// The innovation; standardised in the results of [`steps`].
+    pub(super) innovation: [f64; 2],
+    /// Its variance, before it is standardised, for unit variance of the velocity.
+    pub(super) variance: f64,
+}
+
+/// Each step, piece by piece. The first place of a piece starts it: no velocity is known.
+fn run(pieces: &[Vec<Fix>], persistence: f64, error: f64, mut each: impl FnMut(Step)) {
     for (number, piece) in pieces.iter().enumerate() {
         let Some(first) = piece.first() else { continue };
         let mut state = State { x: first.at, v: [0.0; 2], c: [error, 0.0, 1.0] };
@@ -104,9 +116,10 @@ fn run(pieces: &[Vec<Fix>], persistence: f64, error: f64, mut each: impl FnMut(u
                 _ => Transition::new(interval, persistence),
             };
             known = Some((interval, by));
+            let velocity = state.v;
             state.forecast(&by);
-            let (new, variance) = state.correct(pair[1].at, error);
-            each(number, new, variance);
+            let (innovation, variance) = state.correct(pair[1].at, error);
+            each(Step { piece: number, velocity, innovation, variance });
         }
     }
 }
@@ -114,21 +127,30 @@ fn run(pieces: &[Vec<Fix>], persistence: f64, error: f64, mut each: impl FnMut(u
 /// Sums of a walk with this persistence time; `error`: variance of a coordinate's error relative to that of the velocity.
 pub(super) fn sums(pieces: &[Vec<Fix>], persistence: f64, error: f64) -> Sums {
     let mut sums = Sums::default();
-    run(pieces, persistence, error, |_, new, variance| {
+    run(pieces, persistence, error, |Step { innovation: [x, y], variance, .. }| {
         sums.count += 2.0;
         sums.logarithms += 2.0 * libm::log(variance);
-        sums.squares += (new[0] * new[0] + new[1] * new[1]) / variance;
+        sums.squares += (x * x + y * y) / variance;
     });
     sums
 }
 
-/// Standardised innovations of each coordinate of each piece; `[persistence, error]` as in [`sums`].
-pub(super) fn innovations(pieces: &[Vec<Fix>], [persistence, error]: [f64; 2]) -> Vec<Vec<f64>> {
-    let mut series = vec![Vec::new(); 2 * pieces.len()];
-    run(pieces, persistence, error, |piece, new, variance| {
-        for k in 0..2 {
-            series[2 * piece + k].push(new[k] / variance.sqrt());
-        }
+/// The steps with standardised innovations; `[persistence, error]` as in [`sums`].
+pub(super) fn steps(pieces: &[Vec<Fix>], [persistence, error]: [f64; 2]) -> Vec<Step> {
+    let mut all = Vec::new();
+    run(pieces, persistence, error, |step| {
+        all.push(Step { innovation: step.innovation.map(|new| new / step.variance.sqrt()), ..step });
     });
+    all
+}
+
+/// The innovations of each coordinate of each piece.
+pub(super) fn by_coordinate(steps: &[Step], pieces: usize) -> Vec<Vec<f64>> {
+    let mut series = vec![Vec::new(); 2 * pieces];
+    for step in steps {
+        for k in 0..2 {
+            series[2 * step.piece + k].push(step.innovation[k]);
+        }
+    }
     series
 }

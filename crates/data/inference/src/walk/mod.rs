@@ -1,17 +1,18 @@
 //! The persistent random walk with errors of the positions: the first null of every law of motion.
 
 mod filter;
+mod misfit;
 mod ridge;
 mod table;
 
 use crate::warnings::ljung_box;
+pub use misfit::Misfit;
+use misfit::Tests;
 use serde::Serialize;
 use table::{Known, Table};
 
 /// Fewest steps between places: three numbers and their intervals are estimated from two coordinates of each.
 const LEAST_STEPS: usize = 12;
-/// Significance below which innovations are not white, and the walk does not describe the places.
-const COLOURED: f64 = 1e-3;
 
 /// A place at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,13 +53,30 @@ pub struct PersistentWalk {
     pub steps: usize,
     /// Probability of autocorrelations of the innovations as large as these, if the walk describes the places (Ljung and Box).
     pub p_value: f64,
+    /// Score of a turn of the velocity one way (anticlockwise above 0): for such a walk a normal number of variance 1.
+    pub turning_score: f64,
+    /// Probability that the changes of the velocity of such a walk have an axis as clear as these.
+    pub direction_p_value: f64,
 }
 
 impl PersistentWalk {
-    /// Returns `true` if the walk describes the places: its innovations are white.
+    /// The mean-square displacement after a time `lag`, without the errors of the places.
+    #[must_use]
+    pub fn displacement(&self, lag: f64) -> f64 {
+        let p = self.persistence.value;
+        4.0 * self.diffusion.value * (lag + p * libm::expm1(-lag / p))
+    }
+
+    /// Returns `true` if the walk describes the places: its innovations are white, isotropic, and turn neither way.
     #[must_use]
     pub fn describes(&self) -> bool {
-        self.p_value >= COLOURED
+        self.misfit().is_none()
+    }
+
+    /// The reason why the walk does not describe the places; `None` where it does.
+    #[must_use]
+    pub fn misfit(&self) -> Option<Misfit> {
+        misfit::misfit(self.turning_score, self.direction_p_value, self.p_value)
     }
 }
 
@@ -77,7 +95,7 @@ impl PersistentWalk {
 /// Source: Fuerth (1920), Z. Phys. 2, 244; Kalman (1960), J. Basic Eng. 82, 35; profile: Venzon and Moolgavkar (1988), Appl. Stat. 37, 87.
 ///
 /// # Units   of the places and times
-/// # Not     for motion that turns steadily or repeats: [`PersistentWalk::describes`] says so
+/// # Not     for motion that turns one way, has a direction or repeats: [`PersistentWalk::misfit`] says so
 /// # Checked by  tests/all/walk.rs: likelihood against the multivariate normal density; coverage with gaps and errors; limits of P
 #[must_use]
 pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
@@ -90,7 +108,8 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
     let best = table.best();
     let [persistence, speed, diffusion, error] =
         [Known::Persistence, Known::Speed, Known::Diffusion, Known::Error].map(|known| table.bounded(known));
-    let innovations = filter::innovations(pieces, best);
+    let found = filter::steps(pieces, best);
+    let tests = Tests::of(&found, best[1]);
     Some(PersistentWalk {
         persistence,
         speed: Bounded { high: speed.high.filter(|_| persistence.low.is_some()), ..speed },
@@ -98,7 +117,9 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
         error,
         log_likelihood: table.highest(),
         steps,
-        p_value: ljung_box(&innovations).1,
+        p_value: ljung_box(&filter::by_coordinate(&found, pieces.len())).1,
+        turning_score: tests.turning,
+        direction_p_value: tests.direction,
     })
 }
 

@@ -1,7 +1,7 @@
 //! Persistent random walks: the likelihood against its definition, and intervals of walks with gaps and errors.
 
 use motiform_dynamics::Normal;
-use motiform_inference::{Fix, PersistentWalk, persistent_walk, walk_likelihood};
+use motiform_inference::{Fix, Misfit, PersistentWalk, persistent_walk, walk_likelihood};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -186,6 +186,72 @@ fn a_circle_is_not_described() {
     assert!(persistent_walk(&[fixes[..12].to_vec()]).is_none(), "eleven steps");
     let rest = vec![Fix { t: 0.0, at: [1.0, 1.0] }; 9];
     assert!(persistent_walk(&[rest]).is_none());
+}
+
+/// A path of unit steps with these headings, with errors of the places.
+fn path(headings: impl Iterator<Item = f64>, error: f64, normal: &mut Normal) -> Vec<Fix> {
+    let mut at = [0.0; 2];
+    let mut fixes = Vec::new();
+    for (k, heading) in headings.enumerate() {
+        at = [at[0] + libm::cos(heading), at[1] + libm::sin(heading)];
+        fixes.push(Fix { t: k as f64, at: at.map(|x| x + error * normal.next()) });
+    }
+    fixes
+}
+
+/// Headings that diffuse, with and without a turn: D of the turning ones is smaller than that of any walk by the factor 1 + (omega/Dr)^2.
+#[test]
+fn walks_that_keep_turning_are_not_described() {
+    for (rate, least, most) in [(0.0, 0, 3), (0.15, 39, 40), (-0.3, 40, 40)] {
+        let turning = (0..40).filter(|&seed| {
+            let mut normal = Normal::new(seed, 7);
+            let mut heading = 0.0;
+            let steps: Vec<f64> = (0..300)
+                .map(|_| {
+                    heading += rate + 0.45 * normal.next();
+                    heading
+                })
+                .collect();
+            let walk = found(&path(steps.into_iter(), 0.02, &mut normal));
+            assert!(rate == 0.0 || walk.turning_score * rate > 0.0);
+            walk.misfit() == Some(Misfit::Turns)
+        });
+        let count = turning.count();
+        assert!((least..=most).contains(&count), "{rate}: {count} of 40");
+    }
+}
+
+/// Corners of a square, reflections between walls, and a zigzag: 10 to 20 sharp turns, further apart than the lags of the test of
+/// whiteness.
+#[test]
+fn paths_with_a_direction_or_a_sense_are_not_described() {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let square = |k: usize| quarter * (k / 25) as f64;
+    let zigzag = |k: usize| 0.3 + if (k / 15).is_multiple_of(2) { 0.6 } else { -0.6 };
+    let stripe = |k: usize| 1.1 + if (k / 20).is_multiple_of(2) { 0.0 } else { 2.0 * quarter };
+    let kinds: [(&dyn Fn(usize) -> f64, Misfit); 3] =
+        [(&square, Misfit::Turns), (&zigzag, Misfit::Directed), (&stripe, Misfit::Directed)];
+    for (heading, expected) in kinds {
+        for seed in 0..10 {
+            let walk = found(&path((0..300).map(heading), 0.01, &mut Normal::new(seed, 3)));
+            assert_eq!(walk.misfit(), Some(expected), "{walk:?}");
+        }
+    }
+}
+
+/// The scores of turning of walks are normal: their mean and variance over walks, with and without gaps.
+#[test]
+fn scores_of_turning_are_normal() {
+    for (truth, sampling, seen) in [([4.0, 1.2, 0.05], (1.0, 200), 1.0), ([2.0, 1.0, 0.6], (0.7, 120), 0.8)] {
+        let scores: Vec<f64> =
+            (0..400).map(|seed| found(&walk(truth, sampling, seen, 900 + seed)).turning_score).collect();
+        let mean = scores.iter().sum::<f64>() / 400.0;
+        let variance = scores.iter().map(|z| z * z).sum::<f64>() / 400.0;
+        // standard errors 0.05 and 0.07
+        assert!(mean.abs() < 0.17 && (variance - 1.0).abs() < 0.22, "{mean} {variance}");
+        let beyond = scores.iter().filter(|z| z.abs() > 2.576).count();
+        assert!(beyond <= 12, "{beyond} of 400, 4 expected");
+    }
 }
 
 /// The likelihood at each end of an interval of P, highest over speed and error, is 1.92 below the maximum; where there is no end, the

@@ -102,7 +102,8 @@ impl RelativeEquilibrium {
 /// Relative changes of a shape under which its residual changes by its derivatives, and by rounding.
 const NUDGE: f64 = 8.0 * EPS;
 
-/// Bound of the rounding of `f - omega Gu` with the derivatives `columns`: `2 eps sum_j |A_ij u_j|`, or what is seen of it where that is more.
+/// Bound of the rounding of `f - omega Gu` with the derivatives `columns`: `2 eps sum_j |A_ij u_j|`, or what is seen of it where that is
+/// more.
 pub(super) fn rounding_of(
     body: &dyn Equivariant,
     (shape, omega): (&[f64], f64),

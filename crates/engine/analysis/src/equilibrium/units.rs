@@ -31,7 +31,8 @@ impl Units {
         Self::among(&[body])
     }
 
-    /// The units of several fields that differ in the values of parameters: where a coefficient vanishes at one of them, the others have it.
+    /// The units of several fields that differ in the values of parameters: where a coefficient vanishes at one of them, the others have
+    /// it.
     #[must_use]
     pub fn among(bodies: &[&dyn Equivariant]) -> Self {
         let rays: Vec<Vec<Vec<f64>>> = bodies.iter().map(|body| rays(*body)).collect();

@@ -32,7 +32,10 @@ pub(super) fn in_motion(run: &Lyapunov, slow: f64, fastest: f64) -> Result<Lyapu
     let none = |why: String| NoMeasure { why, cancels: false };
     let moved = run.reduced_speeds.iter().any(|&speed| speed >= slow * fastest);
     let Some(run) = moved.then(|| run.moving(slow)).flatten() else {
-        return Err(none("the orbit rested at a saddle while the exponent was measured".to_owned()));
+        return Err(none(
+            "the orbit rested, at a saddle or on a slow part of its cycle, while the exponent was measured"
+                .to_owned(),
+        ));
     };
     let fastest = run.reduced_speeds.iter().copied().fold(0.0, f64::max);
     let rests: Vec<bool> = run.reduced_speeds.iter().map(|&speed| speed < slow * fastest).collect();

@@ -94,7 +94,7 @@ impl Regime {
                 "A shape that repeats up to a rotation, without net rotation: the body travels on, left and right by turns."
             }
             Self::Chaotic => "Neighbouring motions move apart: the largest Lyapunov exponent is positive.",
-            Self::BlowUp => "The shape leaves every bound in finite time.",
+            Self::BlowUp => "The shape grows beyond every bound, in finite time or at a constant rate.",
             Self::Undetermined => "The evidence does not decide.",
         }
     }

@@ -24,7 +24,7 @@ pub(super) fn blow_up(singular: bool, t: f64, time: f64) -> Verdict {
     let why = if singular {
         format!("the shape grows like a singularity of finite time, t* = {t:.6}")
     } else {
-        format!("the shape left every bound at t = {t:.6}")
+        format!("the shape left every bound at t = {t:.6}; its law of growth gives no finite time t*")
     };
     let mut verdict = Verdict::new(Regime::BlowUp, Attractor::Escape, why, time);
     verdict.escape_time = Some(t);

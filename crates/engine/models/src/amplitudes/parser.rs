@@ -7,8 +7,8 @@
 //! atom    = number | i | pi | parameter | z1, z2, .. | function(sum) | (sum) | |z1|
 //! ```
 //!
-//! Functions of any sum are `conj`, `re(z) = (z + conj(z))/2` and `im(z) = (z - conj(z))/(2i)`. A parameter may be called `re` or `im`: then
-//! the function has no name.
+//! Functions of any sum are `conj`, `re(z) = (z + conj(z))/2` and `im(z) = (z - conj(z))/(2i)`. A parameter may be called `re` or `im`:
+//! then the function has no name.
 
 use super::coefficient::{Function, Kind, Tape};
 use super::polynomial::{MOST_ORDER, MOST_TERMS, Monomial, Polynomial, Refusal};

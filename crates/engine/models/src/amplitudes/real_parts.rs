@@ -17,7 +17,7 @@ pub(super) type Powers = Vec<u8>;
 /// Terms in real and imaginary parts.
 pub(super) type RealTerms = BTreeMap<Powers, Combination>;
 
-/// What is left of a sum that cancels is less than this part of its summands.
+/// The rest of a sum that cancels is less than this part of its summands.
 const CANCELLED: f64 = 1e-15;
 
 /// Values of the parameters at which sums are examined: a sum that vanishes at both of them vanishes at all values.

@@ -1,10 +1,11 @@
 //! Numbers over cells.
 
+use super::Numbers;
 use super::displacement;
 use super::places::Places;
 use crate::{AtLag, Observation, OverCells, over_cells};
 use motiform_dynamics::order::ascending;
-use motiform_inference::{Bounded, PersistentWalk};
+use motiform_inference::{Bounded, PValue, PersistentWalk, chi_square_tail};
 use motiform_statistics::four_digits;
 use motiform_study::Quantity;
 use motiform_study::quantity::cell;
@@ -72,15 +73,84 @@ pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
 
 /// Numbers of the walk that too many cells only bound, or that single cells know too poorly.
 fn withheld(found: &[Observation]) -> Vec<Withheld> {
-    let walks: Vec<&PersistentWalk> =
-        found.iter().filter_map(|one| one.numbers.walk.as_ref().filter(|walk| walk.describes())).collect();
+    let cells: Vec<(&Numbers, &PersistentWalk)> = found
+        .iter()
+        .filter_map(|one| Some((&one.numbers, one.numbers.walk.as_ref().filter(|walk| walk.describes())?)))
+        .collect();
+    let walks: Vec<&PersistentWalk> = cells.iter().map(|cell| cell.1).collect();
+    let refused = found.iter().filter_map(|one| one.numbers.walk.as_ref()?.misfit()).count();
+    let together =
+        few_left(walks.len(), refused).or_else(|| turning_together(&walks)).or_else(|| elsewhere(&cells));
     let all = |of: fn(&PersistentWalk) -> Bounded| walks.iter().map(|walk| of(walk)).collect::<Vec<_>>();
     let numbers =
         [(&cell::PERSISTENCE, all(|walk| walk.persistence)), (&cell::DIFFUSION, all(|walk| walk.diffusion))];
     let one = |(quantity, of_cells): (&'static Quantity, Vec<Bounded>)| {
-        Some(Withheld { quantity, why: why_biased(&of_cells)? })
+        Some(Withheld { quantity, why: together.clone().or_else(|| why_biased(&of_cells))? })
     };
     numbers.into_iter().filter_map(one).collect()
+}
+
+/// The sentence that most cells are no such walk, if so: the others may be those in which it does not show.
+fn few_left(walks: usize, refused: usize) -> Option<String> {
+    (refused > walks && walks > 0).then(|| {
+        format!(
+            "no persistent random walk describes the path of {refused} of {} cells; the others may be those in which that does not show",
+            walks + refused
+        )
+    })
+}
+
+/// Significance of tests of all walks together.
+const TOGETHER: f64 = 1e-3;
+/// Fewest cells of these tests.
+const FEWEST: usize = 8;
+
+/// The sentence that walks turn one way, each for itself or all alike, although no single cell shows it, if they do.
+fn turning_together(walks: &[&PersistentWalk]) -> Option<String> {
+    let count = walks.len() as f64;
+    let squares: f64 = walks.iter().map(|walk| walk.turning_score * walk.turning_score).sum();
+    let sum: f64 = walks.iter().map(|walk| walk.turning_score).sum();
+    let p = chi_square_tail(squares, walks.len()).min(chi_square_tail(sum * sum / count, 1));
+    (walks.len() >= FEWEST && p < TOGETHER).then(|| {
+        format!(
+            "of {} cells whose path alone is a persistent random walk the velocities keep turning one way, taken together ({}): \
+             such cells diffuse less than these walks",
+            walks.len(),
+            PValue(p)
+        )
+    })
+}
+
+/// The lag, as a part of the record, at which displacements are compared with those of the walks, and the ratio beyond which they disagree
+/// where their difference is so many standard errors.
+const FAR: f64 = 0.25;
+const APART: f64 = 1.5;
+const ERRORS: f64 = 4.0;
+
+/// The sentence that cells displace themselves by far less or more than their walks, over long times, if they do.
+fn elsewhere(cells: &[(&Numbers, &PersistentWalk)]) -> Option<String> {
+    let ratio = |(numbers, walk): &(&Numbers, &PersistentWalk)| {
+        let [first, last] = numbers.span?;
+        let lag = FAR * (last - first);
+        let off = |point: &&AtLag| (point.lag - lag).abs();
+        let near = numbers.displacement.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let error = walk.error.value;
+        Some(near.value.value / (walk.displacement(near.lag) + 4.0 * error * error))
+    };
+    let ratios: Vec<f64> = cells.iter().filter_map(ratio).filter(|ratio| ratio.is_finite()).collect();
+    let count = ratios.len() as f64;
+    let mean = ratios.iter().sum::<f64>() / count;
+    let variance = ratios.iter().map(|ratio| (ratio - mean) * (ratio - mean)).sum::<f64>() / (count - 1.0);
+    let apart =
+        (mean - 1.0).abs() > ERRORS * (variance / count).sqrt() && !(1.0 / APART..=APART).contains(&mean);
+    (ratios.len() >= FEWEST && apart).then(|| {
+        format!(
+            "over a quarter of the record the mean-square displacement of {} cells is {} times that of their walks: {}",
+            ratios.len(),
+            four_digits(mean),
+            if mean < 1.0 { "they are held back, or come back" } else { "they keep a direction" }
+        )
+    })
 }
 
 /// The reason why a mean of these numbers over cells is biased, if there is one.

@@ -60,9 +60,9 @@ impl Numbers {
     fn rms_speed(&self) -> Answer {
         match (self.steps.as_ref().and_then(|steps| steps.rms_speed), &self.walk) {
             (Some(speed), _) => Answer::Known(speed),
-            (None, Some(walk)) if !walk.describes() => Answer::unknown(
-                "the errors of the places are not known: no persistent random walk describes the path",
-            ),
+            (None, Some(walk)) if !walk.describes() => {
+                Answer::unknown(format!("the errors of the places are not known: {}", undescribed(walk)))
+            }
             (None, None) if self.seen > 1 => Answer::unknown(TOO_FEW),
             (None, _) => Answer::unknown(self.without_steps()),
         }
@@ -85,7 +85,7 @@ impl Numbers {
             });
         };
         if !walk.describes() {
-            return Answer::unknown("no persistent random walk describes the path");
+            return Answer::unknown(undescribed(walk));
         }
         let Bounded { value, low, high } = number(walk);
         match (low, high) {
@@ -103,6 +103,12 @@ impl Numbers {
             (None, None) => Answer::unknown(format!("the record sets no bound to the {name}")),
         }
     }
+}
+
+/// The reason why a walk does not describe a path.
+fn undescribed(walk: &PersistentWalk) -> String {
+    let why = walk.misfit().map_or_else(String::new, |misfit| format!(": {misfit}"));
+    format!("no persistent random walk describes the path{why}")
 }
 
 /// Numbers of all cells as a table: the value and the ends of its interval; empty where there is none.

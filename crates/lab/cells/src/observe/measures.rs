@@ -1,5 +1,6 @@
 //! Numbers of a record: displacements, headings, shapes, with errors from blocks.
 
+use super::course;
 use motiform_analysis::symmetry::wrap;
 use motiform_dynamics::Normal;
 use motiform_inference::{Observation, Track};
@@ -8,7 +9,7 @@ use serde::Serialize;
 /// Resamples of the record.
 pub(super) const RESAMPLES: usize = 200;
 /// Blocks of a record.
-const BLOCKS: usize = 8;
+pub(super) const BLOCKS: usize = 8;
 /// A displacement has a heading where it is this many times its error.
 const CLEAR: f64 = 5.0;
 /// Fewest samples of a stretch without gaps.
@@ -35,6 +36,12 @@ pub struct Measures {
     pub speed: f64,
     /// Scatter of the speed, relative to its mean, corrected for errors.
     pub speed_scatter: f64,
+    /// Change of the speed from the first to the last block of the record by a straight line, relative to its mean; 0 where that is
+    /// within 4 of its errors.
+    pub speed_trend: f64,
+    /// Amplitude, relative to its mean, of the speed as a function of the axis along which the cell moves (twice per turn); 0 where that is
+    /// within 4 of its errors.
+    pub speed_axis: f64,
     /// Mean turning rate of the heading (rad per time), and its standard error from blocks.
     pub turning: f64,
     /// See `turning`.
@@ -100,7 +107,7 @@ impl Measures {
         let length: f64 = sizes.iter().step_by(lag).sum();
         let mean_size = mean(sizes.iter().copied());
         let size_variance = (scatter(&sizes) * scatter(&sizes) - 0.5 * noise).max(0.0);
-        let speeds = sizes.iter().map(|s| s / time).collect();
+        let speeds: Vec<f64> = sizes.iter().map(|s| s / time).collect();
         Some(Self {
             frames: frames.len(),
             span: ends.map(|frame| frame.t),
@@ -111,6 +118,8 @@ impl Measures {
             wandering: wandering(&frames),
             speed: mean_size / time,
             speed_scatter: size_variance.sqrt() / mean_size.max(f64::MIN_POSITIVE),
+            speed_trend: course::trend(&speeds),
+            speed_axis: course::axis(&speeds, &headings),
             turning,
             turning_error: spread / (blocks.len() as f64).sqrt(),
             turning_scatter: spread / turning.abs().max(f64::MIN_POSITIVE),

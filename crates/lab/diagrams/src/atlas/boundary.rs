@@ -189,11 +189,12 @@ pub fn boundaries(plan: &AtlasPlan, grid: &Grid, lines: &[Line]) -> Vec<Boundary
             None => all.push((pair, vec![name])),
         }
     }
-    let all = all.into_iter().map(|(between, names)| summed(between, &names)).collect();
+    let renamed: Vec<[Regime; 2]> = lines.iter().flat_map(|line| line.renamed.iter().copied()).collect();
+    let all = all.into_iter().map(|(between, names)| summed(between, &names, &renamed)).collect();
     descending(all, |boundary: &Boundary| boundary.edges)
 }
 
-fn summed(between: Pair, names: &[Option<&str>]) -> Boundary {
+fn summed(between: Pair, names: &[Option<&str>], renamed: &[[Regime; 2]]) -> Boundary {
     let mut kinds: Vec<(String, usize)> = Vec::new();
     for name in names.iter().flatten() {
         match kinds.iter_mut().find(|kind| kind.0 == **name) {
@@ -203,7 +204,7 @@ fn summed(between: Pair, names: &[Option<&str>]) -> Boundary {
     }
     let kinds = descending(kinds, |kind| kind.1);
     let unnamed = names.iter().filter(|name| name.is_none()).count();
-    let why = (unnamed > 0).then(|| why(&differing(&between)));
+    let why = (unnamed > 0).then(|| why(&differing(&between), renamed));
     Boundary { between, edges: names.len(), kinds, unnamed, why }
 }
 
@@ -218,7 +219,11 @@ pub(crate) fn descending<T>(items: Vec<T>, size: impl Fn(&T) -> usize) -> Vec<T>
 }
 
 /// Why a part of a boundary has no name.
-fn why(differing: &[Regime]) -> &'static str {
+fn why(differing: &[Regime], renamed: &[[Regime; 2]]) -> &'static str {
+    let one = |pair: &[Regime; 2]| pair.iter().all(|motion| differing.contains(motion));
+    if differing.len() == 2 && renamed.iter().any(one) {
+        return "no bifurcation: the two are names of one branch, whose motion changes its name (as where its velocity passes over rest)";
+    }
     let has = |regime| differing.contains(&regime);
     if has(Regime::Undetermined) {
         "a motion is undetermined there"

@@ -9,7 +9,7 @@ use crate::curves::CurveSample;
 use motiform_continuation::Degenerate;
 use motiform_figures::{Cell, CurveMap, MapEnd, PhaseDiagram};
 use motiform_lab::draw::{FigureFormat, Picture, files, symbol, words};
-use motiform_study::Error;
+use motiform_study::{Error, counted};
 
 /// Draws `atlas`: as SVG and PNG, with its numbers as CSV.
 ///
@@ -78,15 +78,15 @@ fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
     let mut all = vec![
         words::named(plan.info()?, &c.parameters, &varied, &c.ties),
         format!(
-            "Motions of {} initial {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. \
-             Stability limits: {curves} curves by pseudo-arclength continuation. \
+            "Motions of {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. \
+             Stability limits: {} by pseudo-arclength continuation. \
              Below the names of wide regions: paths of the motions, not to one scale.",
-            c.samples,
-            if c.samples == 1 { "state" } else { "states" },
+            counted(c.samples, "initial state"),
             c.random.words(),
             c.seed,
             grid.computed(),
             grid.places.len(),
+            counted(curves, "curve"),
         ),
     ];
     all.extend(unlocated(points(folder).into_iter()));

@@ -1,7 +1,7 @@
 //! A line across the plane: the branches that begin with a motion of one of its cells, and where their motions begin and end.
 
 use crate::curves::{FollowedCurve, follow_curve_within};
-use crate::{Allowance, BranchEnd, Branches, Sample, follow_within, is_stable};
+use crate::{Allowance, BranchEnd, Branches, Followed, Sample, follow_within, is_stable};
 use motiform_analysis::Regime;
 use motiform_continuation::ConnectionKind;
 use motiform_dynamics::Watch;
@@ -47,6 +47,9 @@ pub struct Line {
     pub curves: Vec<StabilityCurve>,
     /// Ends of stable motions.
     pub ends: Vec<LineEnd>,
+    /// Pairs of motions that are names of one branch, without a bifurcation between them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub renamed: Vec<[Regime; 2]>,
     /// Steps of the flow that its orbits took.
     pub steps: u64,
     /// Why nothing could be followed, or not all.
@@ -85,6 +88,17 @@ pub(crate) fn course(
     }
 }
 
+/// The names that follow one another on a branch.
+fn renamed(found: &Branches) -> Vec<[Regime; 2]> {
+    let mut all: Vec<[Regime; 2]> = Vec::new();
+    for parts in found.branches.iter().map(Followed::parts) {
+        let pairs = parts.windows(2).map(|pair| [pair[0].motion, pair[1].motion]);
+        all.extend(pairs);
+    }
+    all.dedup();
+    all
+}
+
 /// Follows the curves on which motions of these branches gain or lose their stability: those that begin at a boundary of the motion, as
 /// `bounds` says of places, and are not known. `None` if the watch stopped it.
 pub(crate) fn read_line(
@@ -103,6 +117,7 @@ pub(crate) fn read_line(
         branches: 0,
         curves: Vec::new(),
         ends: Vec::new(),
+        renamed: Vec::new(),
         steps: 0,
         refused: None,
     };
@@ -112,6 +127,7 @@ pub(crate) fn read_line(
     };
     line.branches = found.branches.len();
     line.ends = ends(&plan, &found);
+    line.renamed = renamed(&found);
     let mut doublings: Vec<f64> = Vec::new();
     for (kind, start, motion) in limits(&found) {
         let Some(sample) = found.at(start) else { continue };

@@ -61,7 +61,7 @@ pub fn follow_curves_kept(
         if done.begun(*start) || done.passes(plan, *kind, *start) {
             continue;
         }
-        match follow_curve(plan, &done.branches, (*kind, *start), watch) {
+        match follow_curve(plan, &done.branches, (*kind, *start), &part) {
             Ok(followed) => {
                 done.curves.push(followed);
                 keep(&done)?;

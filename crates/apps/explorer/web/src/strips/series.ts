@@ -43,8 +43,8 @@ export class SeriesStrip {
     const shape = observables.map((_, i) => SHAPE + i);
     this.rows = [
       this.row("speed", "|*v*|", [SPEED], false),
-      this.row("turning rate", "*ω*", [TURNING], false),
-      this.row("shape", "", shape, true, observables),
+      this.row("turning rate", "*ω*", [TURNING], observables.length === 0),
+      ...(observables.length ? [this.row("shape", "", shape, true, observables)] : []),
     ];
   }
 
@@ -75,17 +75,19 @@ export class SeriesStrip {
   }
 
   private row(name: string, markup: string, columns: number[], last: boolean, observables: Observable[] = []): Row {
+    const headroom = observables.length ? HEADROOM : 0;
     const place = make("div", { class: "series-row" });
     const frame = make("div", { class: last ? "series-frame series-frame-last" : "series-frame" }, make("span", { class: "series-name", title: name }, symbol(markup)), place);
-    if (last) frame.append(keysOf(observables), make("span", { class: "series-time", title: "model time" }, symbol("*t*")));
+    if (observables.length) frame.append(keysOf(observables));
+    if (last) frame.append(make("span", { class: "series-time", title: "model time" }, symbol("*t*")));
     this.place.append(frame);
     const made = chart(place, `${name} against time`, {
       cursor: { sync: { key: "time" }, points: { show: false }, y: false, drag: { x: false, y: false } },
-      scales: { x: { time: false, auto: false }, y: { range: (plot, low, high) => (columns[0] === TURNING ? calm(plot.data[1], low, high) : roomy(low, high, last ? HEADROOM : 0)) } },
+      scales: { x: { time: false, auto: false }, y: { range: (plot, low, high) => (columns[0] === TURNING ? calm(plot.data[1], low, high) : roomy(low, high, headroom)) } },
       padding: [4, 14, last ? 0 : 3, 0],
       axes: [
         axis({ ...linear(), size: last ? 20 : 0, show: last }),
-        axis({ ...linear(3, last ? HEADROOM : 0), size: 48 }),
+        axis({ ...linear(3, headroom), size: 48 }),
       ],
       series: [{}, ...columns.map((_, i) => ({ stroke: () => curve(i), dash: DASHES[i], width: 1.5, points: { show: false } }))],
       hooks: { setCursor: [(plot: uPlot) => this.cursor(plot)] },

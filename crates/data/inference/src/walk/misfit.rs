@@ -1,0 +1,84 @@
+//! Tests of a path for what no persistent random walk has.
+
+use super::filter::Step;
+use std::fmt::{Display, Formatter};
+
+/// Significance below which innovations are not white.
+const COLOURED: f64 = 1e-3;
+
+/// Significance below which a path turns one way. A walk that keeps turning has a far smaller diffusion coefficient than S^2 P/2 long
+/// before its innovations are coloured.
+const TURNS: f64 = 0.01;
+
+/// Significance below which a path has a direction.
+const DIRECTED: f64 = 1e-3;
+
+/// The reason why a persistent random walk does not describe a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Misfit {
+    /// The velocity turns the same way again and again.
+    Turns,
+    /// The changes of the velocity have a direction: to and fro, along a channel, between walls.
+    Directed,
+    /// The changes of the velocity have a memory: circling, zigzagging, alternating.
+    Coloured,
+}
+
+impl Display for Misfit {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Turns => "the velocity keeps turning one way",
+            Self::Directed => "the changes of the velocity have a direction of their own",
+            Self::Coloured => "the changes of the velocity are not independent",
+        })
+    }
+}
+
+/// Tests of the walk of highest likelihood against what it does not have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tests {
+    /// See [`super::PersistentWalk::turning_score`].
+    pub(super) turning: f64,
+    /// See [`super::PersistentWalk::direction_p_value`].
+    pub(super) direction: f64,
+}
+
+impl Tests {
+    /// Of the standardised innovations e, with the velocity v that the walk expects before each:
+    ///
+    /// turning: `sum v x e / sqrt(sum (v x e)^2)`, normal, for e is independent of what was before;
+    /// direction: `|sum e^2|^2 / sum |e|^4` of e as complex numbers, exponential, for every direction of e is as likely.
+    ///
+    /// Both are sums over independent terms by their own squares, whatever the law of the innovations.
+    ///
+    /// Errors of places may have a direction (an elongated cell is placed better across): only steps count in whose innovation the motion
+    /// is the larger part.
+    pub(super) fn of(steps: &[Step], error: f64) -> Self {
+        let (mut turning, mut turning_squares) = (0.0, 0.0);
+        let (mut direction, mut fourth) = ([0.0; 2], 0.0);
+        for Step { velocity: [vx, vy], innovation: [x, y], variance, .. } in steps {
+            let across = vx * y - vy * x;
+            turning += across;
+            turning_squares += across * across;
+            if *variance < 2.0 * error {
+                continue;
+            }
+            direction[0] += x * x - y * y;
+            direction[1] += 2.0 * x * y;
+            fourth += (x * x + y * y) * (x * x + y * y);
+        }
+        let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
+        let axis = over(direction[0] * direction[0] + direction[1] * direction[1], fourth);
+        Self { turning: over(turning, turning_squares.sqrt()), direction: libm::exp(-axis) }
+    }
+}
+
+/// The misfit with this score of turning and these p-values, if there is one.
+pub(super) fn misfit(turning: f64, direction: f64, coloured: f64) -> Option<Misfit> {
+    let all = [
+        (libm::erfc(turning.abs() * std::f64::consts::FRAC_1_SQRT_2) < TURNS, Misfit::Turns),
+        (direction < DIRECTED, Misfit::Directed),
+        (coloured < COLOURED, Misfit::Coloured),
+    ];
+    all.into_iter().find(|one| one.0).map(|one| one.1)
+}
