@@ -45,7 +45,7 @@ pub fn logarithms_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)>
         values.extend(multipliers(&columns)?.into_iter().map(logarithm));
         from = end;
     }
-    values.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
+    values.sort_by(crate::linear::leading_first);
     Some(values)
 }
 

@@ -198,6 +198,10 @@ impl System for MovingFrame<'_> {
     fn dim(&self) -> usize {
         self.0.dim() + 3
     }
+
+    fn kept(&self) -> u64 {
+        self.0.kept()
+    }
 }
 
 impl VectorField<f64> for MovingFrame<'_> {

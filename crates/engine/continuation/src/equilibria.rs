@@ -15,7 +15,7 @@ use super::tracer::TOLERANCE;
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::Units;
 use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
-use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict};
+use motiform_analysis::linear::{add, apply, eigenvalues, leading_first, norm, restrict};
 use motiform_analysis::singular::svd;
 use motiform_dynamics::order::ascending;
 use motiform_dynamics::tangent::jacobian;
@@ -172,7 +172,7 @@ impl Problem for Equilibria<'_> {
         let shape = x[..self.dim].to_vec();
         let mut eigenvalues: Vec<(f64, f64)> =
             levels.iter().flatten().map(|level| (level.growth, level.angle)).collect();
-        eigenvalues.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
+        eigenvalues.sort_by(leading_first);
         let neutral = local.neutral.len();
         let scale = local.matrix.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
         Motion::Equilibrium(RelativeEquilibrium {

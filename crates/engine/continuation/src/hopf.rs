@@ -189,7 +189,7 @@ fn at_shape(
 ) -> Result<Coefficient, Undetermined> {
     let slice = slice(body, shape);
     let a = matrix(&slice);
-    if copies(&a, frequency) > 1 {
+    if others_critical(&a, frequency) {
         return Err(Undetermined::Directions);
     }
     let (unit, (first, count)) = if size > 0.0 { (size, STEPS) } else { (length, STEPS_AT_REST) };
@@ -200,13 +200,23 @@ fn at_shape(
     if found.value.is_finite() && found.error.is_finite() { Ok(found) } else { Err(Undetermined::Obstructed) }
 }
 
-/// Number of eigenvalues that are the critical one.
-fn copies(a: &DMatrix<Complex<f64>>, frequency: f64) -> usize {
+/// The eigenvalues of a real matrix.
+fn eigenvalues_of(a: &DMatrix<Complex<f64>>) -> Vec<(f64, f64)> {
     let columns: Vec<Vec<f64>> =
         a.column_iter().map(|column| column.iter().map(|z| z.re).collect()).collect();
-    let values = eigenvalues(&columns).unwrap_or_default();
+    eigenvalues(&columns).unwrap_or_default()
+}
+
+/// Number of eigenvalues that are the critical one.
+fn copies(a: &DMatrix<Complex<f64>>, frequency: f64) -> usize {
     let same = |value: &&(f64, f64)| libm::hypot(value.0, value.1 - frequency) < SAME * frequency;
-    values.iter().filter(same).count()
+    eigenvalues_of(a).iter().filter(same).count()
+}
+
+/// Returns `true` if there are several eigenvalues like the critical one, or one that is 0: there the coefficient has a pole.
+fn others_critical(a: &DMatrix<Complex<f64>>, frequency: f64) -> bool {
+    let vanishes = |value: &(f64, f64)| libm::hypot(value.0, value.1) < SAME * frequency;
+    copies(a, frequency) > 1 || eigenvalues_of(a).iter().any(vanishes)
 }
 
 /// The critical pair: its frequency, `q` and `p` with `<p, q> = 1`.

@@ -71,6 +71,9 @@ pub struct Point {
     /// Number of growing directions of the reduced motion: 0 if it is stable. At a special point that is the count of those that are not
     /// critical.
     pub unstable: usize,
+    /// Number of directions whose growth is 0 within its error; 0 at special points.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub neutral: usize,
     /// Derivative of the parameter by the length along the branch: it changes its sign at a fold.
     pub slope: f64,
     /// The kind of special point, if it was solved for as one.
@@ -80,11 +83,17 @@ pub struct Point {
     pub certificate: Option<Certificate>,
 }
 
+/// For serde.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+const fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
 impl Point {
     /// Returns `true` if small deviations die out.
     #[must_use]
     pub fn is_stable(&self) -> bool {
-        self.unstable == 0 && self.special.is_none()
+        self.unstable == 0 && self.neutral == 0 && self.special.is_none()
     }
 }
 

@@ -14,6 +14,9 @@ use super::special::Special;
 use motiform_dynamics::Watch;
 use std::collections::VecDeque;
 
+/// A growth of fewer errors than this has no sign along a branch.
+const NEUTRAL: f64 = 10.0;
+
 /// Newton's method has converged with a step shorter than this, if nothing else is asked for.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
@@ -264,6 +267,12 @@ impl<P: Problem> Tracer<P> {
         place.levels.iter().flatten().filter(|level| level.growth > critical).count()
     }
 
+    /// Number of levels that are 0 within their error.
+    fn neutral(&self, place: &Place<P::Local>) -> usize {
+        let error = NEUTRAL * self.problem.noise(&place.levels);
+        place.levels.iter().flatten().filter(|level| level.growth.abs() < error).count()
+    }
+
     fn point(&self, place: &Place<P::Local>, special: Option<Special>) -> Point {
         let located = special.is_some_and(|special| !matches!(special, Special::Unresolved { .. }));
         Point {
@@ -271,6 +280,7 @@ impl<P: Problem> Tracer<P> {
             arclength: place.arclength,
             motion: self.problem.motion(&place.x, &place.local, &place.levels),
             unstable: if located { self.beside_critical(place) } else { unstable(&place.levels) },
+            neutral: if special.is_some() { 0 } else { self.neutral(place) },
             slope: place.slope(),
             special,
             certificate: special.and(place.certificate),

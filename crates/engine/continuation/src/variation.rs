@@ -99,6 +99,10 @@ impl System for Variation<'_> {
     fn vectors(&self) -> Option<usize> {
         Some(self.neighbours.body.dim())
     }
+
+    fn kept(&self) -> u64 {
+        self.neighbours.body.kept()
+    }
 }
 
 impl VectorField<f64> for Variation<'_> {

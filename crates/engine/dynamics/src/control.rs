@@ -124,6 +124,25 @@ impl<B: Bundle> Controller<B> {
     }
 }
 
+/// An entry whose plane no orbit crosses has an absolute tolerance of this size: smaller ones have no relative accuracy.
+const LEAST_KEPT: f64 = 1e-290;
+
+/// The entries of a state, as error control sees them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Layout {
+    /// See [`crate::System::vectors`].
+    pub(crate) vectors: Option<usize>,
+    /// See [`crate::System::kept`].
+    pub(crate) kept: u64,
+}
+
+impl Layout {
+    #[inline(always)]
+    pub(crate) fn of<S: crate::System + ?Sized>(system: &S) -> Self {
+        Self { vectors: system.vectors(), kept: system.kept() }
+    }
+}
+
 /// Error norms of one step against the tolerances.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tolerance {
@@ -138,13 +157,29 @@ impl Tolerance {
         B::splat(1.0) / (u.abs().max(v.abs()) * self.rtol + B::splat(self.atol))
     }
 
-    /// The weights of all entries. If the state consists of `vectors` ([`crate::System::vectors`]), those after the first have one
-    /// weight each: `1 / (atol + rtol max_i max(|u_i|, |v_i|))`.
+    /// The weight of an entry whose plane no orbit crosses: `1 / (rtol max(|u|, |v|))`, infinite for a step that crosses it.
     #[inline(always)]
-    pub(crate) fn weights<B: Bundle>(&self, vectors: Option<usize>, u: &[B], v: &[B], out: &mut [B]) {
-        let length = vectors.unwrap_or(u.len()).clamp(1, u.len().max(1));
+    fn kept_weight<B: Bundle>(&self, u: B, v: B) -> B {
+        let (zero, least) = (B::splat(0.0), B::splat(LEAST_KEPT));
+        let crosses = (u.less(zero) & zero.less(v)) | (zero.less(u) & v.less(zero));
+        let weight = B::splat(1.0) / (u.abs().max(v.abs()) * self.rtol + least);
+        B::select(crosses, B::splat(f64::INFINITY), weight)
+    }
+
+    /// The weights of all entries. If the state consists of vectors, those after the first have one weight each:
+    /// `1 / (atol + rtol max_i max(|u_i|, |v_i|))`.
+    #[inline(always)]
+    pub(crate) fn weights<B: Bundle>(&self, layout: Layout, u: &[B], v: &[B], out: &mut [B]) {
+        let length = layout.vectors.unwrap_or(u.len()).clamp(1, u.len().max(1));
         for i in 0..length.min(u.len()) {
             out[i] = self.weight(u[i], v[i]);
+        }
+        if layout.kept != 0 {
+            for i in 0..length.min(u.len()).min(64) {
+                if layout.kept >> i & 1 != 0 {
+                    out[i] = self.kept_weight(u[i], v[i]);
+                }
+            }
         }
         for from in (length..u.len()).step_by(length) {
             let mut size = u[from].abs().max(v[from].abs());
@@ -182,11 +217,11 @@ impl Tolerance {
         tableau: &Tableau,
         slopes: &Slopes<B>,
         h: B,
-        (u, v, vectors): (&[B], &[B], Option<usize>),
+        (u, v, layout): (&[B], &[B], Layout),
         scratch: &mut [B],
     ) -> B {
         let (scratch, scales) = scratch.split_at_mut(u.len());
-        self.weights(vectors, u, v, scales);
+        self.weights(layout, u, v, scales);
         let mean_square = |weights, scratch: &mut [B]| {
             slopes.combine(weights, scratch);
             let mut sum = B::splat(0.0);

@@ -188,6 +188,11 @@ impl<M: System> System for InPlane<M> {
         self.0.obstacle(&u[..u.len() - 2])
     }
 
+    #[inline(always)]
+    fn kept(&self) -> u64 {
+        self.0.kept()
+    }
+
     /// As for the shape; the position is unchanged.
     fn project(&self, u: &[f64], projected: &mut [f64]) -> Result<bool, Obstacle> {
         let (shape, position) = u.split_at(u.len() - 2);

@@ -1,6 +1,6 @@
 //! One orbit, step by step; the caller provides the loop.
 
-use crate::control::{Controller, Tolerance};
+use crate::control::{Controller, Layout, Tolerance};
 use crate::ensemble::Pace;
 pub use crate::interpolant::DenseStep;
 use crate::interpolant::{Ends, Interpolant};
@@ -180,7 +180,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
                 self.evaluate_end(h);
             }
             let error = {
-                let ends = (&self.u[..], &self.scratch[..], self.field.vectors());
+                let ends = (&self.u[..], &self.scratch[..], Layout::of(self.field));
                 tolerance.step_error(self.tableau, &self.slopes, h, ends, &mut self.errors)
             };
             let judgement = self.controller.judge(error);

@@ -166,6 +166,10 @@ impl<F: System + ?Sized> System for Tangent<'_, F> {
     fn vectors(&self) -> Option<usize> {
         Some(self.field.dim())
     }
+
+    fn kept(&self) -> u64 {
+        self.field.kept()
+    }
 }
 
 impl<F: Differentiable + ?Sized> VectorField<f64> for Tangent<'_, F> {

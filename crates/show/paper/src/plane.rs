@@ -40,6 +40,7 @@ impl Plane {
             arclength: 0.0,
             motion: at.motion.clone(),
             unstable: at.unstable,
+            neutral: 0,
             slope: 0.0,
             special: Some(at.special),
             certificate: None,

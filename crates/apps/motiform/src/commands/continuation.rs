@@ -8,8 +8,8 @@ use crate::progress::Progress;
 use motiform_diagrams::draw::branch_figures;
 use motiform_diagrams::starts::StartPoint;
 use motiform_diagrams::{
-    BranchEnd, BranchFolder, Coefficient, Followed, NamedPart, SpecialEntry, follow_kept, nine, stated,
-    stretches, summary,
+    BranchEnd, BranchFolder, Coefficient, Followed, NamedPart, SpecialEntry, follow_kept, neutral_stretches,
+    nine, stated, stretches, summary,
 };
 use motiform_lab::draw::{self, Figures, Picture};
 use motiform_store::{Folder, Journal, Opening};
@@ -207,7 +207,12 @@ fn branch(
         write!(f, "\n           {:<17} {place}", format!("becomes {}", pair[1].motion.name()))?;
     }
     let stable = stretches(&folder.found, followed);
-    if stable.is_empty() {
+    let neutral = neutral_stretches(followed);
+    for [from, to] in &neutral {
+        let [from, to] = [nine(*from), nine(*to)];
+        write!(f, "\n           neutral from {from} to {to}: a growth rate is 0 within its error")?;
+    }
+    if stable.is_empty() && neutral.is_empty() {
         write!(f, "\n           stable nowhere")?;
     }
     for [from, to] in stable {

@@ -4,12 +4,14 @@ use super::continuation::{end, or_abandon, output, prepare, write};
 use crate::args::ContinueOptions;
 use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
+use motiform_diagrams::Sample;
 use motiform_diagrams::curves::{
     CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, follow_curves_kept, not_found,
 };
 use motiform_diagrams::draw::{check_scan, curve_figures};
 use motiform_lab::scan::ScanFolder;
 use motiform_study::CurvePlan;
+use motiform_study::curves::CurveKind;
 use serde::{Serialize, Serializer};
 use std::fmt::{Display, Formatter};
 
@@ -29,7 +31,18 @@ pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result
     let folder = CurveFolder { plan: plan.clone(), found };
     let drawn = || curve_figures(&folder.plan, &folder.found, over.as_ref());
     let (written, undrawn) = write(options, files, drawn, |pictures, to| folder.write(pictures, to))?;
-    if folder.found.complete && folder.found.curves.is_empty() {
+    let crosses = |followed: &motiform_diagrams::Followed| {
+        let crosses = |sample: &Sample| sample.point.special.is_some_and(|one| one.name() == "branch-point");
+        followed.samples().any(crosses)
+    };
+    if plan.computation.kinds.contains(&CurveKind::Pitchfork)
+        && folder.found.branches.branches.iter().any(crosses)
+    {
+        warn(
+            "branches cross without a symmetry that the model states: such points, pitchforks among them, are not followed over two \
+             parameters (symmetry = \"mirror\" states one)",
+        );
+    } else if folder.found.complete && folder.found.curves.is_empty() {
         warn(
             "no special point of these kinds lies on the branches that were followed; --branches N follows more",
         );

@@ -225,6 +225,24 @@ fn the_branches_of_a_pitchfork_at_rest_are_followed_to_their_ends() {
     }
 }
 
+/// A centre is neither stable nor unstable, however rounding falls: for all values of the parameter its eigenvalues are imaginary.
+#[test]
+fn a_centre_is_neutral_along_its_branch() {
+    let folder = Folder::new();
+    planar(&folder, "prey.toml", "a = 1.0", ["x-x*y", "x*y-a*y"]);
+    folder.run("equilibria prey.toml --json").expect(0);
+    let list = folder.run("equilibria prey.toml --json").expect(0).stdout;
+    folder.write("list.json", &list);
+    let entries: Value = serde_json::from_str(&list).expect("a list");
+    let speed = |entry: &Value| entry["speed"].as_f64().expect("a number");
+    let all = entries["equilibria"].as_array().expect("a list");
+    let centre = all.iter().position(|entry| speed(entry) > 0.5).expect("a centre") + 1;
+    let json = follow(&folder, &format!("--start list.json:{centre} --along a=0.5:2"));
+    let branch = &json["branches"][0];
+    assert_eq!(branch["stable"], serde_json::json!([]), "{json}");
+    assert_eq!(branch["neutral"], serde_json::json!([[0.5, 2.0]]), "{json}");
+}
+
 /// A circle without a mirror begins to turn at mu = 0, with an amplitude of the root of mu: a steady motion, which `--steady` follows.
 #[test]
 fn a_circle_that_begins_to_turn_begins_a_steady_motion() {

@@ -14,6 +14,49 @@ fn classified(words: &str) -> Value {
     json
 }
 
+/// Orbits that come closer to a plane than any absolute tolerance, and do not cross it: epidemics whose infected fall to 1e-220,
+/// predators and prey around a centre, May and Leonard's cycle. (Past the plane lie blow-ups and other equilibria.)
+#[test]
+fn orbits_do_not_cross_the_planes_that_the_flow_keeps() {
+    let folder = Folder::new();
+    let head = |modes: &str| {
+        format!(
+            "[model.amplitudes]\nmodes = [{modes}]\nsymmetry = \"none\"\nvelocity = \"z2\"\n[model.amplitudes.parameters]\n"
+        )
+    };
+    let epidemic = "m = 2e-4\n[model.amplitudes.equations]\n\
+        z2 = \"m*(1-re(z2)) - 5*re(z2)*im(z2) + i*(5*re(z2)*im(z2) - (1+m)*im(z2))\"\n";
+    folder.write("epidemic.toml", &(head("2") + epidemic));
+    for m in ["2e-4", "1e-3", "2e-3"] {
+        let words =
+            format!("classify epidemic.toml --set m={m} --initial z2_re=0.99 --initial z2_im=0.01 --json");
+        let found = folder.run(&words).expect(0).json();
+        let m: f64 = m.parse().unwrap();
+        let rest = (1.0 + m) / 5.0;
+        let infected = m * (1.0 - rest) / (5.0 * rest);
+        assert_eq!(found["regime"], "straight", "{found}");
+        let speed = found["speed"]["mean"].as_f64().unwrap();
+        assert!((speed - rest.hypot(infected)).abs() < 1e-4, "{m}: {found}");
+    }
+    let prey =
+        "a = 1.0\n[model.amplitudes.equations]\nz2 = \"re(z2)*(a - im(z2)) + i*im(z2)*(re(z2) - a)\"\n";
+    folder.write("prey.toml", &(head("2") + prey));
+    let cycle = "a = 1.5\nb = 0.8\n[model.amplitudes.equations]\n\
+        z2 = \"re(z2)*(1-re(z2)-a*im(z2)-b*re(z3)) + i*im(z2)*(1-b*re(z2)-im(z2)-a*re(z3))\"\n\
+        z3 = \"re(z3)*(1-a*re(z2)-b*im(z2)-re(z3)) - i*im(z3)\"\n";
+    folder.write("cycle.toml", &(head("2, 3") + cycle));
+    for words in [
+        "prey.toml --initial z2_re=20 --initial z2_im=20",
+        "prey.toml --initial z2_re=30 --initial z2_im=30",
+        "cycle.toml --initial z2_re=0.3 --initial z2_im=0.4 --initial z3_re=0.5",
+        "cycle.toml --initial z2_re=0.3 --initial z2_im=0.4 --initial z3_re=0.5 --rtol 1e-12",
+        "cycle.toml --initial z2_re=0.3 --initial z2_im=0.4 --initial z3_re=0.6",
+    ] {
+        let found = folder.run(&format!("classify {words} --json")).expect(1).json();
+        assert_eq!(found["regime"], "undetermined", "{words}: {found}");
+    }
+}
+
 /// Every motion of the paper by its words, and the numbers that go with it.
 #[test]
 fn motions_have_their_names_and_numbers() {

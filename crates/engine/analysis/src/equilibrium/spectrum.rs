@@ -1,7 +1,7 @@
 //! Eigenvalues of a linearisation with the errors of their real parts.
 
 use crate::graded::{EPS, Eigenvalue, refined};
-use crate::linear::{ComplexPair, complement, eigenvalues};
+use crate::linear::{ComplexPair, complement, eigenvalues, leading_first};
 use nalgebra::DMatrix;
 
 /// Most eigenvalues that are refined one by one, from the leading one on.
@@ -55,6 +55,6 @@ pub(super) fn within(
         }
         place += 1 + usize::from(pair);
     }
-    found.sort_by(|a, b| b.value.0.total_cmp(&a.value.0).then(b.value.1.total_cmp(&a.value.1)));
+    found.sort_by(|a, b| leading_first(&a.value, &b.value));
     Some(found.into_iter().map(|found| (found.value, found.error)).unzip())
 }

@@ -1,12 +1,12 @@
 //! Error control in lanes: each lane accepts, repeats and sizes its own steps.
 
 use super::lane::{AfterStep, Entry, LaneTask, Leaving, Pace, Stepped, Then, Why};
-use crate::control::{Controller, Tolerance, pair_error};
+use crate::control::{Controller, Layout, Tolerance, pair_error};
 use crate::scalar::MOST_LANES;
 use crate::simd::Kernel;
 use crate::steppers::tableau::ErrorEstimate;
 use crate::steppers::unrolled::{LaneStep, Method, StepSlopes};
-use crate::{Bundle, Mask, System as _, VectorField as _};
+use crate::{Bundle, Mask, VectorField as _};
 use std::marker::PhantomData;
 
 /// Runs all members with the adaptive method `M`.
@@ -116,7 +116,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         slopes.step::<M, _>(members.field(), &LaneStep { t: self.t, h, u: &self.u });
         let t_new = B::select(last, self.t_end, self.t + h);
         slopes.end::<M, _>(members.field(), t_new);
-        let judgement = self.controller.judge(self.error::<M>(slopes, members.field().vectors(), h));
+        let judgement = self.controller.judge(self.error::<M>(slopes, Layout::of(members.field()), h));
         let accepted = judgement.accepted & self.active & !failed;
 
         let next = h * judgement.factor;
@@ -170,8 +170,8 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
 
     /// The squared error norm of a step.
     #[inline(always)]
-    fn error<M: Method>(&self, slopes: &StepSlopes<B, D>, vectors: Option<usize>, h: B) -> B {
-        let [first, third] = slopes.errors::<M>(self.tolerance, vectors);
+    fn error<M: Method>(&self, slopes: &StepSlopes<B, D>, layout: Layout, h: B) -> B {
+        let [first, third] = slopes.errors::<M>(self.tolerance, layout);
         match M::TABLEAU.error {
             ErrorEstimate::None => B::splat(0.0),
             ErrorEstimate::Embedded { .. } => h * h * first,

@@ -14,7 +14,7 @@ impl<F, const N: usize, const K: usize> AsMut<F> for LaneTangent<F, N, K> {
     }
 }
 
-impl<F, const N: usize, const K: usize> System for LaneTangent<F, N, K> {
+impl<F: System, const N: usize, const K: usize> System for LaneTangent<F, N, K> {
     fn dim(&self) -> usize {
         N * (1 + K)
     }
@@ -22,6 +22,11 @@ impl<F, const N: usize, const K: usize> System for LaneTangent<F, N, K> {
     #[inline(always)]
     fn vectors(&self) -> Option<usize> {
         Some(N)
+    }
+
+    #[inline(always)]
+    fn kept(&self) -> u64 {
+        self.0.kept()
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::DOP853;
 use super::tableau::{ErrorEstimate, Tableau, Term};
-use crate::control::Tolerance;
+use crate::control::{Layout, Tolerance};
 use crate::simd::Kernel;
 use crate::{Bundle, VectorField};
 use std::marker::PhantomData;
@@ -227,10 +227,10 @@ impl<B: Bundle, const D: usize> StepSlopes<B, D> {
 
     /// The mean square of the estimated error, and of the second estimate of a pair.
     #[inline(always)]
-    pub(crate) fn errors<M: Method>(&self, tolerance: Tolerance, vectors: Option<usize>) -> [B; 2] {
+    pub(crate) fn errors<M: Method>(&self, tolerance: Tolerance, layout: Layout) -> [B; 2] {
         let (mut first, mut third) = (B::splat(0.0), B::splat(0.0));
         let mut weights = [B::splat(0.0); D];
-        tolerance.weights(vectors, &self.k[START], &self.k[NEW], &mut weights);
+        tolerance.weights(layout, &self.k[START], &self.k[NEW], &mut weights);
         for start in (0..D).step_by(const { block(D) }) {
             let fifth = self.sums::<M, ERROR>(start);
             for i in 0..const { block(D) } {

@@ -33,6 +33,8 @@ pub struct Equations {
     /// The place of `z1`, if the velocity is `conj(z1)` or `z1`.
     pub(super) velocity_mode: Option<usize>,
     pub(super) program: Program,
+    /// See [`motiform_dynamics::System::kept`].
+    pub(super) kept: u64,
     pub(super) velocity_program: Program,
     /// The noise of some amplitudes.
     pub(super) noise: NoiseTerms,
@@ -76,11 +78,15 @@ impl Equations {
         };
         let defaults: Vec<f64> = definition.parameters.iter().map(|parameter| parameter.default).collect();
         let parts = |polynomials: &[Polynomial]| {
-            let parts = (!symmetry.rotations).then(|| fewer(polynomials, modes, &tape, &defaults)).flatten();
-            parts.and_then(|parts| Program::of_parts(&parts, modes))
+            let form =
+                (!symmetry.rotations).then(|| fewer(polynomials, modes, &tape, &defaults)).flatten()?;
+            Some((Program::of_parts(&form.terms, modes)?, form.kept))
         };
-        let either = |polynomials: &[Polynomial]| parts(polynomials).map_or_else(|| program(polynomials), Ok);
-        let (rates_program, velocity_program) = (either(&rates)?, either(std::slice::from_ref(&velocity))?);
+        let either = |polynomials: &[Polynomial]| {
+            parts(polynomials).map_or_else(|| Ok((program(polynomials)?, 0)), Ok)
+        };
+        let ((rates_program, kept), (velocity_program, _)) =
+            (either(&rates)?, either(std::slice::from_ref(&velocity))?);
         Ok(Self {
             definition: definition.clone(),
             tape,
@@ -91,6 +97,7 @@ impl Equations {
             sense,
             velocity_mode,
             program: rates_program,
+            kept,
             velocity_program,
             noise,
         })

@@ -28,6 +28,11 @@ impl<P, const N: usize> System for AmplitudesField<P, N> {
     fn dim(&self) -> usize {
         N
     }
+
+    #[inline(always)]
+    fn kept(&self) -> u64 {
+        self.known.equations.kept
+    }
 }
 
 impl<T: Scalar<Real = P>, P: Scalar<Real = P>, const N: usize> VectorField<T> for AmplitudesField<P, N> {

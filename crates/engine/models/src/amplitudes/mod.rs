@@ -98,6 +98,10 @@ impl System for Amplitudes {
     fn dim(&self) -> usize {
         2 * self.modes().len()
     }
+
+    fn kept(&self) -> u64 {
+        self.known.equations.kept
+    }
 }
 
 impl<T: Scalar<Real = f64>> VectorField<T> for Amplitudes {

@@ -36,6 +36,14 @@ pub(super) fn value(combination: &Combination, values: &[Value]) -> Value {
     [0, 1].map(|part| if sum[part].abs() <= CANCELLED * size[part] { 0.0 } else { sum[part] })
 }
 
+/// Polynomials in real and imaginary parts.
+pub(super) struct RealForm {
+    /// Their terms.
+    pub(super) terms: Vec<RealTerms>,
+    /// The parts, as bits, that are a factor of their own rate; not where the other factor is a constant: these decay for ever or grow.
+    pub(super) kept: u64,
+}
+
 /// The terms of these polynomials in real and imaginary parts, without those that cancel for all values of the parameters `defaults`;
 /// `None` where they are not fewer than those in the amplitudes.
 pub(super) fn fewer(
@@ -43,10 +51,14 @@ pub(super) fn fewer(
     modes: usize,
     tape: &Tape,
     defaults: &[f64],
-) -> Option<Vec<RealTerms>> {
+) -> Option<RealForm> {
     let samples = SAMPLES.map(|(factor, offset)| {
-        let moved: Vec<f64> = defaults.iter().map(|value| value * factor + offset).collect();
-        tape.evaluate(&moved)
+        // each parameter differently: a difference of two with the same default is no 0
+        let moved = |(place, value): (usize, &f64)| {
+            let place = place as f64;
+            value * (factor + 0.0173 * place) + offset * (1.0 + 0.618 * place)
+        };
+        tape.evaluate(&defaults.iter().enumerate().map(moved).collect::<Vec<f64>>())
     });
     let remains = |terms: &Combination| samples.iter().any(|values| value(terms, values) != [0.0; 2]);
     let mut all = Vec::new();
@@ -58,7 +70,19 @@ pub(super) fn fewer(
     let count = |lengths: Vec<usize>| lengths.iter().sum::<usize>();
     let real = count(all.iter().map(BTreeMap::len).collect());
     let complex = count(polynomials.iter().map(|polynomial| polynomial.0.len()).collect());
-    (real < complex).then_some(all)
+    if real >= complex {
+        return None;
+    }
+    let part_remains =
+        |sum: &Combination, part: usize| samples.iter().any(|values| value(sum, values)[part] != 0.0);
+    let is_factor = |unknown: usize| {
+        let own = || all[unknown / 2].iter().filter(|(_, sum)| part_remains(sum, unknown % 2));
+        let more = |powers: &Powers| powers.iter().map(|power| u32::from(*power)).sum::<u32>() > 1;
+        own().all(|(powers, _)| powers[unknown] > 0) && own().any(|(powers, _)| more(powers))
+    };
+    let unknowns = (0..2 * all.len()).filter(|&unknown| is_factor(unknown));
+    let kept = unknowns.fold(0, |bits, unknown| bits | 1 << unknown);
+    Some(RealForm { terms: all, kept })
 }
 
 /// A polynomial in real and imaginary parts.

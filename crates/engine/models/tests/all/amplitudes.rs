@@ -174,6 +174,26 @@ fn terms_in_real_variables_that_cancel_leave_nothing() {
     assert!(semilinear_defect(&body.as_ref(), &[0.3, -0.4]) < 1e-15);
 }
 
+/// Planes that no orbit crosses: those of a variable that is a factor of its own rate, at any values of the parameters.
+#[test]
+fn planes_that_the_flow_keeps_are_known() {
+    let kept = |text: &str| {
+        let mut fields = definition(&[2], &[text], &[("a", 1.0), ("b", 1.0)]);
+        (fields.velocity, fields.symmetry) = (Some("z2".to_owned()), Some("none".to_owned()));
+        motiform_dynamics::System::kept(info(&fields).unwrap().build(&[0.3, 0.7]).unwrap().as_ref())
+    };
+    let both = "re(z2)*(a - im(z2)) + i*im(z2)*(re(z2) - b)";
+    assert_eq!(kept(both), 0b11, "Lotka and Volterra");
+    assert_eq!(kept(&both.replace("re(z2)*(a", "(a - b)*re(z2)^0 + re(z2)*(a")), 0b10, "a = b is no law");
+    assert_eq!(
+        kept("a*(1 - re(z2)) - b*re(z2)*im(z2) + i*(b*re(z2)*im(z2) - a*im(z2))"),
+        0b10,
+        "an epidemic"
+    );
+    assert_eq!(kept("re(z2) - re(z2)^3 - i*im(z2)"), 0b01, "what decays for ever needs no care");
+    assert_eq!(kept("im(z2) - i*re(z2)"), 0);
+}
+
 #[test]
 fn definitions_that_are_no_model_are_refused_at_their_place() {
     let two = |first: &str, second: &str| definition(&[1, 2], &[first, second], &[("a", 1.0)]);

@@ -1,10 +1,9 @@
 //! Where neighbouring cells have different motions, and which bifurcation lies between them.
 
 use crate::atlas::grid::{Grid, rank};
-use crate::atlas::line::{Line, LineEnd, StabilityCurve};
+use crate::atlas::line::{CrossingKind, Line, LineEnd, StabilityCurve};
 use crate::branches::draw::curve_stretches;
 use motiform_analysis::Regime;
-use motiform_continuation::ConnectionKind;
 use motiform_study::AtlasPlan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -131,7 +130,7 @@ impl Atlas {
             }
         }
         for LineEnd { at, kind, motion } in lines.iter().flat_map(|line| &line.ends) {
-            found.ends.push((*motion, connection_words(*kind).to_owned(), grid.units(plan, *at)));
+            found.ends.push((*motion, kind.words().to_owned(), grid.units(plan, *at)));
         }
         found
     }
@@ -153,16 +152,6 @@ impl Atlas {
         let curve = curves.filter(|one| one.0 <= REACH).fold(None, closer);
         let found = curve.or_else(|| ends.filter(|one| one.0 <= REACH_OF_ENDS).fold(None, closer));
         found.map(|one| one.1)
-    }
-}
-
-/// The name of a connection at the end of a branch.
-pub(crate) const fn connection_words(kind: ConnectionKind) -> &'static str {
-    match kind {
-        ConnectionKind::Resonant => "resonant heteroclinic connection",
-        ConnectionKind::SaddleNode => "saddle-node on a circle",
-        ConnectionKind::Cycle => "heteroclinic cycle",
-        _ => "homoclinic connection",
     }
 }
 
@@ -204,7 +193,11 @@ fn summed(between: Pair, names: &[Option<&str>], renamed: &[[Regime; 2]]) -> Bou
     }
     let kinds = descending(kinds, |kind| kind.1);
     let unnamed = names.iter().filter(|name| name.is_none()).count();
-    let why = (unnamed > 0).then(|| why(&differing(&between), renamed));
+    let crossing = |kind: &(String, usize)| CrossingKind::ALL.iter().any(|one| kind.0 == one.words());
+    let why = (unnamed > 0).then(|| match kinds.iter().any(crossing) {
+        true => "a crossing of branches without a symmetry that the model states has no curve here: it is known on the lines alone",
+        false => why(&differing(&between), renamed),
+    });
     Boundary { between, edges: names.len(), kinds, unnamed, why }
 }
 
@@ -275,6 +268,14 @@ mod tests {
         assert_eq!(count.iter().sum::<usize>(), all.len());
         assert_eq!(found[0].0, [vec![Regime::Straight], vec![Regime::Circular]]);
         assert_eq!((count[0], count.len()), (4, 3), "{found:?}");
+    }
+
+    /// A column of another motion is no place where the motion around it was missed.
+    #[test]
+    fn a_cell_without_a_motion_of_those_around_it_keeps_its_own() {
+        let line = grid(&["sscss", "sscss", "sscss"]);
+        let labels = line.labels();
+        assert!([2, 7, 12].iter().all(|&cell| labels[cell] == [Regime::Circular]), "{labels:?}");
     }
 
     #[test]

@@ -1,6 +1,5 @@
 //! The map of an atlas: regions with their names, curves with their kinds, ends of motions, points of codimension two.
 
-use crate::atlas::boundary::connection_words;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::inset::insets;
 use crate::atlas::points::special_points;
@@ -41,7 +40,7 @@ pub fn atlas_map(folder: &AtlasFolder) -> Result<CurveMap, Error> {
         named: true,
         insets: insets(folder)?,
         curves: stretches.collect(),
-        ends: ends.map(|end| MapEnd { label: connection_words(end.kind).to_owned(), at: end.at }).collect(),
+        ends: ends.map(|end| MapEnd { label: end.kind.words().to_owned(), at: end.at }).collect(),
         marks: marks_together(points(folder).into_iter().filter_map(curve_mark), [x, y]),
     })
 }

@@ -86,14 +86,16 @@ impl Grid {
     }
 
     /// The motions of each cell. Few initial states miss a motion of a small basin now and then: it counts where most of the cells around
-    /// have it.
+    /// have it beside one that the cell has. (Where they have no motion in common the cell is no part of their region.)
     #[must_use]
     pub fn labels(&self) -> Vec<Vec<Regime>> {
         let own: Vec<Vec<Regime>> = self.places.iter().map(Place::label).collect();
         let filled = |(cell, label): (usize, &Vec<Regime>)| {
             let around: Vec<usize> = self.around(cell).collect();
             let missed = |regime: &Regime| {
-                let having = around.iter().filter(|near| own[**near].contains(regime)).count();
+                let alike =
+                    |near: &Vec<Regime>| near.contains(regime) && near.iter().any(|one| label.contains(one));
+                let having = around.iter().filter(|near| alike(&own[**near])).count();
                 *regime != Regime::Undetermined && 8 * having >= 6 * around.len().max(8)
             };
             let all = Regime::ALL.into_iter();

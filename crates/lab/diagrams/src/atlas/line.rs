@@ -3,7 +3,7 @@
 use crate::curves::{FollowedCurve, follow_curve_within};
 use crate::{Allowance, BranchEnd, Branches, Followed, Sample, follow_within, is_stable};
 use motiform_analysis::Regime;
-use motiform_continuation::ConnectionKind;
+use motiform_continuation::{ConnectionKind, NormalForm, Special};
 use motiform_dynamics::Watch;
 use motiform_study::AtlasPlan;
 use motiform_study::curves::CurveKind;
@@ -19,14 +19,63 @@ pub struct StabilityCurve {
     pub curve: FollowedCurve,
 }
 
-/// Where a stable motion ends in a connection of a steady motion with itself or its images.
+/// A place on a line at which a stable motion ends or begins, and through which no curve is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum EndKind {
+    /// A connection of a steady motion with itself or its images.
+    Connection(ConnectionKind),
+    /// A crossing of branches.
+    Crossing(CrossingKind),
+}
+
+/// A crossing of branches that breaks no symmetry which the model states: its curve over two parameters is not followed, for equations in
+/// general have none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CrossingKind {
+    /// One branch turns back there.
+    Pitchfork,
+    /// Both go on.
+    Transcritical,
+}
+
+impl CrossingKind {
+    /// Both kinds.
+    pub const ALL: [Self; 2] = [Self::Pitchfork, Self::Transcritical];
+
+    /// Its name.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Pitchfork => "pitchfork",
+            Self::Transcritical => "crossing of branches",
+        }
+    }
+}
+
+impl EndKind {
+    /// Its name.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Connection(ConnectionKind::Resonant) => "resonant heteroclinic connection",
+            Self::Connection(ConnectionKind::SaddleNode) => "saddle-node on a circle",
+            Self::Connection(ConnectionKind::Cycle) => "heteroclinic cycle",
+            Self::Connection(_) => "homoclinic connection",
+            Self::Crossing(kind) => kind.words(),
+        }
+    }
+}
+
+/// Where a stable motion ends, or begins.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LineEnd {
     /// Where, across and upwards.
     pub at: [f64; 2],
-    /// The kind of connection.
-    pub kind: ConnectionKind,
-    /// The motion that ends.
+    /// The kind of end.
+    pub kind: EndKind,
+    /// The motion that ends or begins.
     pub motion: Regime,
 }
 
@@ -127,6 +176,7 @@ pub(crate) fn read_line(
     };
     line.branches = found.branches.len();
     line.ends = ends(&plan, &found);
+    line.ends.extend(crossings(&plan, &found));
     line.renamed = renamed(&found);
     let mut doublings: Vec<f64> = Vec::new();
     for (kind, start, motion) in limits(&found) {
@@ -212,6 +262,31 @@ fn limits(found: &Branches) -> Vec<(CurveKind, [usize; 3], Regime)> {
     all
 }
 
+/// The crossings of branches that bound a stable motion, once each.
+fn crossings(plan: &CurvePlan, found: &Branches) -> Vec<LineEnd> {
+    let mut all: Vec<LineEnd> = Vec::new();
+    for leg in found.branches.iter().flat_map(|followed| &followed.legs) {
+        for (point, sample) in leg.samples.iter().enumerate() {
+            if sample.point.special != Some(Special::BranchPoint) {
+                continue;
+            }
+            let form = sample.point.certificate.and_then(|certificate| certificate.normal_form);
+            let pitchfork = matches!(form, Some(NormalForm::Cubic(_)));
+            let kind = if pitchfork { CrossingKind::Pitchfork } else { CrossingKind::Transcritical };
+            let mut at = [plan.fixed_value(); 2];
+            at[plan.varied()] = sample.point.parameter;
+            let before = point.checked_sub(1).and_then(|place| leg.samples.get(place));
+            for near in before.into_iter().chain(leg.samples.get(point + 1)) {
+                let end = LineEnd { at, kind: EndKind::Crossing(kind), motion: near.reading.motion };
+                if is_stable(near, sample) && !all.contains(&end) {
+                    all.push(end);
+                }
+            }
+        }
+    }
+    all
+}
+
 /// The connections in which stable motions end.
 fn ends(plan: &CurvePlan, found: &Branches) -> Vec<LineEnd> {
     let legs = found.branches.iter().flat_map(|followed| &followed.legs);
@@ -223,7 +298,7 @@ fn ends(plan: &CurvePlan, found: &Branches) -> Vec<LineEnd> {
         at[plan.varied()] = connection.parameter;
         is_stable(pair[0], pair[1]).then(|| LineEnd {
             at,
-            kind: connection.kind(),
+            kind: EndKind::Connection(connection.kind()),
             motion: last.reading.motion,
         })
     };

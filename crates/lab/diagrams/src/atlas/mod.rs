@@ -29,7 +29,7 @@ pub use courses::mixed_courses;
 pub use draw::{atlas_map, draw_atlas};
 pub use folder::AtlasFolder;
 pub use grid::{Found, Grid, Place};
-pub use line::{Line, LineEnd, StabilityCurve};
+pub use line::{CrossingKind, EndKind, Line, LineEnd, StabilityCurve};
 pub use page::html;
 pub use region::{Region, regions};
 pub use summary::atlas_summary;

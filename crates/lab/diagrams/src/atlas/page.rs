@@ -1,6 +1,6 @@
 //! The page of an atlas: the map, its regions, its boundaries, what was followed.
 
-use crate::atlas::boundary::{Boundary, boundaries, connection_words};
+use crate::atlas::boundary::{Boundary, boundaries};
 use crate::atlas::courses::mixed_courses;
 use crate::atlas::draw::atlas_map;
 use crate::atlas::folder::AtlasFolder;
@@ -146,7 +146,7 @@ fn point_table(folder: &AtlasFolder) -> Result<Table, Error> {
         row(point.words(), point.on.motion.name(), point.sample.parameters, point.sample.period)
     });
     let ends = folder.lines.iter().flat_map(|line| &line.ends);
-    let ends = ends.map(|end| row(connection_words(end.kind).to_owned(), end.motion.name(), end.at, None));
+    let ends = ends.map(|end| row(end.kind.words().to_owned(), end.motion.name(), end.at, None));
     Ok(Table {
         caption: String::new(),
         head: vec!["What".into(), "Motion".into(), x, y, "Period".into()],

@@ -1,6 +1,6 @@
 //! An atlas in a few numbers: what `--json` prints and `summary.json` holds.
 
-use crate::atlas::boundary::{Boundary, boundaries, connection_words};
+use crate::atlas::boundary::{Boundary, boundaries};
 use crate::atlas::courses::mixed_courses;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::points::special_points;
@@ -40,7 +40,7 @@ pub fn atlas_summary(folder: &AtlasFolder) -> Value {
     let ends = lines
         .iter()
         .flat_map(|line| &line.ends)
-        .map(|end| json!({ "kind": connection_words(end.kind), "motion": end.motion, "at": place(end.at) }));
+        .map(|end| json!({ "kind": end.kind.words(), "motion": end.motion, "at": place(end.at) }));
     let lines_json = lines.iter().map(|line| {
         json!({
             "at": place(line.at),

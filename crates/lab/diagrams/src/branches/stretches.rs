@@ -87,7 +87,35 @@ fn birth(found: &Branches, followed: &Followed) -> Option<f64> {
 #[must_use]
 pub fn is_stable(a: &Sample, b: &Sample) -> bool {
     let known = |sample: &Sample| sample.point.special.is_none().then_some(sample.point.unstable == 0);
-    known(a).or_else(|| known(b)).unwrap_or(false)
+    let (a_known, b_known) = (known(a), known(b));
+    a_known.or(b_known).unwrap_or(false) && b_known.or(a_known).unwrap_or(false) && !is_neutral(a, b)
+}
+
+/// Returns `true` if a growth rate is 0 within its error on a stretch between neighbours: at both, or at the one that is no special point.
+fn is_neutral(a: &Sample, b: &Sample) -> bool {
+    let known = |sample: &Sample| sample.point.special.is_none().then_some(sample.point.neutral > 0);
+    let (a, b) = (known(a), known(b));
+    a.or(b).unwrap_or(false) && b.or(a).unwrap_or(false)
+}
+
+/// Ranges of the parameter over which nothing grows and a growth rate is 0 within its error, in the order of the branch: stability is not
+/// determined there.
+#[must_use]
+pub fn neutral_stretches(followed: &Followed) -> Vec<[f64; 2]> {
+    let samples: Vec<&Sample> = followed.samples().collect();
+    let pairs: Vec<[&Sample; 2]> = samples.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    let grows = |sample: &Sample| sample.point.unstable > sample.point.neutral;
+    let runs = pairs.chunk_by(|a, b| neutral(a, &grows) == neutral(b, &grows));
+    let range = |run: &[[&Sample; 2]]| {
+        let values = run.iter().flatten().map(|sample| sample.point.parameter);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    };
+    runs.filter(|run| neutral(&run[0], &grows)).map(range).collect()
+}
+
+/// Returns `true` if a pair is neutral and nothing else grows.
+fn neutral([a, b]: &[&Sample; 2], grows: &dyn Fn(&Sample) -> bool) -> bool {
+    is_neutral(a, b) && !grows(a) && !grows(b)
 }
 
 /// Returns `true` if the parameter goes on in one direction through a special point: it does not at a fold.

@@ -2,7 +2,7 @@
 
 use super::origin::Origin;
 use super::result::{Branches, Followed, Leg, Sample};
-use super::stretches::stretches;
+use super::stretches::{neutral_stretches, stretches};
 use motiform_analysis::RelativeEquilibrium;
 use motiform_continuation::{
     Broken, Certificate, Coefficient, Connection, End, Joins, NormalForm, Passed, PeriodLaw, Point, Special,
@@ -111,6 +111,10 @@ fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Follo
     put("origin", json!(followed.origin));
     put("points", followed.samples().count().into());
     put("stable", json!(stretches(found, followed)));
+    let neutral = neutral_stretches(followed);
+    if !neutral.is_empty() {
+        put("neutral", json!(neutral));
+    }
     put("special", special.into());
     put("end", ends.last().cloned().unwrap_or_default().into());
     put("ends", json!(ends));

@@ -40,6 +40,19 @@ fn circles_and_tori_of_equilibria_are_one_entry_each() {
     assert_eq!(families(&text("1", "none", ellipse)), [0, 1]);
 }
 
+/// Rock, scissors and paper: the line x = y = z of centres, whose eigenvalue 0 has the real part of the pair beside it.
+#[test]
+fn a_line_of_centres_is_a_family() {
+    let game = "z2 = \"re(z2)*(im(z2)-re(z3)) + i*im(z2)*(re(z3)-re(z2))\"\nz3 = \"re(z3)*(re(z2)-im(z2)) - i*im(z3)\"";
+    let text = text("2, 3", "none", game).replace("symmetry", "velocity = \"z2\"\nsymmetry");
+    // the line, and the three axes, on which every point rests
+    let found = list(&study(&text));
+    let lines = found.iter().filter(|one| one.family == 1).count();
+    assert!(lines >= 2 && found.len() <= 5, "{found:?}");
+    let line = found.iter().find(|one| one.eigenvalues.iter().any(|value| value.1 != 0.0)).unwrap();
+    assert_eq!(line.family, 1, "{line:?}");
+}
+
 /// The reduced model (a1 = 1, b1 = .5, b3 = 1) without a word about its symmetry has the rests and straight
 /// motions that it has with all of it: its rotated copies are a family. (A body that turns is no equilibrium
 /// of the unreduced equations.)
