@@ -278,7 +278,7 @@ impl std::fmt::Display for Connection {
             }
             ConnectionKind::Cycle => {
                 let quantities: Vec<String> =
-                    self.passed.iter().map(|passed| format!("{:.4}", passed.quantity())).collect();
+                    self.passed.iter().map(|passed| places::<4>(passed.quantity())).collect();
                 let (count, quantities) = (self.passed.len(), quantities.join(", "));
                 write!(
                     f,
@@ -287,27 +287,35 @@ impl std::fmt::Display for Connection {
             }
         }?;
         match self.law {
-            PeriodLaw::Logarithmic { rate } => write!(f, ": its time grows as -ln|p - p0| / {rate:.6}"),
-            PeriodLaw::Oscillating { rate, frequency } => {
-                write!(
-                    f,
-                    ": the parameter oscillates as exp(-{rate:.6} T) cos({frequency:.6} T) with its time T"
-                )
+            PeriodLaw::Logarithmic { rate } => {
+                write!(f, ": its time grows as -ln|p - p0| / {}", places::<6>(rate))
             }
-            PeriodLaw::Resonant { amplitude } => write!(f, ": its time grows as {amplitude:.6} / |p - p0|"),
+            PeriodLaw::Oscillating { rate, frequency } => {
+                let [rate, frequency] = [rate, frequency].map(places::<6>);
+                write!(f, ": the parameter oscillates as exp(-{rate} T) cos({frequency} T) with its time T")
+            }
+            PeriodLaw::Resonant { amplitude } => {
+                write!(f, ": its time grows as {} / |p - p0|", places::<6>(amplitude))
+            }
             PeriodLaw::SquareRoot { amplitude } => {
-                write!(f, ": its time grows as {amplitude:.6} / sqrt|p - p0|")
+                write!(f, ": its time grows as {} / sqrt|p - p0|", places::<6>(amplitude))
             }
         }?;
         match self.quantity() {
             Some(quantity)
                 if matches!(self.law, PeriodLaw::Logarithmic { .. } | PeriodLaw::Oscillating { .. }) =>
             {
-                write!(f, "; saddle quantity {quantity:.4}")
+                write!(f, "; saddle quantity {}", places::<4>(quantity))
             }
             _ => Ok(()),
         }
     }
+}
+
+/// A number with so many decimals, or as a power of ten where these would show less than three digits of it.
+fn places<const DECIMALS: usize>(x: f64) -> String {
+    let least = libm::pow(10.0, 2.0 - DECIMALS as f64);
+    if x == 0.0 || x.abs() >= least { format!("{x:.DECIMALS$}") } else { format!("{x:.3e}") }
 }
 
 /// The relative equilibrium that an orbit passes closest by, and its eigenvalues in the directions that keep the symmetry of the orbit's

@@ -222,7 +222,7 @@ impl std::fmt::Display for End {
             Self::BlowUp { size } => write!(f, "the shape grew to {size:.3e}"),
             Self::StepUnderflow { step, why } => write!(f, "no point after a step of {step:.1e}: {why}"),
             Self::Homoclinic(connection) => write!(f, "{connection}"),
-            Self::PeriodLimit { time } => write!(f, "the time of the orbit grew to {time}"),
+            Self::PeriodLimit { time } => write!(f, "the time of the orbit grew to {time:.6}"),
             Self::Settles { period } => {
                 write!(
                     f,

@@ -20,11 +20,12 @@ pub struct Perturbation {
 impl fmt::Display for Perturbation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let count = self.names.len();
+        // to three digits: a product with a power of ten has sixteen
+        let size: f64 = format!("{:.2e}", self.size).parse().unwrap_or(self.size);
         let names = if count > 6 { format!("{count} coordinates") } else { self.names.join(", ") };
         write!(
             f,
-            "{names} left at zero: random values within +-{:e} instead, because an orbit never leaves an exact symmetry",
-            self.size
+            "{names} left at zero: random values within +-{size:e} instead, because an orbit never leaves an exact symmetry"
         )
     }
 }

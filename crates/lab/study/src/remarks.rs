@@ -2,6 +2,7 @@
 
 use crate::{Error, Study};
 use motiform_dynamics::steppers::Method;
+use motiform_models::amplitudes::{Definition, Equations};
 
 /// Sentences about a study that is run with its stepper and whose parameters `varied` are varied.
 ///
@@ -10,6 +11,7 @@ use motiform_dynamics::steppers::Method;
 pub fn remarks(study: &Study, varied: &[&str]) -> Result<Vec<String>, Error> {
     let mut all = idle_ties(study, varied)?;
     all.extend(explicit_on_stiff(study)?);
+    all.extend(unstated_rotations(study)?);
     Ok(all)
 }
 
@@ -26,6 +28,22 @@ pub fn idle_ties(study: &Study, varied: &[&str]) -> Result<Vec<String>, Error> {
         )
     };
     Ok(idle.into_iter().map(sentence).collect())
+}
+
+/// A sentence about equations that are the same in every direction, and say that they are not.
+fn unstated_rotations(study: &Study) -> Result<Option<String>, Error> {
+    let given = study.info()?.definition().filter(|definition| definition.symmetry.is_some());
+    let Some(definition) = given else { return Ok(None) };
+    let symmetry = definition.symmetry.as_deref().unwrap_or_default();
+    // without a word about it the terms must have the rotations
+    let free = Definition { symmetry: None, ..definition.clone() };
+    let more = !symmetry.starts_with("rotation") && Equations::new(&free).is_ok();
+    Ok(more.then(|| {
+        format!(
+            "symmetry = {symmetry:?} is given, and the equations are the same in every direction: without it rotations are divided out, \
+             and a steady motion is one motion instead of a family"
+        )
+    }))
 }
 
 /// A sentence about an explicit method with adaptive steps on stiff equations. (A fixed step is the user's choice, and an unstable one

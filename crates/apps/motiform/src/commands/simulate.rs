@@ -42,9 +42,9 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     say(&done, options.json)?;
     if let Some((motion, growth)) = naming::unstable(&run.manifest)? {
         warn(&format!(
-            "the run ends on {motion} motion that is unstable (growth rate {growth:.2e}): its start has an exact \
-             symmetry, and a typical start \
-             leaves it; change a coordinate that is 0 in the start a little"
+            "the run ends on {motion} motion that is unstable (growth rate {growth:.2e}): it passes by, or its \
+             start has an exact symmetry, which a typical start has not; follow it for longer, or change a coordinate that is 0 in the \
+             start a little"
         ));
     }
     if let Some(error) = run.manifest.step_error.filter(|&error| error > COARSE) {
