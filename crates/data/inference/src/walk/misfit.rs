@@ -28,7 +28,9 @@ impl Display for Misfit {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Turns => "the velocity keeps turning one way",
-            Self::Directed => "the changes of the velocity have a direction of their own",
+            Self::Directed => {
+                "the changes of the velocity, or the errors of the places, have a direction of their own"
+            }
             Self::Coloured => "the changes of the velocity are not independent",
         })
     }

@@ -66,6 +66,16 @@ pub struct Lyapunov {
 }
 
 impl Lyapunov {
+    /// Returns `true` if exponents that must be zero are further from it than the scatter of their averages lets expect: all errors are
+    /// then at least twice that.
+    #[must_use]
+    pub fn beyond_scatter(&self) -> bool {
+        let zeros = self.zeros();
+        let worst = zeros.iter().map(|zero| zero.value.abs()).fold(0.0, f64::max);
+        worst > 0.0
+            && zeros.iter().any(|zero| zero.error.to_bits() == (renormalisation::KNOWN * worst).to_bits())
+    }
+
     /// The exponents that must be zero, as computed: those closest to zero. A self-check of the run.
     #[must_use]
     pub fn zeros(&self) -> Vec<Estimate> {

@@ -3,8 +3,8 @@
 
 use super::silent::silent_rates;
 use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions, pace};
-use crate::Result;
 use crate::linear::norm;
+use crate::{Estimate, Result};
 use motiform_dynamics::{Equivariant, Outcome, StepControl, VectorField};
 
 /// Vectors are made orthonormal when they have separated by this factor (natural logarithm).
@@ -16,6 +16,9 @@ const LOST: f64 = 20.0;
 /// Least number of intervals to average over; steps may be twice as long as one of them, so there are half as many stretches
 /// or more: enough for an error.
 const INTERVALS: f64 = 160.0;
+
+/// The first stretches of a run that is shorter than so many units of time are this part of it.
+const SHORT: f64 = 40.0;
 
 /// Most stretches of a run. Vectors that separate so fast that it would take more are those of rates that are immense against the time.
 /// (Close to a blow-up stretches become short as well, and then the run ends.)
@@ -39,6 +42,8 @@ pub(crate) struct Renormalisation {
     size: f64,
     /// Usual length of a stretch: chosen while the flow settles, then kept.
     interval: f64,
+    /// The first one.
+    unit: f64,
     averaging: bool,
     /// `true` if there would be more than [`MOST`] stretches: there are no exponents then.
     given_up: bool,
@@ -57,11 +62,14 @@ pub(crate) struct Renormalisation {
 impl Renormalisation {
     /// Nothing done so far, for a run from this shape.
     pub(crate) fn new(settings: &LyapunovSettings, start: &[f64]) -> Self {
+        // the model's own unit, but not in runs that are short against it: vectors may grow beyond all numbers in one
+        let interval = ((settings.transient + settings.span) / SHORT).min(1.0);
         Self {
             settings: *settings,
             dim: start.len(),
             size: norm(start),
-            interval: 1.0,
+            interval,
+            unit: interval,
             averaging: false,
             given_up: false,
             start: 0.0,
@@ -116,7 +124,7 @@ impl Renormalisation {
         if separated > PARTED {
             self.interval *= 0.5;
         } else if separated < 0.25 * PARTED {
-            self.interval = (2.0 * self.interval).min((self.settings.transient / 8.0).max(1.0));
+            self.interval = (2.0 * self.interval).min((self.settings.transient / 8.0).max(self.unit));
         }
     }
 
@@ -172,16 +180,17 @@ impl Renormalisation {
             let numerical = rtol * (self.dim as f64).sqrt() * steps / time;
             let mut rate = shape.to_vec();
             VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-            means(&self.history, self.settings.transient, numerical, pace(shape, &rate))?
+            means(&self.history, self.begun, numerical, pace(shape, &rate))?
         } else {
             Vec::new()
         };
+        let neutral = neutral_directions(body, shape, self.size);
         Ok(Lyapunov {
-            exponents,
-            neutral: neutral_directions(body, shape, self.size),
+            exponents: with_known_zeros(exponents, neutral),
+            neutral,
             silent: if outcome.is_complete() { silent_rates(body, shape) } else { Vec::new() },
             time,
-            transient: self.settings.transient,
+            transient: if self.averaging { self.begun } else { self.settings.transient },
             reduced_speeds: self.reduced_speeds,
             history: self.history,
             outcome,
@@ -189,6 +198,30 @@ impl Renormalisation {
         })
     }
 }
+
+/// Exponents of a motion of which so many must be 0: where those are further from 0 than their errors, the averages have an error that
+/// does not show in their scatter (vectors that separate like the time in a shear), which is at least that.
+fn with_known_zeros(mut exponents: Vec<Estimate>, neutral: usize) -> Vec<Estimate> {
+    if neutral >= exponents.len() {
+        return exponents; // which of them are the zeros is not known
+    }
+    let mut nearest = exponents.clone();
+    nearest.sort_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
+    nearest.truncate(neutral);
+    // one that is clearly not 0 is that of a motion which settles
+    let off = |zero: &Estimate| zero.error < zero.value.abs() && zero.value.abs() <= CLEAR * zero.error;
+    if nearest.iter().any(off) {
+        let worst = nearest.iter().map(|zero| zero.value.abs()).fold(0.0, f64::max);
+        exponents.iter_mut().for_each(|exponent| exponent.error = exponent.error.max(KNOWN * worst));
+    }
+    exponents
+}
+
+/// An average of so many errors is not 0.
+const CLEAR: f64 = 10.0;
+
+/// Error of averages in units of that which is seen in those that must be 0.
+pub(super) const KNOWN: f64 = 2.0;
 
 /// By what factor (natural logarithm) vectors of these lengths have separated, from each other or from the length 1.
 fn separated(lengths: &[f64]) -> f64 {

@@ -87,7 +87,24 @@ fn withheld(found: &[Observation]) -> Vec<Withheld> {
     let one = |(quantity, of_cells): (&'static Quantity, Vec<Bounded>)| {
         Some(Withheld { quantity, why: together.clone().or_else(|| why_biased(&of_cells))? })
     };
-    numbers.into_iter().filter_map(one).collect()
+    let mut all: Vec<Withheld> = numbers.into_iter().filter_map(one).collect();
+    all.extend(of_short_records(&walks));
+    all
+}
+
+/// Records with fewer steps than this have errors of places that are too small, by 1.5 over the steps: three numbers are fitted beside
+/// them.
+const SHORT: usize = 100;
+
+/// The error of the places, where most records are short.
+fn of_short_records(walks: &[&PersistentWalk]) -> Option<Withheld> {
+    let mut steps: Vec<f64> = walks.iter().map(|walk| walk.steps as f64).collect();
+    ascending(&mut steps);
+    let usual = steps.get(steps.len() / 2).copied().filter(|&usual| usual < SHORT as f64)?;
+    let why = format!(
+        "estimates from {usual} steps (median) are too small by some percent, and a mean over cells keeps that; {SHORT} are needed"
+    );
+    Some(Withheld { quantity: &cell::POSITION_ERROR, why })
 }
 
 /// The sentence that most cells are no such walk, if so: the others may be those in which it does not show.

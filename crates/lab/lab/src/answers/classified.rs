@@ -1,6 +1,6 @@
 //! The name of a motion.
 
-use super::{About, estimate};
+use super::{About, decimals, estimate};
 use motiform_analysis::Verdict;
 use motiform_analysis::regime::Resolution;
 use motiform_study::Plan;
@@ -120,8 +120,9 @@ fn lists(f: &mut Formatter<'_>, verdict: &Verdict) -> Result {
         writeln!(f, "rests          ... {} model time", rests.join(", "))?;
     }
     if !verdict.exponents.is_empty() {
-        let exponents: Vec<String> =
-            verdict.exponents.iter().take(exponents).map(|e| estimate(e, 0, 5)).collect();
+        let shown = &verdict.exponents[..exponents.min(verdict.exponents.len())];
+        let digits = decimals(shown, 5);
+        let exponents: Vec<String> = shown.iter().map(|one| estimate(one, 0, digits)).collect();
         writeln!(f, "exponents      {}", exponents.join(", "))?;
     }
     if let Some(saddle) = verdict.saddle {

@@ -1,6 +1,6 @@
 //! Lyapunov exponents: of one orbit, and means over many.
 
-use super::{About, estimate};
+use super::{About, decimals, estimate};
 use crate::naming;
 use crate::samples::{self, Escapes, Starts};
 use motiform_analysis::{Estimate, Lyapunov, Regime};
@@ -20,6 +20,8 @@ pub struct OfOrbit<'a> {
     outcome: &'a Outcome,
     #[serde(skip_serializing_if = "Option::is_none")]
     dimension: Option<Estimate>,
+    #[serde(skip)]
+    beyond_scatter: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     without_error: Option<String>,
 }
@@ -36,6 +38,7 @@ impl<'a> OfOrbit<'a> {
             transient: found.transient,
             outcome: &found.outcome,
             dimension: found.dimension(),
+            beyond_scatter: found.beyond_scatter(),
             without_error: found.without_error(),
         }
     }
@@ -108,8 +111,9 @@ impl Display for Exponents<'_> {
 
 /// The values, and why they have no error.
 fn values(f: &mut Formatter<'_>, exponents: &[Estimate], without_error: Option<&str>) -> Result {
+    let digits = decimals(exponents, 6);
     for (i, exponent) in exponents.iter().enumerate() {
-        writeln!(f, "lambda_{}   {}", i + 1, estimate(exponent, 11, 6))?;
+        writeln!(f, "lambda_{}   {}", i + 1, estimate(exponent, digits + 5, digits))?;
     }
     without_error.map_or(Ok(()), |why| writeln!(f, "no error   {why}"))
 }
@@ -122,11 +126,10 @@ fn check(f: &mut Formatter<'_>, found: &OfOrbit<'_>) -> Result {
     let zeros = &found.zeros;
     let worst = zeros.iter().map(|zero| zero.value.abs()).fold(0.0, f64::max);
     let known = zeros.iter().all(Estimate::has_error);
-    let fine = zeros.iter().all(|zero| zero.value.abs() <= 3.0 * zero.error);
-    let verdict = match (known, fine) {
+    let verdict = match (known, found.beyond_scatter) {
         (false, _) => "which is inconclusive: run longer",
-        (true, true) => "within their errors (bounds, which decrease like 1/time)",
-        (true, false) => "outside their errors: run longer",
+        (true, false) => "within their errors (bounds, which decrease like 1/time)",
+        (true, true) => "more than averages scatter, so that all errors are at least twice that: run longer",
     };
     writeln!(f, "self-check {} exponents must be 0: at most {worst:.1e} off, {verdict}", found.neutral)
 }

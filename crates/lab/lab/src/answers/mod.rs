@@ -3,6 +3,7 @@
 //! The program prints one of the two, Python reads the object. What an object has beside the answer is what it is about: the model, its
 //! parameters, the accuracy.
 
+mod apart;
 mod classified;
 mod exponents;
 mod motions;
@@ -49,6 +50,14 @@ impl<'a> About<'a> {
         let c = &plan.computation;
         Self { model: &c.model, parameters: &c.parameters, control: c.control }
     }
+}
+
+/// Decimals of a list of rates: so many, and more where all of them are below 1e-3, as in slow units of time.
+fn decimals(all: &[Estimate], usual: usize) -> usize {
+    let largest = all.iter().map(|one| one.value.abs()).filter(|value| value.is_finite()).fold(0.0, f64::max);
+    let slow = largest > 0.0 && largest < 1e-3;
+    let more = if slow { -libm::log10(largest).floor() - 3.0 } else { 0.0 };
+    usual + more.clamp(0.0, 12.0) as usize
 }
 
 /// `0.0902 +- 2.1e-3`, or a note that there is no error.

@@ -1,6 +1,7 @@
 //! The motions that many initial states lead to.
 
 use super::About;
+use super::apart::{One, apart};
 use crate::samples::{Basins, Escapes, MotionShare, Named, Starts, motions};
 use motiform_analysis::Verdict;
 use motiform_study::Plan;
@@ -17,6 +18,9 @@ pub struct Motions<'a> {
     starts: &'a Starts,
     shares: &'a [MotionShare],
     samples: &'a [Verdict],
+    /// Different motions of one name.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    apart: Vec<One>,
     #[serde(skip_serializing_if = "Option::is_none")]
     escapes: Option<&'a Escapes>,
     #[serde(skip)]
@@ -44,6 +48,7 @@ impl<'a> Motions<'a> {
             starts: &basins.starts,
             shares: &basins.shares,
             samples: verdicts,
+            apart: motions(verdicts).iter().flat_map(|(motion, _)| of_name(verdicts, *motion)).collect(),
             escapes,
             basins,
         }
@@ -57,6 +62,11 @@ impl<'a> Motions<'a> {
     }
 }
 
+/// The different motions of a name.
+fn of_name(verdicts: &[Verdict], motion: Named) -> Vec<One> {
+    apart(verdicts.iter().enumerate().filter(|(_, verdict)| Named::of(verdict) == motion))
+}
+
 impl Display for Motions<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let verdicts = self.samples;
@@ -65,6 +75,11 @@ impl Display for Motions<'_> {
             let name = motion.to_string();
             writeln!(f, "{name:14} {count} of {}, the first is initial state {first}", verdicts.len())?;
             writeln!(f, "               {}", verdicts[first].why)?;
+            let different = of_name(verdicts, motion);
+            if !different.is_empty() {
+                let words: Vec<String> = different.iter().map(One::words).collect();
+                writeln!(f, "               {} different ones: {}", different.len(), words.join("; "))?;
+            }
         }
         let sentences = self.sentences();
         if !self.shares.is_empty() {
