@@ -105,18 +105,30 @@ const ERROR_DIGITS: i32 = 2;
 /// `0.123 ± 0.012`: the error to two digits, the value to the same place.
 #[must_use]
 pub fn with_error(value: f64, error: f64) -> String {
+    let [value, error] = value_and_error(value, error);
+    format!("{value} ± {error}")
+}
+
+/// The value of [`with_error`] alone.
+#[must_use]
+pub fn to_error(value: f64, error: f64) -> String {
+    let [value, _] = value_and_error(value, error);
+    value
+}
+
+fn value_and_error(value: f64, error: f64) -> [String; 2] {
     if !(error > 0.0 && error.is_finite()) || value.abs() > 1e6 * error {
-        return format!("{} ± {}", four_digits(value), four_digits(error));
+        return [value, error].map(four_digits);
     }
     let exponent = error.abs().log10().floor() as i32;
     let places = (ERROR_DIGITS - 1 - exponent).max(0) as usize;
     if exponent < -6 || value.abs().max(error) >= 1e6 {
-        return format!("{value:.3e} ± {error:.1e}");
+        return [format!("{value:.3e}"), format!("{error:.1e}")];
     }
     let text = format!("{value:.places$}");
     // -0.00 is no number of a table
     let zero = text.strip_prefix('-').filter(|rest| rest.chars().all(|c| matches!(c, '0' | '.')));
-    format!("{} ± {error:.places$}", zero.unwrap_or(&text))
+    [zero.map_or(text.clone(), str::to_owned), format!("{error:.places$}")]
 }
 
 #[cfg(test)]

@@ -34,7 +34,7 @@ mod tracks;
 mod turning;
 mod windows;
 
-pub use answer::{Answer, Measured, four_digits, with_error};
+pub use answer::{Answer, Measured, four_digits, to_error, with_error};
 pub use consistency::Seen;
 pub use correlate::lagged_sums;
 pub use correlation::{Autocorrelation, autocorrelation};

@@ -99,8 +99,8 @@ impl<'f> Bodies<'f> {
 const BESIDE: f64 = 0.05;
 
 impl Bodies<'_> {
-    /// The units of the body with these parameters, and of those beside it as far as there are any: at a bifurcation a rate vanishes, and
-    /// the body alone may have no size, or a wrong one.
+    /// The units of the equations at these parameters and at values beside them. At a bifurcation a growth rate is zero, and the equations
+    /// at that value alone would give a wrong unit.
     pub(super) fn units(self, body: &dyn Equivariant, parameters: &[f64], widths: &[f64]) -> Units {
         let mut beside = Vec::new();
         for (i, width) in widths.iter().enumerate() {

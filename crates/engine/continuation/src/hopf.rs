@@ -104,7 +104,7 @@ impl Slice<'_> {
 pub(super) fn critical_space(body: &dyn Equivariant, shape: &[f64], frequency: f64) -> Option<Vec<Vector>> {
     let slice = slice(body, shape);
     let a = matrix(&slice);
-    let space = null_space(&a, Complex::new(0.0, frequency), copies(&a, frequency).max(1))?;
+    let space = null_space(&a, Complex::new(0.0, frequency), copies(&eigenvalues_of(&a), frequency).max(1))?;
     let lifted = |q: nalgebra::DVectorView<'_, Complex<f64>>| {
         let (mut re, mut im) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
         for (direction, z) in slice.basis.iter().zip(q.iter()) {
@@ -208,15 +208,15 @@ fn eigenvalues_of(a: &DMatrix<Complex<f64>>) -> Vec<(f64, f64)> {
 }
 
 /// Number of eigenvalues that are the critical one.
-fn copies(a: &DMatrix<Complex<f64>>, frequency: f64) -> usize {
+fn copies(all: &[(f64, f64)], frequency: f64) -> usize {
     let same = |value: &&(f64, f64)| libm::hypot(value.0, value.1 - frequency) < SAME * frequency;
-    eigenvalues_of(a).iter().filter(same).count()
+    all.iter().filter(same).count()
 }
 
 /// Returns `true` if there are several eigenvalues like the critical one, or one that is 0: there the coefficient has a pole.
 fn others_critical(a: &DMatrix<Complex<f64>>, frequency: f64) -> bool {
-    let vanishes = |value: &(f64, f64)| libm::hypot(value.0, value.1) < SAME * frequency;
-    copies(a, frequency) > 1 || eigenvalues_of(a).iter().any(vanishes)
+    let (all, least) = (eigenvalues_of(a), SAME * frequency);
+    copies(&all, frequency) > 1 || all.iter().any(|value| libm::hypot(value.0, value.1) < least)
 }
 
 /// The critical pair: its frequency, `q` and `p` with `<p, q> = 1`.

@@ -2,6 +2,7 @@
 
 use super::certificate::Certificate;
 use super::homoclinic::Connection;
+use super::normal_form::NormalForm;
 use super::special::{Broken, Special};
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium};
 use motiform_dynamics::Outcome;
@@ -90,6 +91,13 @@ const fn is_zero(count: &usize) -> bool {
 }
 
 impl Point {
+    /// Returns `true` where branches cross in a pitchfork of a symmetry that the model does not state.
+    #[must_use]
+    pub fn is_unstated_pitchfork(&self) -> bool {
+        let form = self.certificate.and_then(|certificate| certificate.normal_form);
+        self.special == Some(Special::BranchPoint) && matches!(form, Some(NormalForm::Cubic(_)))
+    }
+
     /// Returns `true` if small deviations die out.
     #[must_use]
     pub fn is_stable(&self) -> bool {

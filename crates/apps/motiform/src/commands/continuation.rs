@@ -203,8 +203,8 @@ fn branch(
     };
     write!(f, "\nbranch {number:<3} {names}, {}", counted(followed.samples().count(), "point"))?;
     for pair in parts.windows(2) {
-        let place = between(pair[0].to, pair[1].from);
-        write!(f, "\n           {:<17} {place}", format!("becomes {}", pair[1].motion.name()))?;
+        let [last, first] = [pair[0].to, pair[1].from].map(nine);
+        write!(f, "\n           becomes {} between {last} and {first}", pair[1].motion.name())?;
     }
     let stable = stretches(&folder.found, followed);
     let neutral = neutral_stretches(followed);
@@ -233,11 +233,6 @@ fn name(part: &NamedPart) -> String {
     let course = part.course.map_or(String::new(), |course| format!(" {}", course.words()));
     let form = part.form.map_or(String::new(), |form| format!(" ({})", form.name()));
     format!("{}{course}{form}", part.motion.name())
-}
-
-/// A place between two points of a branch: the middle, and how far off it may be.
-fn between(a: f64, b: f64) -> String {
-    stated(f64::midpoint(a, b), 0.5 * (b - a).abs())
 }
 
 /// The end of a stable range, with its error where that is an extrapolated end of the branch.

@@ -11,7 +11,7 @@ use motiform_cells::{
     Units, fit_cells, fit_together, fits_json, fitted_population, observe,
 };
 use motiform_inference::{Estimate, PValue, Place, Placement, Symmetry};
-use motiform_statistics::{four_digits, with_error};
+use motiform_statistics::{four_digits, to_error, with_error};
 use motiform_store::Opening;
 use serde::{Serialize, Serializer};
 use std::fmt::{Display, Formatter, Write};
@@ -153,12 +153,6 @@ impl Display for Fits<'_> {
     }
 }
 
-/// A value with the digits that its error leaves.
-fn rounded(value: f64, error: f64) -> String {
-    let both = with_error(value, error);
-    both.split_once(" ±").map_or(both.clone(), |parts| parts.0.to_owned())
-}
-
 fn regime(fitted: &Fitted) -> &'static str {
     fitted.motion_name()
 }
@@ -189,7 +183,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
         // where a search ended that did not converge is no maximum, and has no errors
         let value = match model.converged() {
             // an error that is no interval would be read as one
-            true if fitted.no_intervals().is_some() => rounded(estimate.value, estimate.error),
+            true if fitted.no_intervals().is_some() => to_error(estimate.value, estimate.error),
             true => with_error(estimate.value, estimate.error),
             false => format!("{} (not converged)", four_digits(estimate.value)),
         };

@@ -194,8 +194,8 @@ fn a_transcritical_point_is_where_the_branches_cross() {
     }
 }
 
-/// The branch that begins at a pitchfork of a body at rest, `x = sqrt(mu)`, is followed to the end of the range: a rate vanishes at the
-/// pitchfork, and the equations have their size from the values of the parameter beside it.
+/// The branches that begin at a pitchfork of a body at rest, `x = sqrt(mu)`, are followed to the ends of the range. All growth rates of the
+/// critical mode are zero at the pitchfork: the unit of length follows from other values of the parameter.
 #[test]
 fn the_branches_of_a_pitchfork_at_rest_are_followed_to_their_ends() {
     let folder = Folder::new();
@@ -223,6 +223,25 @@ fn the_branches_of_a_pitchfork_at_rest_are_followed_to_their_ends() {
         let expected = ["the parameter left its range at 1.000000000"; 2];
         assert_eq!(left, expected[..ends], "{file}: {json}");
     }
+}
+
+/// FitzHugh and Nagumo's cycle: whether the loop of its velocity (x, -y) encloses rest depends on J, and so does its name.
+#[test]
+fn a_branch_has_the_names_that_its_motions_have_alone() {
+    let folder = Folder::new();
+    planar(&folder, "cycle.toml", "J = 0.5", ["x-x^3/3-y+J", "0.08*(x+0.7-0.8*y)"]);
+    let json = follow(&folder, "cycle.toml --along J=0.4:1.1");
+    let parts = json["branches"][0]["parts"].as_array().expect("parts");
+    let named: Vec<&str> = parts.iter().filter_map(|part| part["motion"].as_str()).collect();
+    assert_eq!(named, ["circular", "zigzag"]);
+    assert_eq!(parts[0]["course"], "clockwise");
+    for (part, end) in [(0, "to"), (1, "from")] {
+        let place = parts[part][end].as_f64().expect("a number");
+        let alone = folder.run(&format!("classify cycle.toml --set J={place} --json")).expect(0).json();
+        assert_eq!(alone["regime"], named[part], "J = {place}");
+    }
+    let text = folder.run("continue cycle.toml --along J=0.4:1.1").expect(0).stdout;
+    assert!(text.contains("becomes zigzag between"), "{text}");
 }
 
 /// A centre is neither stable nor unstable, however rounding falls: for all values of the parameter its eigenvalues are imaginary.

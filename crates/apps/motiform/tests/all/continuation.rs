@@ -234,37 +234,6 @@ fn the_reduced_models_lines_are_found() {
     assert_eq!(json["branches"][1]["motion"], "circular");
 }
 
-/// FitzHugh and Nagumo's equations, `x' = x - x^3/3 - y + J0`, `y' = 0.08 (x + 0.7 - 0.8 y)`, with the velocity (x, y): whether its loop
-/// encloses rest depends on J0.
-const FITZHUGH_NAGUMO: &str = r#"
-[model.amplitudes]
-modes = [2]
-symmetry = "none"
-velocity = "z2"
-[model.amplitudes.parameters]
-J0 = { value = 0.5, range = [-1.0, 2.0] }
-[model.amplitudes.equations]
-z2 = "re(z2) - re(z2)^3/3 - im(z2) + J0 + i*0.08*(re(z2) + 0.7 - 0.8*im(z2))"
-"#;
-
-#[test]
-fn a_branch_has_the_names_that_its_motions_have_alone() {
-    let folder = Folder::new();
-    folder.write("cycle.toml", FITZHUGH_NAGUMO);
-    let done = folder.run("continue cycle.toml --along J0=0.4:1.1 --json").expect(0);
-    let parts = done.json()["branches"][0]["parts"].as_array().unwrap().clone();
-    let named: Vec<&str> = parts.iter().map(|part| part["motion"].as_str().unwrap()).collect();
-    assert_eq!(named, ["circular", "zigzag"]);
-    assert_eq!(parts[0]["course"], "anticlockwise");
-    for (part, end) in [(0, "to"), (1, "from")] {
-        let place = parts[part][end].as_f64().unwrap();
-        let alone = folder.run(&format!("classify cycle.toml --set J0={place} --json")).expect(0).json();
-        assert_eq!(alone["regime"], named[part], "J0 = {place}");
-    }
-    let text = folder.run("continue cycle.toml --along J0=0.4:1.1").expect(0).stdout;
-    assert!(text.contains("becomes zigzag"), "{text}");
-}
-
 /// Waits until the program listens for SIGINT: the kernel shows the mask of caught signals.
 pub(crate) fn interrupt(mut child: Child, after: Duration) -> Option<i32> {
     let start = Instant::now();

@@ -165,6 +165,20 @@ fn units_change_units_alone_and_pieces_are_not_joined() {
     assert!(close(one.persistence.value, other.persistence.value / 60.0));
     assert!(close(one.diffusion.value, other.diffusion.value * 60.0 / 0.0625));
     assert!(close(one.error.value, other.error.value / 0.25));
+    assert!(
+        close(one.turning_score, other.turning_score)
+            && close(one.direction_p_value, other.direction_p_value)
+    );
+    // axes do not matter, and in a mirror the other way is turned
+    let (sin, cos) = libm::sincos(0.7);
+    let seen = |sign: f64| {
+        let at = |[x, y]: [f64; 2]| [cos * x - sign * sin * y, sin * x + sign * cos * y];
+        found(&fixes.iter().map(|fix| Fix { t: fix.t, at: at(fix.at) }).collect::<Vec<_>>())
+    };
+    for (sign, turned) in [(1.0, seen(1.0)), (-1.0, seen(-1.0))] {
+        assert!(close(sign * one.turning_score, turned.turning_score), "{one:?} {turned:?}");
+        assert!(close(one.direction_p_value, turned.direction_p_value), "{one:?} {turned:?}");
+    }
     // a stage that jumps between two pieces changes nothing
     let (first, second) = fixes.split_at(90);
     let moved: Vec<Fix> =

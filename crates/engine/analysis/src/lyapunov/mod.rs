@@ -46,6 +46,9 @@ pub struct Lyapunov {
     /// The exponents, largest first (inverse model time), each with its 95 % error; empty unless the run completed. The error is
     /// infinite where the run is too short for one ([`Lyapunov::without_error`] says why).
     pub exponents: Vec<Estimate>,
+    /// `true` if exponents that must be zero are further from it than the scatter of their averages lets expect: all errors are then at
+    /// least twice that.
+    pub widened: bool,
     /// Number of exponents that must be zero on the motion that the run ended on: those of the flow's own
     /// direction, of the rotations, and along a family of steady motions.
     pub neutral: usize,
@@ -66,16 +69,6 @@ pub struct Lyapunov {
 }
 
 impl Lyapunov {
-    /// Returns `true` if exponents that must be zero are further from it than the scatter of their averages lets expect: all errors are
-    /// then at least twice that.
-    #[must_use]
-    pub fn beyond_scatter(&self) -> bool {
-        let zeros = self.zeros();
-        let worst = zeros.iter().map(|zero| zero.value.abs()).fold(0.0, f64::max);
-        worst > 0.0
-            && zeros.iter().any(|zero| zero.error.to_bits() == (renormalisation::KNOWN * worst).to_bits())
-    }
-
     /// The exponents that must be zero, as computed: those closest to zero. A self-check of the run.
     #[must_use]
     pub fn zeros(&self) -> Vec<Estimate> {

@@ -185,8 +185,10 @@ impl Renormalisation {
             Vec::new()
         };
         let neutral = neutral_directions(body, shape, self.size);
+        let (exponents, widened) = with_known_zeros(exponents, neutral);
         Ok(Lyapunov {
-            exponents: with_known_zeros(exponents, neutral),
+            exponents,
+            widened,
             neutral,
             silent: if outcome.is_complete() { silent_rates(body, shape) } else { Vec::new() },
             time,
@@ -200,28 +202,30 @@ impl Renormalisation {
 }
 
 /// Exponents of a motion of which so many must be 0: where those are further from 0 than their errors, the averages have an error that
-/// does not show in their scatter (vectors that separate like the time in a shear), which is at least that.
-fn with_known_zeros(mut exponents: Vec<Estimate>, neutral: usize) -> Vec<Estimate> {
+/// does not show in their scatter (vectors that separate like the time in a shear), which is at least that: then with wider errors, and
+/// `true`.
+fn with_known_zeros(mut exponents: Vec<Estimate>, neutral: usize) -> (Vec<Estimate>, bool) {
     if neutral >= exponents.len() {
-        return exponents; // which of them are the zeros is not known
+        return (exponents, false); // which of them are the zeros is not known
     }
     let mut nearest = exponents.clone();
     nearest.sort_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
     nearest.truncate(neutral);
     // one that is clearly not 0 is that of a motion which settles
     let off = |zero: &Estimate| zero.error < zero.value.abs() && zero.value.abs() <= CLEAR * zero.error;
-    if nearest.iter().any(off) {
+    let widened = nearest.iter().any(off);
+    if widened {
         let worst = nearest.iter().map(|zero| zero.value.abs()).fold(0.0, f64::max);
         exponents.iter_mut().for_each(|exponent| exponent.error = exponent.error.max(KNOWN * worst));
     }
-    exponents
+    (exponents, widened)
 }
 
 /// An average of so many errors is not 0.
 const CLEAR: f64 = 10.0;
 
 /// Error of averages in units of that which is seen in those that must be 0.
-pub(super) const KNOWN: f64 = 2.0;
+const KNOWN: f64 = 2.0;
 
 /// By what factor (natural logarithm) vectors of these lengths have separated, from each other or from the length 1.
 fn separated(lengths: &[f64]) -> f64 {

@@ -24,6 +24,7 @@ fn run(value: f64, size: f64, time: f64) -> Lyapunov {
     let error = mean_over(&rates, &vec![step; INTERVALS]).map_or(0.0, |mean| mean.error);
     Lyapunov {
         exponents: vec![Estimate { value, error }],
+        widened: false,
         neutral: 0,
         silent: Vec::new(),
         history: rates.iter().zip(1..).map(|(&rate, i)| (step * f64::from(i), vec![rate])).collect(),

@@ -40,7 +40,7 @@ pub(super) fn value(combination: &Combination, values: &[Value]) -> Value {
 pub(super) struct RealForm {
     /// Their terms.
     pub(super) terms: Vec<RealTerms>,
-    /// The parts, as bits, that are a factor of their own rate; not where the other factor is a constant: these decay for ever or grow.
+    /// Bits of the parts that are a factor of their own rate. Parts with a constant rate of growth or decay are not among them.
     pub(super) kept: u64,
 }
 

@@ -190,7 +190,7 @@ fn planes_that_the_flow_keeps_are_known() {
         0b10,
         "an epidemic"
     );
-    assert_eq!(kept("re(z2) - re(z2)^3 - i*im(z2)"), 0b01, "what decays for ever needs no care");
+    assert_eq!(kept("re(z2) - re(z2)^3 - i*im(z2)"), 0b01, "im(z2) decays at a constant rate");
     assert_eq!(kept("im(z2) - i*re(z2)"), 0);
 }
 

@@ -215,7 +215,7 @@ pub(crate) fn descending<T>(items: Vec<T>, size: impl Fn(&T) -> usize) -> Vec<T>
 fn why(differing: &[Regime], renamed: &[[Regime; 2]]) -> &'static str {
     let one = |pair: &[Regime; 2]| pair.iter().all(|motion| differing.contains(motion));
     if differing.len() == 2 && renamed.iter().any(one) {
-        return "no bifurcation: the two are names of one branch, whose motion changes its name (as where its velocity passes over rest)";
+        return "a branch that was followed has both names without a bifurcation between them (as where its velocity passes over rest)";
     }
     let has = |regime| differing.contains(&regime);
     if has(Regime::Undetermined) {

@@ -3,7 +3,7 @@
 use crate::curves::{FollowedCurve, follow_curve_within};
 use crate::{Allowance, BranchEnd, Branches, Followed, Sample, follow_within, is_stable};
 use motiform_analysis::Regime;
-use motiform_continuation::{ConnectionKind, NormalForm, Special};
+use motiform_continuation::{ConnectionKind, Special};
 use motiform_dynamics::Watch;
 use motiform_study::AtlasPlan;
 use motiform_study::curves::CurveKind;
@@ -270,9 +270,11 @@ fn crossings(plan: &CurvePlan, found: &Branches) -> Vec<LineEnd> {
             if sample.point.special != Some(Special::BranchPoint) {
                 continue;
             }
-            let form = sample.point.certificate.and_then(|certificate| certificate.normal_form);
-            let pitchfork = matches!(form, Some(NormalForm::Cubic(_)));
-            let kind = if pitchfork { CrossingKind::Pitchfork } else { CrossingKind::Transcritical };
+            let kind = if sample.point.is_unstated_pitchfork() {
+                CrossingKind::Pitchfork
+            } else {
+                CrossingKind::Transcritical
+            };
             let mut at = [plan.fixed_value(); 2];
             at[plan.varied()] = sample.point.parameter;
             let before = point.checked_sub(1).and_then(|place| leg.samples.get(place));

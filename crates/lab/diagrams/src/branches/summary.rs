@@ -206,16 +206,10 @@ fn normal_form(point: &Point) -> Option<(&'static str, NormalForm)> {
     match point.special? {
         Special::Hopf(hopf) => Some(("l1", hopf.first_lyapunov)),
         Special::Fold => leading.map(|form| ("quadratic", form)),
-        Special::BranchPoint => {
-            leading.map(|form| (if is_cubic(form) { "cubic" } else { "quadratic" }, form))
-        }
+        Special::BranchPoint if point.is_unstated_pitchfork() => leading.map(|form| ("cubic", form)),
+        Special::BranchPoint => leading.map(|form| ("quadratic", form)),
         _ => leading.map(|form| ("cubic", form)),
     }
-}
-
-/// Returns `true` for the coefficient of a pitchfork where branches cross.
-const fn is_cubic(form: NormalForm) -> bool {
-    matches!(form, NormalForm::Cubic(_))
 }
 
 fn coefficient(point: &Point) -> Option<(&'static str, Coefficient)> {
@@ -229,7 +223,7 @@ fn judged(point: &Point, next: impl Fn() -> Option<&'static str>) -> (Option<&'s
     let form = normal_form(point).map(|form| form.1);
     let silent = match point.special {
         None | Some(Special::Fold | Special::Continuum | Special::Unresolved { .. }) => true,
-        Some(Special::BranchPoint) => !form.is_some_and(is_cubic),
+        Some(Special::BranchPoint) => !point.is_unstated_pitchfork(),
         _ => false,
     };
     if silent {

@@ -21,7 +21,7 @@ pub struct OfOrbit<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     dimension: Option<Estimate>,
     #[serde(skip)]
-    beyond_scatter: bool,
+    widened: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     without_error: Option<String>,
 }
@@ -38,7 +38,7 @@ impl<'a> OfOrbit<'a> {
             transient: found.transient,
             outcome: &found.outcome,
             dimension: found.dimension(),
-            beyond_scatter: found.beyond_scatter(),
+            widened: found.widened,
             without_error: found.without_error(),
         }
     }
@@ -126,7 +126,7 @@ fn check(f: &mut Formatter<'_>, found: &OfOrbit<'_>) -> Result {
     let zeros = &found.zeros;
     let worst = zeros.iter().map(|zero| zero.value.abs()).fold(0.0, f64::max);
     let known = zeros.iter().all(Estimate::has_error);
-    let verdict = match (known, found.beyond_scatter) {
+    let verdict = match (known, found.widened) {
         (false, _) => "which is inconclusive: run longer",
         (true, false) => "within their errors (bounds, which decrease like 1/time)",
         (true, true) => "more than averages scatter, so that all errors are at least twice that: run longer",

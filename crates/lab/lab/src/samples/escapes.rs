@@ -280,6 +280,7 @@ mod tests {
             .unwrap();
         let orbit = |value, error, time| Lyapunov {
             exponents: vec![motiform_analysis::Estimate { value, error }],
+            widened: false,
             neutral: 2,
             silent: Vec::new(),
             history: Vec::new(),

@@ -271,6 +271,7 @@ mod tests {
         assert!((spread.error - 1.96 * 0.5).abs() < 1e-12);
         let orbit = |value| Lyapunov {
             exponents: vec![estimate(value, 0.01)],
+            widened: false,
             neutral: 1,
             silent: Vec::new(),
             history: Vec::new(),

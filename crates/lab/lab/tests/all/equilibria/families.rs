@@ -40,7 +40,7 @@ fn circles_and_tori_of_equilibria_are_one_entry_each() {
     assert_eq!(families(&text("1", "none", ellipse)), [0, 1]);
 }
 
-/// Rock, scissors and paper: the line x = y = z of centres, whose eigenvalue 0 has the real part of the pair beside it.
+/// The game of rock, paper and scissors: every point of the line x = y = z is a centre, with the eigenvalues 0 and +-i x sqrt(3).
 #[test]
 fn a_line_of_centres_is_a_family() {
     let game = "z2 = \"re(z2)*(im(z2)-re(z3)) + i*im(z2)*(re(z3)-re(z2))\"\nz3 = \"re(z3)*(re(z2)-im(z2)) - i*im(z3)\"";
