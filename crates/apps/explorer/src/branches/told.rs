@@ -3,8 +3,7 @@
 use super::Known;
 use crate::body::short;
 use crate::protocol::{BranchTold, SpecialPoint, Specials};
-use motiform_analysis::regime::Form;
-use motiform_diagrams::{Followed, Leg, Origin, Sample, SpecialEntry, is_stable};
+use motiform_diagrams::{Followed, Origin, Sample, SpecialEntry, is_stable, motion_between};
 
 /// Enough digits for a picture, and for a value of the parameter.
 const DIGITS: (usize, usize) = (6, 10);
@@ -13,22 +12,21 @@ const DIGITS: (usize, usize) = (6, 10);
 pub(super) fn branch(known: &Known, number: usize) -> Option<BranchTold> {
     let followed = known.found.branches.get(number)?;
     let samples: Vec<&Sample> = followed.samples().collect();
-    let named = followed.named();
     let read = |value: &dyn Fn(&Sample) -> f64, digits| {
         samples.iter().map(|sample| short(value(sample), digits)).collect::<Vec<_>>()
     };
     Some(BranchTold {
         epoch: known.epoch,
         branch: number,
-        motion: named.map_or("", |part| part.motion.name()),
-        form: named.and_then(|part| part.form).map(Form::name),
         origin: origin(known, followed.origin),
         parameter: read(&|sample| sample.point.parameter, DIGITS.1),
         speed: read(&|sample| sample.reading.speed[0], DIGITS.0),
         period: read(&|sample| sample.reading.period.unwrap_or(0.0), DIGITS.0),
+        motion: samples.iter().map(|sample| sample.reading.motion.name()).collect(),
         unstable: samples.iter().map(|sample| sample.point.unstable).collect(),
+        neutral: samples.iter().map(|sample| sample.point.neutral).collect(),
+        between: samples.windows(2).map(|pair| motion_between(pair[0], pair[1]).name()).collect(),
         stable: samples.windows(2).map(|pair| is_stable(pair[0], pair[1])).collect(),
-        ends: followed.legs.iter().map(Leg::ending).collect(),
     })
 }
 

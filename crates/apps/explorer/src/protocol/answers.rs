@@ -152,20 +152,21 @@ messages! {
     /// Branches begin: along this parameter, the others as they are.
     #[derive(Serialize)]
     BranchesBegun as "BranchesStart" { epoch: u32, along: Side, parameters: Named, }
-    /// A branch, point by point; `stable[k]`: between the points k and k + 1. A period of 0: none.
+    /// A branch, point by point; `between[k]` and `stable[k]`: the motion, and its stability, between the points k and k + 1. `unstable`
+    /// and `neutral`: the numbers of growth rates above 0, and of those that are 0 within their errors. A period of 0: none.
     #[derive(Serialize)]
     BranchTold as "Branch" {
         epoch: u32,
         branch: usize,
-        motion: &'static str,
-        form: Option<&'static str>,
         origin: Option<[usize; 2]>,
         parameter: Vec<f64>,
         speed: Vec<f64>,
         period: Vec<f64>,
+        motion: Vec<&'static str>,
         unstable: Vec<usize>,
+        neutral: Vec<usize>,
+        between: Vec<&'static str>,
         stable: Vec<bool>,
-        ends: Vec<String>,
     }
     /// A special point, and where it is on its branch; `leads`: the branch that begins or lies there.
     #[derive(Serialize)]

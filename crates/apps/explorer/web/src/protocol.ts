@@ -278,20 +278,20 @@ export interface BranchesStart {
   parameters: Values;
 }
 
-/** A branch, point by point; `stable[k]`: between the points k and k + 1. A period of 0: none. */
+/** A branch, point by point; `between[k]` and `stable[k]`: the motion, and its stability, between the points k and k + 1. `unstable` and `neutral`: the numbers of growth rates above 0, and of those that are 0 within their errors. A period of 0: none. */
 export interface Branch {
   is: "branch";
   epoch: number;
   branch: number;
-  motion: string;
-  form: string | null;
   origin: [number, number] | null;
   parameter: number[];
   speed: number[];
   period: number[];
+  motion: string[];
   unstable: number[];
+  neutral: number[];
+  between: string[];
   stable: boolean[];
-  ends: string[];
 }
 
 /** The special points of all branches so far. */

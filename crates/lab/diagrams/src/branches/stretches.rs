@@ -2,6 +2,7 @@
 
 use super::origin::Origin;
 use super::result::{Branches, Followed, Leg, Sample};
+use motiform_analysis::regime::Regime;
 
 /// Ranges of the parameter over which a branch is stable, in its order, each from the smaller to the larger value. They end at special
 /// points, or where the branch does.
@@ -81,6 +82,13 @@ fn along(samples: &[&Sample]) -> Vec<[f64; 2]> {
 fn birth(found: &Branches, followed: &Followed) -> Option<f64> {
     let Origin::Special { branch, leg, point } = followed.origin else { return None };
     Some(found.branches.get(branch)?.legs.get(leg)?.samples.get(point)?.point.parameter)
+}
+
+/// The name of the motion on a stretch between neighbours: a special point itself may have more symmetry.
+#[must_use]
+pub fn motion_between(a: &Sample, b: &Sample) -> Regime {
+    let named = if a.point.special.is_none() { a } else { b };
+    named.reading.motion
 }
 
 /// Returns `true` if a stretch between neighbours is stable: a special point itself is neither.

@@ -96,7 +96,7 @@ function paint(g: CanvasRenderingContext2D, scene: DiagramScene, box: Box, view:
   g.clip();
   paintNow(g, box, pixelX(box, view, now), inks);
   const toPixel = (_: number, [x, y]: [number, number]): [number, number] => [pixelX(box, view, x), pixelY(box, view, scaled(ordinate, y))];
-  paintBranches(g, set, ordinate, toPixel, colourOf(set, regimes), null);
+  paintBranches(g, set, ordinate, toPixel, colourOf(regimes), null);
   const place = (spot: Spot): [number, number] | null => placed(scene, box, view, spot);
   paintSpecials(g, set, place, inks.ink, inks.plot);
   const at = selected && place(selected);

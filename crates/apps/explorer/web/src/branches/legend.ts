@@ -12,7 +12,7 @@ const SVG = "http://www.w3.org/2000/svg";
 /** The legend of the diagram. */
 export function showBranchLegend(element: HTMLElement, set: BranchSet | null, regimes: Regime[]): void {
   if (!set) return element.replaceChildren();
-  const motions = regimes.filter((regime) => set.branches.some((branch) => branch.motion === regime.name));
+  const motions = regimes.filter((regime) => set.branches.some((branch) => branch.between.includes(regime.name)));
   element.replaceChildren(
     ...motions.map((regime) => make("li", { title: regime.meaning }, swatch(regime, 13), regime.name)),
     ...lines(set),

@@ -17,18 +17,18 @@ const MARKER = 4.2;
 type ToPixel = (branch: number, at: [number, number]) => [number, number];
 
 /** Draws all branches, the stable parts on top. */
-export function paintBranches(g: CanvasRenderingContext2D, set: BranchSet, ordinate: Ordinate, toPixel: ToPixel, colour: (branch: number) => string, halo: string | null): void {
+export function paintBranches(g: CanvasRenderingContext2D, set: BranchSet, ordinate: Ordinate, toPixel: ToPixel, colour: (motion: string) => string, halo: string | null): void {
   g.lineJoin = "round";
   for (const stable of [false, true]) {
+    const { width, dash } = stable ? STABLE : UNSTABLE;
     for (const number of set.branches.keys()) {
-      const path = new Path2D();
       for (const piece of set.pieces(number, ordinate)) {
         if (piece.stable !== stable) continue;
+        const path = new Path2D();
         piece.points.forEach((at, i) => (i ? path.lineTo(...toPixel(number, at)) : path.moveTo(...toPixel(number, at))));
+        if (halo) stroke(g, path, halo, width + 2, []);
+        stroke(g, path, colour(piece.motion), width, dash);
       }
-      const { width, dash } = stable ? STABLE : UNSTABLE;
-      if (halo) stroke(g, path, halo, width + 2, []);
-      stroke(g, path, colour(number), width, dash);
     }
   }
 }
@@ -60,12 +60,9 @@ export function paintSelected(g: CanvasRenderingContext2D, [x, y]: [number, numb
   }
 }
 
-/** The colour of a branch: that of its motion. */
-export function colourOf(set: BranchSet, regimes: Regime[]): (branch: number) => string {
-  return (branch) => {
-    const regime = regimes.find((one) => one.name === set.branches[branch].motion);
-    return edge(visible(regime?.colour ?? "#888888"));
-  };
+/** The colour of a motion. */
+export function colourOf(regimes: Regime[]): (motion: string) => string {
+  return (motion) => edge(visible(regimes.find((one) => one.name === motion)?.colour ?? "#888888"));
 }
 
 /** Where points of branches lie upon a map; `null` where the parameter followed is no axis of it. */

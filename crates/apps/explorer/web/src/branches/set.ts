@@ -11,8 +11,9 @@ export interface Spot {
   point: number;
 }
 
-/** A stretch of a branch over which its stability stays. */
+/** A stretch of a branch over which motion and stability stay. */
 export interface Piece {
+  motion: string;
   stable: boolean;
   /** Parameter and value. */
   points: [number, number][];
@@ -37,13 +38,14 @@ export class BranchSet {
     const all: Piece[] = [];
     let before = this.at({ branch: number, point: 0 }, ordinate);
     const birth = before && this.birth(branch, ordinate, before);
-    if (birth && before && branch.stable.length) all.push({ stable: branch.stable[0], points: [birth, before] });
+    if (birth && before && branch.stable.length) all.push({ motion: branch.between[0], stable: branch.stable[0], points: [birth, before] });
     for (const [k, stable] of branch.stable.entries()) {
       const next = this.at({ branch: number, point: k + 1 }, ordinate);
       const last = all.at(-1);
       if (before && next) {
-        if (last && last.stable === stable && last.points.at(-1) === before) last.points.push(next);
-        else all.push({ stable, points: [before, next] });
+        const motion = branch.between[k];
+        if (last && last.motion === motion && last.stable === stable && last.points.at(-1) === before) last.points.push(next);
+        else all.push({ motion, stable, points: [before, next] });
       }
       before = next;
     }
@@ -86,8 +88,9 @@ export class BranchSet {
     }
   }
 
-  /** Whether small deviations die out at a point; at a special one neither. */
-  growing({ branch, point }: Spot): number {
-    return this.branches[branch].unstable[point];
+  /** Motion at a point, and how many of its growth rates are above 0, and 0 within their errors. */
+  state({ branch, point }: Spot): { motion: string; unstable: number; neutral: number } {
+    const { motion, unstable, neutral } = this.branches[branch];
+    return { motion: motion[point], unstable: unstable[point], neutral: neutral[point] };
   }
 }

@@ -13,7 +13,7 @@ export function describe(set: BranchSet, spot: Spot, parameter: Parameter): HTML
   const branch = set.branches[spot.branch];
   const period = special ? special.period : branch.period[spot.point] || null;
   const value = special?.parameter ?? branch.parameter[spot.point];
-  const head = special ? kindOf(special.kind).label : motion(branch.motion, set.growing(spot));
+  const head = special ? kindOf(special.kind).label : motion(set.state(spot));
   const numbers = make("span", {}, symbol(parameter.symbol), ` = ${pretty(value, special ? 8 : 5)}`, period ? `, period ${pretty(period, 5)}` : "", `, mean speed ${pretty(branch.speed[spot.point], 3)}`);
   const lines = [make("b", {}, head), numbers];
   if (special?.criticality) lines.push(make("span", {}, CRITICALITY[special.criticality]));
@@ -23,9 +23,10 @@ export function describe(set: BranchSet, spot: Spot, parameter: Parameter): HTML
 }
 
 /** Stable, or in how many directions deviations grow. */
-function motion(name: string, growing: number): string {
-  if (growing === 0) return `${name}, stable`;
-  return `${name}, unstable (deviations grow in ${growing === 1 ? "one direction" : `${growing} directions`})`;
+function motion({ motion, unstable, neutral }: ReturnType<BranchSet["state"]>): string {
+  const count = (n: number): string => (n === 1 ? "one direction" : `${n} directions`);
+  if (unstable > 0) return `${motion}, unstable (deviations grow in ${count(unstable)})`;
+  return neutral > 0 ? `${motion}, marginally stable (deviations neither grow nor die out in ${count(neutral)})` : `${motion}, stable`;
 }
 
 function where(branch: number, leads: number | null): string {

@@ -3,7 +3,7 @@
 use crate::branches::family::Bodies;
 use crate::branches::result::Leg;
 use crate::branches::sweep::{SweepPoint, Sweeps};
-use crate::{Branches, Followed, Origin, Sample, is_stable};
+use crate::{Branches, Followed, Origin, Sample, is_stable, motion_between};
 use motiform_continuation::{End, Special};
 use motiform_figures::axes::AxisKind;
 use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Chart, Glyph};
@@ -268,8 +268,7 @@ fn parts(followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
             open = false;
             continue;
         };
-        let named = if pair[0].point.special.is_none() { pair[0] } else { pair[1] };
-        let (regime, stable) = (named.reading.motion.name(), is_stable(pair[0], pair[1]));
+        let (regime, stable) = (motion_between(pair[0], pair[1]).name(), is_stable(pair[0], pair[1]));
         match all.last_mut().filter(|last| open && last.regime == regime && last.stable == stable) {
             Some(last) => last.points.push(to),
             None => all.push(BranchPart { regime: regime.to_owned(), stable, points: vec![from, to] }),
