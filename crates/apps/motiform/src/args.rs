@@ -42,7 +42,7 @@ pub(crate) use settings::{Bodies, Cells, Following, Method, Recording, SettingOp
 pub(crate) use statistics::StatisticsOptions;
 use std::path::PathBuf;
 pub(crate) use subject::{MethodOptions, ParameterOptions, SamplesOptions, SubjectOptions};
-pub(crate) use threads::{ThreadOptions, all_cores};
+pub(crate) use threads::ThreadOptions;
 pub(crate) use tools::{
     CheckOptions, CompletionsOptions, DoctorOptions, FigureOptions, NewOptions, VerifyOptions,
 };

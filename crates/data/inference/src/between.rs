@@ -14,10 +14,10 @@
 //! Source: Jaeckel (1972), Bell Labs memorandum MM 72-1215-11; Efron (1982), The Jackknife, the Bootstrap and
 //! Other Resampling Plans, ch. 6.
 
-use crate::chi_square::chi_square_tail;
 use crate::filter::{Want, evaluate};
 use crate::fit::problem;
 use crate::{CellScatter, Error, Fit, Result, Settings, Track, observation};
+use motiform_dynamics::distributions::chi_square_tail;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -56,7 +56,7 @@ impl BetweenCells {
 /// The p-value of a variance between this many cells where one law has the other one.
 pub(crate) fn differ(between: f64, law: f64, cells: usize) -> f64 {
     let freedom = cells.saturating_sub(1);
-    if law > 0.0 { chi_square_tail(freedom as f64 * between / law, freedom) } else { 1.0 }
+    if law > 0.0 { chi_square_tail(freedom as f64 * between / law, freedom as f64) } else { 1.0 }
 }
 
 impl Fit {

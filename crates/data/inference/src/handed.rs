@@ -1,10 +1,10 @@
 //! The test that left and right are different motions: real coefficients against complex ones.
 
-use crate::chi_square::chi_square_tail;
 use crate::filter::{NO_CENTRE_NOISE, Theta};
 use crate::fit::{reached, refit};
 use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation, whiteness};
 use motiform_dynamics::Watch;
+use motiform_dynamics::distributions::{NORMAL_95, chi_square_tail};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -136,14 +136,14 @@ pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Hand
 
 fn compare(fit: &Fit, handed: Fit, degrees: usize) -> Handedness {
     let ratio = (2.0 * (handed.log_likelihood - fit.log_likelihood)).max(0.0);
-    let p_value = chi_square_tail(ratio, degrees);
+    let p_value = chi_square_tail(ratio, degrees as f64);
     let numbers = (fit.observed() * fit.frames.max(1)) as f64;
     let certainty = |c: &Coefficient| c.estimate.value.abs() / c.estimate.error.max(f64::MIN_POSITIVE);
     let mut parts: Vec<Coefficient> =
         handed.coefficients.iter().filter(|c| c.imaginary && certainty(c) > 3.0).cloned().collect();
     parts.sort_by(|a, b| certainty(b).total_cmp(&certainty(a)));
     let excluded = excluded(&handed);
-    let robust_p_value = chi_square_tail(wald(&handed), degrees);
+    let robust_p_value = chi_square_tail(wald(&handed), degrees as f64);
     let symmetry = match identifiability(&handed).identifiable && fit.converged() {
         _ if p_value.max(robust_p_value) < HANDED_RATE && handed.converged() && fit.converged() => {
             Symmetry::Handed
@@ -175,7 +175,7 @@ fn excluded(handed: &Fit) -> f64 {
     };
     let end = |c: &Coefficient| {
         let error = c.estimate.error.max(c.estimate.robust);
-        (c.estimate.value.abs() + 1.96 * error) / natural(c) / largest(c.term.equation)
+        (c.estimate.value.abs() + NORMAL_95 * error) / natural(c) / largest(c.term.equation)
     };
     handed.coefficients.iter().filter(|c| c.imaginary).map(end).fold(0.0, f64::max)
 }

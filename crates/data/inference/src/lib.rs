@@ -10,7 +10,6 @@
 //! Knows no file. Method and measurements: docs/inference.md.
 
 mod between;
-mod chi_square;
 mod definition;
 mod draws;
 mod error;
@@ -35,7 +34,6 @@ mod warnings;
 mod weak;
 
 pub use between::{BetweenCells, between_cells};
-pub use chi_square::chi_square_tail;
 pub use definition::equations;
 pub use draws::draws;
 pub use error::{Error, Result};

@@ -1,10 +1,10 @@
 //! The null hypothesis of motion: a velocity that decays, and noise that renews it.
 
-use crate::chi_square::chi_square_tail;
 use crate::fit::{reached, refit};
 use crate::subsets::reduced;
 use crate::{Fit, Result, Selection, Track};
 use motiform_dynamics::Watch;
+use motiform_dynamics::distributions::chi_square_tail;
 
 /// Rate at which a persistent random walk may be given the name of a motion: rare enough for a thousand cells.
 pub const WALK_RATE: f64 = 1e-4;
@@ -33,7 +33,8 @@ pub fn walk_p_value(tracks: &[Track], whole: &Fit, selection: &Selection, watch:
         return Ok(1.0);
     }
     let Some((settings, start)) = reduced(whole, &null) else { return Ok(1.0) };
-    let tail = |height: f64| chi_square_tail(2.0 * (selection.fit.log_likelihood - height).max(0.0), more);
+    let tail =
+        |height: f64| chi_square_tail(2.0 * (selection.fit.log_likelihood - height).max(0.0), more as f64);
     let (near, height) = reached(tracks, &settings, &whole.scales, (&start, ENOUGH), watch)?;
     if let Some(bound) =
         height.map(|height| tail(height + LEFT)).filter(|bound| *bound < WALK_RATE * WALK_RATE)

@@ -1,7 +1,7 @@
 //! Observed tracks of shape modes.
 
 use crate::{Error, MOST_MODES, Result};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use nalgebra::{Cholesky, DMatrix};
 use serde::{Deserialize, Serialize};
 

@@ -4,11 +4,11 @@
 //! of one is the stage, or a flow. In the equations it is `x' = Re z1 + u_x, y' = -Im z1 + u_y`, which is the
 //! same as the law for `(x, y) - u t`.
 
-use crate::chi_square::chi_square_tail;
 use crate::filter::{Evaluation, Frame, NOISES, Problem, Want, evaluate};
 use crate::fit::{problem, refit};
 use crate::{Fit, Result, Settings, Track, observation};
 use motiform_dynamics::Watch;
+use motiform_dynamics::distributions::chi_square_tail;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use serde::{Deserialize, Serialize};
 
@@ -172,7 +172,8 @@ pub fn handed_beside(
 ) -> Result<f64> {
     let [real_there, handed_there] = [real, handed].map(|fit| with(beside, tracks, fit, watch));
     let ratio = 2.0 * (handed_there?.2.log_likelihood - real_there?.2.log_likelihood);
-    Ok(chi_square_tail(ratio.max(0.0), handed.coefficients.len() - real.coefficients.len()))
+    let more = handed.coefficients.len() - real.coefficients.len();
+    Ok(chi_square_tail(ratio.max(0.0), more as f64))
 }
 
 /// The scores of coefficients and noise, frame by frame, of all tracks of a fit: they vanish in sum over all of them, not of each.

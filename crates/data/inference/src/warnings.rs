@@ -16,7 +16,7 @@ use crate::filter::Frame;
 use crate::identifiability::unbounded;
 use crate::{Fit, PValue, Result, StageVelocity, Track, observation, stage_velocities};
 use motiform_dynamics::Complex;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 

@@ -78,6 +78,14 @@ impl Answer {
         }
     }
 
+    /// The same with an interval that reaches at least so far to both sides of the value, if it has one.
+    pub(crate) fn at_least(self, half_width: f64) -> Self {
+        let Self::Known(Measured { value, interval }) = self else { return self };
+        let interval =
+            interval.map(|[low, high]| [low.min(value - half_width), high.max(value + half_width)]);
+        Self::Known(Measured { value, interval })
+    }
+
     /// The reason why there is no value, if there is none.
     #[must_use]
     pub fn reason(&self) -> Option<&str> {

@@ -145,10 +145,9 @@ impl Products {
         Ok(Self { sums, groups: tracks.groups(), dt: tracks.dt(), total, is_number })
     }
 
-    /// Returns `true` if it does not vary, but for round-off.
+    /// Returns `true` if it does not vary ([`Quantity::is_steady`]).
     fn steady(&self, tracks: &Tracks, quantity: &Quantity) -> bool {
-        let variance = self.sums[0].mean(None);
-        variance.is_nan() || variance <= 1e-24 * typical(tracks, quantity)
+        quantity.is_steady(tracks, self.sums[0].mean(None))
     }
 
     /// C of all groups and without each, up to the longest lag that all of them have.
@@ -199,13 +198,4 @@ fn mean(tracks: &Tracks, quantity: &Quantity) -> f64 {
         sum += series.components.iter().flatten().sum::<f64>();
     }
     sum / count
-}
-
-/// The mean square of a quantity: below 1e-24 of it, fluctuations are round-off.
-fn typical(tracks: &Tracks, quantity: &Quantity) -> f64 {
-    let squares = tracks.units().iter().map(|track| {
-        let series = quantity.of(track);
-        series.components.iter().flatten().map(|x| x * x).sum::<f64>() / series.count().max(1.0)
-    });
-    squares.fold(0.0, f64::max)
 }

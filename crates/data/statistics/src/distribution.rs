@@ -1,7 +1,7 @@
 //! Histograms with intervals that know of correlations.
 
 use crate::jackknife::Sums;
-use crate::quantiles::wilson;
+use motiform_dynamics::distributions::wilson;
 use serde::Serialize;
 
 /// A bin of a histogram.

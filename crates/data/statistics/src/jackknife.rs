@@ -1,7 +1,7 @@
 //! Intervals by leaving out one group of units at a time.
 
 use crate::Measured;
-use crate::quantiles::student_quantile;
+use motiform_dynamics::distributions::student_quantile;
 
 /// Fewest groups that give an interval.
 const LEAST: usize = 8;

@@ -12,6 +12,9 @@ const MISFIT: f64 = 0.1;
 /// A correlation oscillates where it goes down to this value, by more than its error.
 const NEGATIVE: f64 = -0.05;
 
+/// The phase that harmonics and the ends of a record may shift over the longest lag (radians): no frequency is known better.
+const PHASE: f64 = 0.01;
+
 /// Shortest period in samples: with fewer, a slower one cannot be told from a faster one.
 const SHORTEST: f64 = 5.0;
 
@@ -32,9 +35,9 @@ pub struct Oscillation {
 /// lags up to `last`, by least squares; `None` where rho does not oscillate: it does not go below -0.05 by
 /// more than its error, or forgets within a radian (omega < lambda).
 ///
-/// Intervals: by leaving out groups and fitting again, on logarithms. Unknown are both where the damped
-/// cosine deviates by more than 10 %, and the decay where the amplitude does not fall to 1/e within these
-/// lags. Both are unknown for the reason `coarse`, if given: what is forgotten between samples is not seen,
+/// Intervals: by leaving out groups and fitting again, on logarithms. No frequency is known better than to a
+/// hundredth of a radian over these lags. Unknown are both where the damped cosine deviates by more than 10 %, and the decay where the
+/// amplitude does not fall to 1/e within these lags. Both are unknown for the reason `coarse`, if given: what is forgotten between samples is not seen,
 /// and without it the rest is another one.
 ///
 /// # Checked by  tests/all/oscillation.rs: chiral active Brownian motion, circle, exponential; coverage in crate measure
@@ -85,7 +88,8 @@ fn measured(curves: &Curves, last: usize, best: &Damped) -> [Answer; 2] {
         let (values, longer) = (values(&fine), values(&coarse));
         Estimate { values, longer, coarser: None }.answer()
     };
-    let frequency = of(&|found| found.omega / (TAU * curves.dt));
+    let resolution = PHASE / (TAU * last as f64 * curves.dt);
+    let frequency = of(&|found| found.omega / (TAU * curves.dt)).at_least(resolution);
     if best.lambda * last as f64 > 1.0 {
         return [frequency, of(&|found| curves.dt / found.lambda)];
     }

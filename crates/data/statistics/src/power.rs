@@ -1,8 +1,8 @@
 //! Power spectra over bodies, with confidence bands.
 
-use crate::quantiles::chi_square_quantile;
 use crate::{Quantity, Result, Series, Tracks};
 use motiform_analysis::welch;
+use motiform_dynamics::distributions::chi_square_quantile;
 use std::ops::Range;
 
 /// Segments per track: at least so many half-overlapping ones where there are few bodies, and where there are many.

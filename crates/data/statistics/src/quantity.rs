@@ -1,6 +1,6 @@
 //! Quantities of a body, and their series along a track.
 
-use crate::Track;
+use crate::{Track, Tracks};
 
 /// A quantity along a track.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -122,4 +122,16 @@ impl Quantity {
         };
         pairs.iter().map(|[a, b]| libm::hypot(*a, *b)).collect()
     }
+    /// Returns `true` if a quantity whose fluctuations have this variance does not vary: their size is below 1e-6 of its own, which
+    /// round-off and the tolerance of a simulation leave.
+    pub(crate) fn is_steady(&self, tracks: &Tracks, variance: f64) -> bool {
+        let squares = tracks.units().iter().map(|track| {
+            let series = self.of(track);
+            series.components.iter().flatten().map(|x| x * x).sum::<f64>() / series.count().max(1.0)
+        });
+        variance.is_nan() || variance <= STEADY * STEADY * squares.fold(0.0, f64::max)
+    }
 }
+
+/// Largest size of fluctuations of a quantity that does not vary, as a part of its own.
+const STEADY: f64 = 1e-6;

@@ -2,6 +2,7 @@
 
 use crate::survival::{Duration, MeanTime, mean_time};
 use crate::{Quantity, Tracks};
+use motiform_dynamics::sample::{mean, median};
 use serde::Serialize;
 
 /// The residence of a quantity on one side of a threshold.
@@ -29,14 +30,25 @@ pub struct Residence {
 /// Times for which the size of a quantity stays above and below a threshold (its median, if none is given).
 ///
 /// A stay begins with a crossing of the threshold, located by linear interpolation, so the first one of a
-/// unit (and after a gap) is left out; the last one is censored ([`mean_time`]). Under noise, stays shorter
+/// unit (and after a gap) is left out; the last one is censored ([`mean_time`]). A quantity that does not vary has none. Under noise, stays shorter
 /// than the time between samples are not seen, and the mean time depends on that time.
 ///
 /// # Checked by  tests/all/passage.rs: a sine, whose stays are known
 #[must_use]
 pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -> Residence {
     let sizes: Vec<Vec<f64>> = tracks.units().iter().map(|track| quantity.size(track)).collect();
-    let threshold = threshold.unwrap_or_else(|| median(&sizes));
+    let threshold = threshold.unwrap_or_else(|| {
+        median(sizes.iter().flatten().copied().filter(|x| !x.is_nan())).unwrap_or(f64::NAN)
+    });
+    let all = || sizes.iter().flatten().copied().filter(|x| !x.is_nan());
+    let centre = mean(all()).unwrap_or(f64::NAN);
+    let variance = mean(all().map(|x| (x - centre) * (x - centre))).unwrap_or(f64::NAN);
+    if quantity.is_steady(tracks, variance) {
+        let side = |is_here| Side { share: f64::from(u8::from(is_here)), time: None };
+        let is_above = all().any(|x| x >= threshold);
+        let quantity = quantity.name().to_owned();
+        return Residence { quantity, threshold, above: side(is_above), below: side(!is_above) };
+    }
     let (mut above, mut below) = (Vec::new(), Vec::new());
     for (unit, series) in sizes.iter().enumerate() {
         for (is_above, steps, ended) in stays(series, threshold) {
@@ -44,17 +56,10 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
             if is_above { above.push(duration) } else { below.push(duration) }
         }
     }
-    let all = || sizes.iter().flatten().filter(|x| !x.is_nan());
-    let share = all().filter(|&&x| x >= threshold).count() as f64 / all().count() as f64;
+    let share = all().filter(|&x| x >= threshold).count() as f64 / all().count() as f64;
     let side = |share, durations: &[Duration]| Side { share, time: mean_time(durations, tracks.groups()) };
     let quantity = quantity.name().to_owned();
     Residence { quantity, threshold, above: side(share, &above), below: side(1.0 - share, &below) }
-}
-
-fn median(sizes: &[Vec<f64>]) -> f64 {
-    let mut all: Vec<f64> = sizes.iter().flatten().copied().filter(|x| !x.is_nan()).collect();
-    all.sort_unstable_by(f64::total_cmp);
-    all[all.len() / 2]
 }
 
 /// Stays after the first crossing of each stretch without gaps: the side, the length in samples, and whether its end was seen.

@@ -9,6 +9,7 @@ use crate::{
     Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, first_passages, histogram,
     local_exponent, mean_square, persistent_walk, power_spectrum, radii, residence, turning_angles,
 };
+use motiform_dynamics::sample::mean;
 
 /// Bins of the speed.
 const BINS: usize = 40;
@@ -146,5 +147,7 @@ fn speeds(tracks: &Tracks) -> Option<Histogram> {
     };
     let samples: Vec<(usize, f64)> = tracks.units().iter().enumerate().flat_map(of).collect();
     let ends = samples.iter().fold((f64::MAX, 0.0_f64), |(low, high), s| (low.min(s.1), high.max(s.1)));
-    (ends.1 - ends.0 > 1e-9 * ends.1).then(|| histogram(&samples, tracks.groups(), ends, BINS))
+    let centre = mean(samples.iter().map(|s| s.1))?;
+    let variance = mean(samples.iter().map(|s| (s.1 - centre) * (s.1 - centre)))?;
+    (!Quantity::Speed.is_steady(tracks, variance)).then(|| histogram(&samples, tracks.groups(), ends, BINS))
 }

@@ -21,7 +21,8 @@ pub struct Duration {
 /// A mean duration.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeanTime {
-    /// The mean, an exponential tail beyond `limit` included; unknown if more than half last longer than was watched.
+    /// The mean, an exponential tail beyond `limit` included; unknown if more than half last longer than was watched, or if ends become
+    /// rarer with time.
     pub mean: Answer,
     /// The mean of min(duration, limit): the area under the Kaplan-Meier curve.
     pub restricted: Measured,
@@ -41,8 +42,9 @@ pub struct MeanTime {
 ///
 /// L is the longest time at which 0.1 % of the durations and at least 5 are still watched; k is the rate of
 /// ends (ends over time watched) from where S falls to sqrt(S(L)), the second half of the fall on a
-/// logarithmic scale: an exponential tail, as escapes by diffusion have. If every end was seen, the mean is
-/// the plain mean. `None` without durations.
+/// logarithmic scale: an exponential tail, as escapes by diffusion have. Such ends are as frequent in the second half of the time watched
+/// there as in the first; where they are rarer (p below 0.1 %), some may never come, and the mean is unknown. If every end was seen, the
+/// mean is the plain mean. `None` without durations.
 ///
 /// Source: Kaplan and Meier (1958), J. Am. Stat. Assoc. 53, 457; Brown, Hollander, Korwar (1974), exponential completion of the tail.
 ///
@@ -63,15 +65,7 @@ pub fn mean_time(durations: &[Duration], groups: usize) -> Option<MeanTime> {
     let without: Vec<Area> = (0..groups).map(|group| curve(&sorted, limit, Some(group))).collect();
     let measured =
         |of: fn(&Area) -> f64| leave_out(groups, &|left| of(left.map_or(&all, |g| &without[g])), false);
-    let mean = if all.share > 0.5 {
-        let percent = 100.0 * all.share;
-        Answer::unknown(format!(
-            "not reached: {percent:.0} % last longer than they were watched ({}); record longer",
-            four_digits(limit)
-        ))
-    } else {
-        Answer::Known(measured(Area::mean))
-    };
+    let mean = all.without_mean(limit).map_or_else(|| Answer::Known(measured(Area::mean)), Answer::unknown);
     let restricted = measured(|area| area.restricted);
     Some(MeanTime { mean, restricted, limit, beyond: all.share, censored, count })
 }
@@ -83,22 +77,51 @@ struct Area {
     share: f64,
     /// Rate of ends from where S falls to sqrt(S(limit)).
     rate: f64,
+    /// Ends in the first and in the second half of the time watched there.
+    halves: [f64; 2],
 }
 
 impl Area {
     fn mean(&self) -> f64 {
         self.restricted + if self.share > 0.0 { self.share / self.rate } else { 0.0 }
     }
+
+    /// The reason why the mean is not known.
+    fn without_mean(&self, limit: f64) -> Option<String> {
+        let (percent, [first, second]) = (100.0 * self.share, self.halves);
+        let rarer = (first - second) / (first + second).max(1.0).sqrt();
+        if self.share > 0.5 {
+            let limit = four_digits(limit);
+            Some(format!(
+                "not reached: {percent:.0} % last longer than they were watched ({limit}); record longer"
+            ))
+        } else if self.share > 0.0 && rarer > RARER {
+            Some(format!(
+                "ends become rarer with time ({first} in the first half of the late time watched, {second} in the second), and \
+                 {percent:.1} % are not seen to end: some may never do"
+            ))
+        } else {
+            None
+        }
+    }
 }
+
+/// Ends are rarer in the second half by this many standard deviations (0.1 %, one-sided).
+const RARER: f64 = 3.09;
 
 /// The curve up to `limit`, without one group if asked.
 fn curve(sorted: &[Duration], limit: f64, left_out: Option<usize>) -> Area {
     let (steps, last) = steps(sorted, limit, left_out);
     let restricted = steps.iter().map(|step| step.share * step.time).sum::<f64>() + last.share * last.time;
-    let late = || steps.iter().chain(std::iter::once(&last)).filter(|step| step.share <= last.share.sqrt());
-    let rate =
-        late().map(|step| step.ends).sum::<f64>() / late().map(|step| step.at_risk * step.time).sum::<f64>();
-    Area { restricted, share: last.share, rate }
+    let late: Vec<Step> =
+        steps.into_iter().chain([last]).filter(|step| step.share <= last.share.sqrt()).collect();
+    let watched: f64 = late.iter().map(|step| step.at_risk * step.time).sum();
+    let (mut so_far, mut halves) = (0.0, [0.0; 2]);
+    for step in &late {
+        so_far += step.at_risk * step.time;
+        halves[usize::from(so_far > 0.5 * watched)] += step.ends;
+    }
+    Area { restricted, share: last.share, rate: (halves[0] + halves[1]) / watched, halves }
 }
 
 /// A step of the curve, between two durations: the share that lasts, its length, the number at risk, and the

@@ -1,9 +1,7 @@
 //! Escape times over many initial states: how many stay how long, and at what rate the last ones leave.
 
 use crate::{Error, Estimate, Result, checks};
-
-/// 97.5 % quantile of the normal distribution.
-const QUANTILE: f64 = 1.959_963_984_540_054;
+use motiform_dynamics::distributions::NORMAL_95;
 
 /// Fewest escapes that give a rate: below, the normal interval of the estimate is no guide.
 const LEAST_ESCAPES: usize = 10;
@@ -73,7 +71,7 @@ pub fn survival(stays: &[Stay]) -> Result<Vec<SurvivalStep>> {
 /// S^exp(+-z s/|ln S|), lower end first.
 fn band(share: f64, greenwood: f64) -> (f64, f64) {
     let log = libm::log(share);
-    let width = QUANTILE * greenwood.sqrt() / log.abs();
+    let width = NORMAL_95 * greenwood.sqrt() / log.abs();
     let end = |exponent: f64| libm::exp(log * libm::exp(exponent));
     (end(width), end(-width))
 }
@@ -114,7 +112,7 @@ pub fn escape_rate(stays: &[Stay], t_from: f64) -> Result<EscapeRate> {
     }
     checks::at_least("an escape rate, in escapes after t_from,", LEAST_ESCAPES, escapes)?;
     let value = escapes as f64 / watched;
-    let rate = Estimate { value, error: QUANTILE * value / (escapes as f64).sqrt() };
+    let rate = Estimate { value, error: NORMAL_95 * value / (escapes as f64).sqrt() };
     Ok(EscapeRate { rate, escapes, watched })
 }
 

@@ -1,6 +1,7 @@
 //! The mean of a correlated series, with an error that can be trusted, or with none.
 
 use crate::{Estimate, Result, checks};
+use motiform_dynamics::distributions::student_quantile;
 
 /// Least and most cosines; below the least there is no error.
 const COSINES: (usize, usize) = (4, 16);
@@ -11,26 +12,6 @@ const PER_COSINE: f64 = 4.0;
 
 /// Fewest samples.
 const LEAST: usize = 64;
-
-/// 97.5 % quantiles of Student's t with 4 .. 16 degrees of freedom.
-///
-/// Source: the closed form of its distribution for whole degrees of freedom (Abramowitz and Stegun 26.7.3-4), inverted to
-/// 1e-12; `SciPy`'s `scipy.stats.t.ppf(0.975, nu)` has the same digits.
-const QUANTILES: [f64; 13] = [
-    2.776_445_105_198,
-    2.570_581_835_636,
-    2.446_911_851_145,
-    2.364_624_251_593,
-    2.306_004_135_204,
-    2.262_157_162_798,
-    2.228_138_851_986,
-    2.200_985_160_092,
-    2.178_812_829_667,
-    2.160_368_656_463,
-    2.144_786_687_918,
-    2.131_449_545_560,
-    2.119_905_299_221,
-];
 
 /// Mean of a correlated stationary series, with its 95 % error from the lowest cosines of its fluctuations.
 ///
@@ -83,8 +64,7 @@ pub(crate) fn mean_over(samples: &[f64], durations: &[f64]) -> Result<Estimate> 
     }
     let cosines = cosines(independent(&off, FEWEST_INDEPENDENT));
     let error = cosines.map_or(f64::INFINITY, |count| {
-        QUANTILES[count - COSINES.0] * (2.0 / count as f64 * slowest(&off, durations, total, count)).sqrt()
-            / total
+        student_quantile(count) * (2.0 / count as f64 * slowest(&off, durations, total, count)).sqrt() / total
     });
     Ok(Estimate { value, error })
 }

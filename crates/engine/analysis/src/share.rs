@@ -1,17 +1,11 @@
 //! The share of trials with some outcome, with its interval.
 
+use motiform_dynamics::distributions::wilson;
 use serde::Serialize;
-
-/// 97.5 % quantile of the normal distribution.
-const QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// A share of independent trials with its 95 % confidence interval.
 ///
-/// (p + z^2/2n -+ z sqrt(p (1 - p)/n + z^2/4n^2)) / (1 + z^2/n),   p = count / of, n = of, z = 1.96
-///
-/// The shares that a score test does not refuse: within 0..1, and not empty where none or all trials have the outcome.
-///
-/// Source: Wilson (1927), J. Am. Stat. Assoc. 22, 209.
+/// Wilson's interval, [`wilson`]: within 0..1, and not empty where none or all trials have the outcome.
 ///
 /// # Checked by  tests/all/share.rs: published intervals, symmetry
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -35,12 +29,8 @@ impl Share {
         if of == 0 || count > of {
             return None;
         }
-        let (n, value) = (of as f64, count as f64 / of as f64);
-        let square = QUANTILE * QUANTILE / n;
-        let middle = (value + 0.5 * square) / (1.0 + square);
-        let half = (value * (1.0 - value) * square + 0.25 * square * square).sqrt() / (1.0 + square);
-        let lower = if count == 0 { 0.0 } else { middle - half };
-        let upper = if count == of { 1.0 } else { middle + half };
+        let value = count as f64 / of as f64;
+        let [lower, upper] = wilson(value, of as f64);
         Some(Self { count, of, value, lower, upper })
     }
 }

@@ -1,7 +1,7 @@
 //! The 0-1 test for chaos.
 
 use crate::{Error, Result, checks};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;

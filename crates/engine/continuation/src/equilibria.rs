@@ -17,7 +17,7 @@ use motiform_analysis::equilibrium::Units;
 use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
 use motiform_analysis::linear::{add, apply, eigenvalues, leading_first, norm, restrict};
 use motiform_analysis::singular::svd;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, VectorField, Watch, model};
 use nalgebra::DMatrix;

@@ -3,7 +3,7 @@
 use super::normal_form::{Coefficient, NormalForm, Order, Undetermined};
 use motiform_analysis::linear::{add, apply, dot, solve};
 use motiform_analysis::singular::svd;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use nalgebra::DMatrix;
 
 /// A size, and its error.

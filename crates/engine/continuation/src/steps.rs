@@ -7,7 +7,7 @@ use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
 use super::tracer::Tracer;
 use motiform_dynamics::Watch;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 
 /// Length of the first correction that the step is chosen for: the second is about its square. The first grows with the third power of
 /// the step.

@@ -12,6 +12,7 @@
 
 pub mod conformance;
 mod control;
+pub mod distributions;
 pub mod drive;
 pub mod ensemble;
 pub mod equivariant;
@@ -25,8 +26,8 @@ pub mod noise;
 mod noise_steps;
 mod noisy_orbit;
 pub mod orbit;
-pub mod order;
 mod outcome;
+pub mod sample;
 pub mod scalar;
 pub mod section;
 pub mod simd;

@@ -1,7 +1,7 @@
 //! The share of a cell's motion that its equations make without their noise.
 
 use crate::natural::{STEP, model, noise};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::{ascending, quantile};
 use motiform_dynamics::{Model, Noise, Normal};
 use motiform_inference::Fit;
 use motiform_lab::sample_path::{Looks, sample_path};
@@ -36,9 +36,8 @@ impl Driven {
             return None;
         }
         ascending(&mut shares);
-        let last = (shares.len() - 1) as f64;
-        let at = |part: f64| shares[(part * last).round() as usize];
-        Some(Self { share: at(0.5), interval: [at(0.025), at(0.975)], models: shares.len() })
+        let at = |part: f64| quantile(&shares, part);
+        Some(Self { share: at(0.5)?, interval: [at(0.025)?, at(0.975)?], models: shares.len() })
     }
 
     /// In words.

@@ -18,7 +18,7 @@ use crate::{CellTrack, Numbers, numbers};
 use measures::Measures;
 use motiform_analysis::regime::Regime;
 use motiform_analysis::symmetry::wrap;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_statistics::{Walk, four_digits, with_error};
 use repeats::Repeats;
 use serde::Serialize;

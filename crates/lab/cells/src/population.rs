@@ -3,7 +3,7 @@
 use crate::{CellFit, Fitted, Observation};
 use motiform_analysis::Share;
 use motiform_dynamics::Normal;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::{ascending, mean, median, quantile};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -108,31 +108,16 @@ fn shares(names: impl Iterator<Item = &'static str>) -> Vec<NameShare> {
     counts.into_iter().filter_map(share).collect()
 }
 
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-/// The median: the mean of the middle two of an even number.
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    ascending(&mut sorted);
-    let middle = sorted.len() / 2;
-    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
-}
-
 /// A number over cells; `None` without any.
 #[must_use]
 pub fn over_cells(values: &[f64]) -> Option<OverCells> {
-    if values.is_empty() {
-        return None;
-    }
-    let [mean_interval, median_interval] = intervals(values);
-    let (mean, median) = (mean(values), median(values));
+    let (mean, median) = (mean(values.iter().copied())?, median(values.iter().copied())?);
+    let [mean_interval, median_interval] = intervals(values, [mean, median]);
     Some(OverCells { cells: values.len(), mean, mean_interval, median, median_interval })
 }
 
 /// Intervals of mean and median.
-fn intervals(values: &[f64]) -> [Option<[f64; 2]>; 2] {
+fn intervals(values: &[f64], estimates: [f64; 2]) -> [Option<[f64; 2]>; 2] {
     let n = values.len();
     if n < LEAST_CELLS {
         return [None, None];
@@ -142,20 +127,17 @@ fn intervals(values: &[f64]) -> [Option<[f64; 2]>; 2] {
     let mut found = [Vec::with_capacity(RESAMPLES), Vec::with_capacity(RESAMPLES)];
     for _ in 0..RESAMPLES {
         drawn.fill_with(|| values[((random.uniform() * n as f64) as usize).min(n - 1)]);
-        found[0].push(mean(&drawn));
-        found[1].push(median(&drawn));
+        found[0].extend(mean(drawn.iter().copied()));
+        found[1].extend(median(drawn.iter().copied()));
     }
     let wider = (n as f64 / (n - 1) as f64).sqrt();
     // a length is not negative, and neither is the end of its interval
     let least = if values.iter().all(|&value| value >= 0.0) { 0.0 } else { f64::NEG_INFINITY };
-    let [means, medians] = found;
-    [(means, mean(values)), (medians, median(values))].map(|(mut resampled, value)| {
-        ascending(&mut resampled);
-        let low = (0.025 * RESAMPLES as f64) as usize;
-        Some(
-            [resampled[low], resampled[RESAMPLES - 1 - low]]
-                .map(|end| (value + wider * (end - value)).max(least)),
-        )
+    [0, 1].map(|which| {
+        ascending(&mut found[which]);
+        let value = estimates[which];
+        let end = |share| Some((value + wider * (quantile(&found[which], share)? - value)).max(least));
+        Some([end(0.025)?, end(0.975)?])
     })
 }
 

@@ -110,19 +110,30 @@ pub(crate) fn complete<A: Send>(
     let found = Mutex::new((answers, done, None));
     let kept = Mutex::new(Moment::now());
     let jobs = Jobs { open, next: AtomicUsize::new(0), found, keeping, kept, watch };
-    std::thread::scope(|scope| {
-        for _ in 1..threads.min(count) {
-            if std::thread::Builder::new().spawn_scoped(scope, || work(&jobs)).is_err() {
-                break; // the system gives no more threads: those that there are do the work
-            }
-        }
-        work(&jobs);
-    });
+    on_threads(threads.min(count), || work(&jobs));
     let (answers, _, failure) = jobs.found.into_inner().unwrap_or_else(PoisonError::into_inner);
     match failure {
         Some(error) => Err(error),
         None => Ok(answers),
     }
+}
+
+/// Does the same work on so many threads, of which this one is the first, or on as many as the system gives.
+pub fn on_threads(threads: usize, work: impl Fn() + Sync) {
+    std::thread::scope(|scope| {
+        for _ in 1..threads {
+            if std::thread::Builder::new().spawn_scoped(scope, &work).is_err() {
+                break;
+            }
+        }
+        work();
+    });
+}
+
+/// Threads of the machine.
+#[must_use]
+pub fn all_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
 /// The answer to each item, on `threads` threads, in the order of the items. The watch only stops the work:

@@ -7,7 +7,7 @@ use super::plane::Plane;
 use motiform_analysis::{PeriodicOrbit, Regime};
 use motiform_continuation::{CurvePoint, Degenerate, Motion, Point, Settings, Special, WholeCurve};
 use motiform_diagrams::{Branches, Followed};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_figures::report::Claim;
 use motiform_figures::{ExpectedLine, LineStyle};
 use motiform_study::Error;

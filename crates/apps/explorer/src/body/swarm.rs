@@ -9,6 +9,7 @@ use motiform_analysis::regime::Regime;
 use motiform_dynamics::{InPlane, Model, Normal, Outline, Watch};
 use motiform_lab::analyse;
 use motiform_lab::live::{Record, Stretch, start};
+use motiform_lab::pool::{all_cores, on_threads};
 use motiform_lab::scan::Row;
 use motiform_study::plan::check;
 use motiform_study::{Error, Random, RunPlan};
@@ -75,13 +76,7 @@ impl Task for Classification {
                 }
             }
         };
-        let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-        std::thread::scope(|scope| {
-            for _ in 1..threads.min(job.plans.len()) {
-                scope.spawn(work);
-            }
-            work();
-        });
+        on_threads(all_cores().min(job.plans.len()), work);
         Ok(())
     }
 }

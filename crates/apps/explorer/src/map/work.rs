@@ -10,6 +10,7 @@ use crate::task::lock;
 use crate::task::thread::Current;
 use motiform_analysis::regime::Verdict;
 use motiform_dynamics::Watch;
+use motiform_lab::pool::{all_cores, on_threads};
 use motiform_lab::scan::{Classify, Evaluate, Row};
 use motiform_study::Error;
 use std::sync::Mutex;
@@ -32,13 +33,7 @@ pub(super) fn compute(
         next: Mutex::new(view.wanted.iter()),
         telling: Mutex::new(Telling::new(view.known.len())),
     };
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    std::thread::scope(|scope| {
-        for _ in 1..threads.min(view.wanted.len()) {
-            scope.spawn(|| work.run());
-        }
-        work.run();
-    });
+    on_threads(all_cores().min(view.wanted.len()), || work.run());
     work.finish()
 }
 

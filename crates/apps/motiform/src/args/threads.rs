@@ -1,6 +1,7 @@
 //! The option of threads, shared by the commands that have many independent rows.
 
 use clap::Args;
+use motiform_lab::pool::all_cores;
 
 #[derive(Args)]
 pub(crate) struct ThreadOptions {
@@ -14,9 +15,4 @@ impl ThreadOptions {
     pub(crate) fn count(&self) -> usize {
         self.threads.map_or_else(all_cores, usize::from)
     }
-}
-
-/// Threads of the machine.
-pub(crate) fn all_cores() -> usize {
-    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }

@@ -1,9 +1,10 @@
 //! `motiform doctor`.
 
-use crate::args::{DoctorOptions, all_cores};
+use crate::args::DoctorOptions;
 use crate::output::{End, say};
 use crate::progress::Progress;
 use motiform_dynamics::simd::InstructionSet;
+use motiform_lab::pool::all_cores;
 use motiform_lab::samples::{self, Samples};
 use motiform_models::ModelInfo;
 use motiform_study::{Random, RunPlan, presets};

@@ -1,11 +1,12 @@
 //! `motiform lyapunov`.
 
-use crate::args::{LyapunovOptions, all_cores};
+use crate::args::LyapunovOptions;
 use crate::commands::subject;
 use crate::output::{End, say};
 use crate::progress::Progress;
 use motiform_lab::analyse;
 use motiform_lab::answers::{Exponents, MeanExponents};
+use motiform_lab::pool::all_cores;
 use motiform_lab::saddle::saddle as find_saddle;
 use motiform_lab::samples::{self, Escapes, Samples, Starts};
 use motiform_study::{Error, Plan};

@@ -1,6 +1,6 @@
 //! `motiform observe`.
 
-use crate::args::{CellsOptions, ObserveOptions, all_cores};
+use crate::args::{CellsOptions, ObserveOptions};
 use crate::commands::pages::draw;
 use crate::commands::population::observed;
 use crate::output::{End, say, warn};
@@ -10,6 +10,7 @@ use motiform_cells::{
     population_numbers, write_observations,
 };
 use motiform_dynamics::Watch;
+use motiform_lab::pool::all_cores;
 use motiform_statistics::{Answer, four_digits};
 use motiform_store::{Kind, Staged};
 use motiform_tracks::modes::ModeOptions;

@@ -3,7 +3,7 @@
 use super::{Evaluation, LONGEST_GAP, LONGEST_STRIDE};
 use crate::field::{Field, Part};
 use motiform_dynamics::Complex;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 
 /// Parameters of the noise: see [`Theta::logs`].
 pub(crate) const NOISES: usize = 4;

@@ -4,11 +4,9 @@ use super::optimise::{Ending, Point, at_bounds, prior};
 use super::{Settings, covariance, likelihood};
 use crate::filter::{NOISES, Problem, Theta};
 use crate::{Library, Scales, Term};
+use motiform_dynamics::distributions::NORMAL_95;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Deserializer, Serialize};
-
-/// Half the width of a 95 % interval in standard errors.
-const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// An estimate with its errors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

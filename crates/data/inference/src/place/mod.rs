@@ -16,6 +16,7 @@ mod among;
 mod scaled;
 
 pub use among::place_among;
+use motiform_dynamics::distributions::NORMAL_95;
 
 use crate::{Estimate, Fit, MOST_MODES, Term, identifiability};
 use nalgebra::{DMatrix, DVector};
@@ -24,8 +25,6 @@ use serde::{Deserialize, Serialize};
 
 /// A coefficient that sets a unit must be this many standard errors from 0.
 const CERTAIN: f64 = 3.0;
-/// Half the width of a 95 % interval in standard errors.
-const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// A plane of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

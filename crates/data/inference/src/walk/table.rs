@@ -2,6 +2,7 @@
 
 use super::ridge::{Entry, Places};
 use super::{Bounded, Fix};
+use motiform_dynamics::distributions::NORMAL_95;
 use std::f64::consts::LN_10;
 
 /// Log-likelihood below the maximum that walks are looked for.
@@ -130,9 +131,8 @@ impl Known {
 /// The fall of the log-likelihood at the end of a 95 % interval: (n/2) ln(1 + t^2/(n - 3)) with Student's t,
 /// exact for a normal mean with three other numbers; 1.92 for large n.
 fn drop(count: f64) -> f64 {
-    const NORMAL: f64 = 1.959_963_984_540_054;
     let freedom = (count - 3.0).max(1.0);
-    let t = NORMAL + (NORMAL * NORMAL * NORMAL + NORMAL) / (4.0 * freedom);
+    let t = NORMAL_95 + (NORMAL_95 * NORMAL_95 * NORMAL_95 + NORMAL_95) / (4.0 * freedom);
     0.5 * count * libm::log1p(t * t / freedom)
 }
 

@@ -1,7 +1,7 @@
 //! The noise of each mode of the shape, against the one amplitude that a fit has for all of them.
 
 use crate::Fit;
-use crate::chi_square::chi_square_tail;
+use motiform_dynamics::distributions::chi_square_tail;
 use serde::{Deserialize, Serialize};
 
 /// Variances of two modes' innovations differ by at least this factor, and with this significance.
@@ -51,7 +51,7 @@ impl UnequalNoise {
         let compare = |(one, two): (&Mode, &Mode)| {
             let ratio = one.variance / two.variance;
             let deviation = libm::log(ratio);
-            let p_value = chi_square_tail(deviation * deviation / (one.error + two.error), 1);
+            let p_value = chi_square_tail(deviation * deviation / (one.error + two.error), 1.0);
             let clear = p_value < CLEAR && deviation.abs() > libm::log(LEAST);
             clear.then_some(Self { modes: [one.number, two.number], ratio, p_value })
         };

@@ -1,8 +1,8 @@
 //! The whiteness of innovations.
 
 use crate::Fit;
-use crate::chi_square::chi_square_tail;
 use crate::observation::NAMES;
+use motiform_dynamics::distributions::chi_square_tail;
 use serde::{Deserialize, Serialize};
 
 /// Largest lag of the test.
@@ -59,5 +59,5 @@ pub(crate) fn ljung_box(series: &[Vec<f64>]) -> (Vec<f64>, f64) {
     let size = n as f64;
     let weighted = autocorrelation.iter().enumerate().map(|(k, rho)| rho * rho / (size - k as f64 - 1.0));
     let q = size * (size + 2.0) * weighted.sum::<f64>();
-    (autocorrelation, chi_square_tail(q, lags))
+    (autocorrelation, chi_square_tail(q, lags as f64))
 }

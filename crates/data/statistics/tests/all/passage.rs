@@ -66,6 +66,26 @@ fn censored_durations_have_the_mean_of_all() {
     assert!(held >= 181, "{held} of {sets}"); // as in coverage.rs
 }
 
+/// Of points of a circle that are watched from its rim inwards, 30 % never leave: no mean, whatever the time watched.
+#[test]
+fn what_never_ends_has_no_mean() {
+    for watched in [500.0, 4000.0] {
+        let durations: Vec<Duration> = (0..640)
+            .map(|k| {
+                let (start, leaves) = (watched * f64::from(k % 64) / 64.0, k % 10 < 7);
+                let (time, left) = (0.01 * f64::from(k), watched - start);
+                Duration {
+                    time: if leaves { time.min(left) } else { left },
+                    ended: leaves && time <= left,
+                    group: k as usize % 8,
+                }
+            })
+            .collect();
+        let found = mean_time(&durations, 8).unwrap();
+        assert!(found.mean.reason().unwrap().starts_with("ends become rarer"), "{found:?}");
+    }
+}
+
 #[test]
 fn durations_that_are_all_seen_have_their_plain_mean() {
     let times = [1.0, 5.0, 2.0, 2.0];

@@ -4,6 +4,7 @@ use super::flag::{Flag, Side};
 use super::straight::{Edge, run};
 use crate::geometry::{area, centroid};
 use crate::{Outline, Tracks};
+use motiform_dynamics::sample::median;
 use std::f64::consts::PI;
 
 /// Frames in which a line must be reached.
@@ -99,7 +100,7 @@ fn line(tracks: &Tracks, (side, axis, sign): (Side, usize, f64), edge: Edge, edg
 /// The lower end of the band in which extremes coincide.
 fn coincidence(tracks: &Tracks, axis: usize, sign: f64, extreme: f64) -> Option<f64> {
     let outlines = || tracks.cells.iter().flat_map(|cell| &cell.frames);
-    let radius = median(outlines().map(|outline| (area(&outline.points).abs() / PI).sqrt()).collect())?;
+    let radius = median(outlines().map(|outline| (area(&outline.points).abs() / PI).sqrt()))?;
     let mut steps = Vec::new();
     let mut near = Vec::new();
     for cell in &tracks.cells {
@@ -134,9 +135,4 @@ fn scatter(values: &[f64]) -> f64 {
     let count = values.len().max(1) as f64;
     let mean = values.iter().sum::<f64>() / count;
     (values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / count).sqrt()
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }

@@ -2,7 +2,7 @@
 
 use super::flag::Flag;
 use super::frame::FrameModes;
-use super::quality::median;
+use motiform_dynamics::sample::{ascending, median, quantile};
 use std::f64::consts::PI;
 
 /// Distance of two centroids, in mean radii, from which on they are two places.
@@ -18,7 +18,7 @@ const STEP: f64 = 4.0;
 const MIXED: f64 = 0.2;
 
 /// Multiple of the 90 % quantile of all changes of shape between frames, from which on a shape does not go on.
-const CHANGED: f64 = 2.0;
+const CHANGED: f64 = 2.1;
 
 /// Frames on each side whose median areas are compared, and the fewest of them.
 const LEVEL: usize = 8;
@@ -32,7 +32,7 @@ const LEAST_LEVEL: usize = 5;
 pub(super) fn displacements(modes: &mut [FrameModes]) {
     let seen: Vec<usize> = (0..modes.len()).filter(|&k| modes[k].area > 0.0).collect();
     let steps: Vec<f64> = seen.windows(2).map(|pair| pace(&modes[pair[0]], &modes[pair[1]])).collect();
-    let usual = quantile(steps, 0.9);
+    let usual = usual(steps);
     let going = Going::of(modes, &seen);
     let mut k = 1;
     while k < seen.len() {
@@ -70,7 +70,7 @@ struct Going {
 impl Going {
     fn of(modes: &[FrameModes], seen: &[usize]) -> Self {
         let pairs = || seen.windows(2).map(|pair| changes(&modes[pair[0]], &modes[pair[1]]));
-        Self { usual: [0, 1, 2].map(|k| quantile(pairs().filter_map(|found| found[k]).collect(), 0.9)) }
+        Self { usual: [0, 1, 2].map(|k| usual(pairs().filter_map(|found| found[k]).collect())) }
     }
 
     /// Returns `true` if the shape of `here` is that of `before`, within the usual changes between frames.
@@ -155,7 +155,8 @@ fn apart(a: &FrameModes, b: &FrameModes) -> f64 {
     0.5 * APART * ((a.area / PI).sqrt() + (b.area / PI).sqrt())
 }
 
-fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get((share * values.len() as f64) as usize).copied().unwrap_or(0.0)
+/// The 90 % quantile; 0 of nothing.
+fn usual(mut values: Vec<f64>) -> f64 {
+    ascending(&mut values);
+    quantile(&values, 0.9).unwrap_or(0.0)
 }

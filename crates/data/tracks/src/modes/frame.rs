@@ -7,6 +7,7 @@ use super::star::fold;
 use super::tangent::{TangentModes, tangent_modes};
 use crate::form::{Form, form};
 use crate::geometry::{area, centroid, distinct, edges, perimeter};
+use motiform_dynamics::sample::median;
 use serde::Serialize;
 
 /// Settings of the modes.
@@ -127,9 +128,7 @@ pub fn outline_modes(points: &[[f64; 2]], options: &ModeOptions) -> FrameModes {
 
 /// The flag, where the outline runs back about the centre by more than noise: the median edge or 4 sigma, at most R0/10.
 fn not_star_shaped(points: &[[f64; 2]], fit: &RadiusFit) -> Option<Flag> {
-    let mut lengths: Vec<f64> = edges(points).map(|(a, b)| libm::hypot(b[0] - a[0], b[1] - a[1])).collect();
-    lengths.sort_unstable_by(f64::total_cmp);
-    let median = lengths[lengths.len() / 2];
+    let median = median(edges(points).map(|(a, b)| libm::hypot(b[0] - a[0], b[1] - a[1])))?;
     let tolerance = median.max(4.0 * fit.sigma).min(0.1 * fit.r0);
     let (turns, back) = fold(points, fit.centre).map_or((0, 0.0), |fold| (fold.turns, fold.back));
     (turns.abs() != 1 || back > tolerance).then_some(Flag::NotStarShaped { turns, back, tolerance })

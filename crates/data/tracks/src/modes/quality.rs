@@ -5,6 +5,7 @@ use super::flag::Flag;
 use super::frame::FrameModes;
 use crate::after::digest;
 use crate::{Cell, Outline};
+use motiform_dynamics::sample::median;
 use std::collections::BTreeMap;
 
 /// Frames on each side whose areas are compared.
@@ -51,7 +52,7 @@ pub(super) fn gaps(modes: &mut [FrameModes]) {
 pub(super) fn jumps(modes: &mut [FrameModes], threshold: f64) {
     let logs: Vec<Option<f64>> =
         modes.iter().map(|frame| (frame.area > 0.0).then(|| libm::log(frame.area))).collect();
-    let scatter = median(deviations(&logs, &[]).iter().flatten().map(|d| d.abs()).collect()).unwrap_or(0.0);
+    let scatter = median(deviations(&logs, &[]).iter().flatten().map(|d| d.abs())).unwrap_or(0.0);
     let limit = threshold.max(SCATTER * 1.4826 * scatter);
     let steps = areas(modes, &logs, limit);
     for (frame, deviation) in modes.iter_mut().zip(deviations(&logs, &steps)) {
@@ -67,14 +68,8 @@ fn deviations(logs: &[Option<f64>], steps: &[usize]) -> Vec<Option<f64>> {
     (0..logs.len())
         .map(|k| {
             let around = k.saturating_sub(AROUND)..(k + AROUND + 1).min(logs.len());
-            let others = around.filter(|&j| j != k && level(j) == level(k)).filter_map(|j| logs[j]).collect();
+            let others = around.filter(|&j| j != k && level(j) == level(k)).filter_map(|j| logs[j]);
             Some(logs[k]? - median(others)?)
         })
         .collect()
-}
-
-pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    let (low, high) = (values.get(values.len().saturating_sub(1) / 2)?, values.get(values.len() / 2)?);
-    Some(0.5 * (low + high))
 }

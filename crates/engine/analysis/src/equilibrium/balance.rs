@@ -1,7 +1,7 @@
 //! Sizes at which the terms of the equations balance.
 
 use crate::linear::norm;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::{Equivariant, VectorField};
 
 /// Powers of 2 between which sizes are looked at.

@@ -3,7 +3,7 @@
 use super::balance::balances;
 use crate::linear::norm;
 use crate::periodic::Flow;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::{Equivariant, StepControl, VectorField, model};
 
 /// Rays along which sizes are looked for.

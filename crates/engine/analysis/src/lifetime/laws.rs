@@ -2,10 +2,8 @@
 
 use super::LifeCount;
 use crate::Estimate;
+use motiform_dynamics::distributions::{NORMAL_95, chi_square_tail};
 use serde::Serialize;
-
-/// 97.5 % quantile of the normal distribution.
-const QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// 95 % quantile of chi-square with one degree of freedom.
 const PROFILE: f64 = 3.841_458_820_694_124;
@@ -36,17 +34,9 @@ impl Goodness {
 
     /// The probability of a deviance of this size or more if the law holds (chi-square; for at least a few events per value). 1 without
     /// degrees of freedom.
-    ///
-    /// Source: Wilson and Hilferty (1931), PNAS 17, 684: the cube root of chi-square is nearly normal.
     #[must_use]
     pub fn probability(&self) -> f64 {
-        let free = self.values.saturating_sub(self.parameters) as f64;
-        if free == 0.0 {
-            return 1.0;
-        }
-        let variance = 2.0 / (9.0 * free);
-        let z = (libm::cbrt(self.deviance / free) - (1.0 - variance)) / variance.sqrt();
-        0.5 * libm::erfc(z * std::f64::consts::FRAC_1_SQRT_2)
+        chi_square_tail(self.deviance, self.values.saturating_sub(self.parameters) as f64)
     }
 }
 
@@ -98,11 +88,11 @@ impl ExponentialLife {
         let tilt = Tilt::fit(counts, |p| p, f64::NEG_INFINITY);
         let spread = 1.0 / tilt.events.sqrt();
         let life = libm::exp(-tilt.log_rate - tilt.slope * tilt.mean);
-        let k = Estimate { value: tilt.slope, error: QUANTILE * spread / tilt.variance.sqrt() };
+        let k = Estimate { value: tilt.slope, error: NORMAL_95 * spread / tilt.variance.sqrt() };
         let mut law = Self {
             k,
             at: tilt.mean,
-            life: Estimate { value: life, error: QUANTILE * spread * life },
+            life: Estimate { value: life, error: NORMAL_95 * spread * life },
             goodness: Goodness { deviance: 0.0, parameters: 2, values: counts.len() },
         };
         law.goodness.deviance = deviance(counts, |p| law.life(p));
@@ -164,7 +154,7 @@ impl PowerLawLife {
         let sum = |of: &dyn Fn(f64, f64) -> f64| rows.iter().map(|r| r.0 * of(r.1 - x, r.2 - y)).sum::<f64>();
         let (xx, xy, yy) = (sum(&|x, _| x * x), sum(&|x, y| x * y), sum(&|_, y| y * y));
         let variance = yy / (xx * yy - xy * xy);
-        if variance > 0.0 { QUANTILE * variance.sqrt() } else { f64::INFINITY }
+        if variance > 0.0 { NORMAL_95 * variance.sqrt() } else { f64::INFINITY }
     }
 }
 

@@ -12,6 +12,7 @@ use super::shortest::shortest;
 use crate::linear::{add, norm};
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
 use crate::symmetry::{align, wrap};
+use motiform_dynamics::distributions::student_quantile;
 use motiform_dynamics::{Equivariant, Watch};
 
 /// Most returns per period of the orbit inside.
@@ -22,9 +23,6 @@ const RETURNS: (usize, usize) = (80, 1000);
 
 /// Parts of a look whose mean sizes are compared.
 const PARTS: usize = 8;
-
-/// 97.5 % quantile of Student's t with `PARTS - 2` degrees of freedom (closed form for whole degrees: Abramowitz and Stegun 26.7.4).
-const QUANTILE: f64 = 2.446_911_851_145;
 
 /// A rate may be slower than the one of the multipliers by this part: the curve has a size.
 const LIKE: f64 = 0.3;
@@ -152,6 +150,6 @@ fn slope(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let width: f64 = means.iter().map(|p| (p.0 - t) * (p.0 - t)).sum();
     let slope = means.iter().map(|p| (p.0 - t) * (p.1 - x)).sum::<f64>() / width;
     let rest: f64 = means.iter().map(|p| (p.1 - x - slope * (p.0 - t)).powi(2)).sum();
-    let error = QUANTILE * libm::sqrt(rest / (PARTS as f64 - 2.0) / width);
+    let error = student_quantile(PARTS - 2) * libm::sqrt(rest / (PARTS as f64 - 2.0) / width);
     (slope.is_finite() && error.is_finite()).then_some((slope, error))
 }

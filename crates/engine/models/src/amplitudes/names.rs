@@ -5,7 +5,7 @@ use super::{Amplitudes, Definition, DefinitionError, Equations, Monomial, Parame
 use crate::registry::{Display, ModelInfo, Source};
 use crate::{Error, ParameterSpec};
 use motiform_dynamics::model::{Coordinate, Observable};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Bundle, Model, Scalar, System, VectorField};
 use nalgebra::{DMatrix, DVector};

@@ -2,6 +2,7 @@
 
 use super::grid::Grid;
 use motiform_dynamics::Normal;
+use motiform_dynamics::sample::mean;
 use serde::Serialize;
 
 /// Fewest cells of a frame.
@@ -159,12 +160,12 @@ impl Residuals {
 
     /// Mean square of the common parts, of a coordinate.
     fn square(&self) -> f64 {
-        mean(self.common.iter().flatten().map(|(h, _)| 0.5 * (h[0] * h[0] + h[1] * h[1])))
+        mean(self.common.iter().flatten().map(|(h, _)| 0.5 * (h[0] * h[0] + h[1] * h[1]))).unwrap_or(0.0)
     }
 
     /// The part of it that the cells' own motion explains.
     fn noise(&self) -> f64 {
-        mean(self.common.iter().flatten().map(|(_, weight)| 1.0 / weight))
+        mean(self.common.iter().flatten().map(|(_, weight)| 1.0 / weight)).unwrap_or(0.0)
     }
 
     fn p_value(&self) -> f64 {
@@ -232,9 +233,4 @@ fn conjugate_gradients(matrix: &dyn Fn(&[f64]) -> Vec<f64>, right: &[f64]) -> Ve
         square = next;
     }
     x
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
-    if count > 0.0 { sum / count } else { 0.0 }
 }

@@ -1,7 +1,7 @@
 //! Jumps of the stage.
 
 use super::grid::Grid;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::median;
 use motiform_tracks::modes::{CellModes, Flag};
 use serde::Serialize;
 
@@ -31,9 +31,9 @@ pub struct StageJump {
 /// ([`Flag::StageJump`]).
 pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Vec<StageJump> {
     let means: Vec<Option<[f64; 2]>> = (0..grid.times.len()).map(|k| mean_displacement(grid, k)).collect();
-    let middle = [0, 1].map(|i| median(means.iter().flatten().map(|d| d[i]).collect()).unwrap_or(0.0));
+    let middle = [0, 1].map(|i| median(means.iter().flatten().map(|d| d[i])).unwrap_or(0.0));
     let off = |d: &[f64; 2]| libm::hypot(d[0] - middle[0], d[1] - middle[1]);
-    let usual = 1.4826 * median(means.iter().flatten().map(off).collect()).unwrap_or(0.0);
+    let usual = 1.4826 * median(means.iter().flatten().map(off)).unwrap_or(0.0);
     let stands_out = |k: usize| means.get(k).copied().flatten().is_some_and(|d| off(&d) > CLEAR * usual);
     (1..grid.times.len())
         .filter_map(|k| {
@@ -80,9 +80,4 @@ fn mean_displacement(grid: &Grid, k: usize) -> Option<[f64; 2]> {
 fn is_flagged(cells: &[CellModes], frame: i64) -> bool {
     let jumps = |flag: &Flag| matches!(flag, Flag::StageJump { .. });
     cells.iter().flat_map(|cell| &cell.frames).any(|one| one.frame == frame && one.flags.iter().any(jumps))
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    ascending(&mut values);
-    values.get(values.len() / 2).copied()
 }

@@ -7,12 +7,12 @@ use crate::stages::Stages;
 use crate::{Checks, FitOptions, Result};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
+use motiform_dynamics::distributions::student_factor;
 use motiform_inference::{
     Beside, Fit, Ladder, PValue, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, Warning,
     averaged, between_cells, drift, fit, handed_beside, handedness, identifiability, ladder, place_among,
     select, walk_p_value, warnings,
 };
-use motiform_statistics::student_factor;
 
 /// Several tracks: pieces of one record, or cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Centroids of the frames that are seen, in pieces between stage jumps.
 
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_inference::Fix;
 use motiform_tracks::modes::{CellModes, Flag, FrameModes};
 

@@ -4,8 +4,9 @@ use super::Numbers;
 use super::displacement;
 use super::places::Places;
 use crate::{AtLag, Observation, OverCells, over_cells};
-use motiform_dynamics::order::ascending;
-use motiform_inference::{Bounded, PValue, PersistentWalk, chi_square_tail};
+use motiform_dynamics::distributions::chi_square_tail;
+use motiform_dynamics::sample::{ascending, median};
+use motiform_inference::{Bounded, PValue, PersistentWalk};
 use motiform_statistics::four_digits;
 use motiform_study::Quantity;
 use motiform_study::quantity::cell;
@@ -98,9 +99,7 @@ const SHORT: usize = 100;
 
 /// The error of the places, where most records are short.
 fn of_short_records(walks: &[&PersistentWalk]) -> Option<Withheld> {
-    let mut steps: Vec<f64> = walks.iter().map(|walk| walk.steps as f64).collect();
-    ascending(&mut steps);
-    let usual = steps.get(steps.len() / 2).copied().filter(|&usual| usual < SHORT as f64)?;
+    let usual = median(walks.iter().map(|walk| walk.steps as f64)).filter(|&usual| usual < SHORT as f64)?;
     let why = format!(
         "estimates from {usual} steps (median) are too small by some percent, and a mean over cells keeps that; {SHORT} are needed"
     );
@@ -127,7 +126,7 @@ fn turning_together(walks: &[&PersistentWalk]) -> Option<String> {
     let count = walks.len() as f64;
     let squares: f64 = walks.iter().map(|walk| walk.turning_score * walk.turning_score).sum();
     let sum: f64 = walks.iter().map(|walk| walk.turning_score).sum();
-    let p = chi_square_tail(squares, walks.len()).min(chi_square_tail(sum * sum / count, 1));
+    let p = chi_square_tail(squares, count).min(chi_square_tail(sum * sum / count, 1.0));
     (walks.len() >= FEWEST && p < TOGETHER).then(|| {
         format!(
             "of {} cells whose path alone is a persistent random walk the velocities keep turning one way, taken together ({}): \
@@ -172,8 +171,7 @@ fn elsewhere(cells: &[(&Numbers, &PersistentWalk)]) -> Option<String> {
 
 /// The reason why a mean of these numbers over cells is biased, if there is one.
 fn why_biased(of_cells: &[Bounded]) -> Option<String> {
-    let mut spans: Vec<f64> = of_cells.iter().filter_map(|one| Some(one.high? / one.low?)).collect();
-    ascending(&mut spans);
+    let spans: Vec<f64> = of_cells.iter().filter_map(|one| Some(one.high? / one.low?)).collect();
     let (cells, open) = (of_cells.len(), of_cells.len() - spans.len());
     if open as f64 > MOST_OPEN * cells as f64 {
         return Some(format!(
@@ -181,7 +179,7 @@ fn why_biased(of_cells: &[Bounded]) -> Option<String> {
              longest or shortest; a mean over the others would leave them out"
         ));
     }
-    let span = spans.get(spans.len() / 2).copied().filter(|&span| span > WIDEST)?;
+    let span = median(spans).filter(|&span| span > WIDEST)?;
     Some(format!(
         "single cells know it within a factor of {} (median of the interval's upper over lower end): so poorly known values \
          are biased, and a mean over cells keeps the bias; longer records are needed",

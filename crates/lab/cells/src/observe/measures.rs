@@ -3,6 +3,7 @@
 use super::course;
 use motiform_analysis::symmetry::wrap;
 use motiform_dynamics::Normal;
+use motiform_dynamics::sample;
 use motiform_inference::{Observation, Track};
 use serde::Serialize;
 
@@ -268,9 +269,9 @@ fn shape_change(frames: &[Observation]) -> f64 {
     (2..6).map(part).fold(0.0, f64::max).sqrt()
 }
 
-pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
-    if count == 0 { 0.0 } else { sum / count as f64 }
+/// The mean; 0 of nothing.
+pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
+    sample::mean(values).unwrap_or(0.0)
 }
 
 /// Standard deviation.

@@ -1,6 +1,6 @@
 //! A curve among simulated ones: a rank test over all its points together.
 
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::{ascending, quantile};
 use serde::{Deserialize, Serialize};
 
 /// A statistic differs below the first p-value, is doubtful below the second.
@@ -106,10 +106,7 @@ fn quantiles(curves: &[&[f64]], points: usize, share: f64) -> Vec<f64> {
     let at = |k: usize| {
         let mut values: Vec<f64> = curves.iter().map(|curve| curve[k]).collect();
         ascending(&mut values);
-        let place = share * (values.len() - 1) as f64;
-        let (below, part) = (place.floor() as usize, place.fract());
-        let above = (below + 1).min(values.len() - 1);
-        values[below] + part * (values[above] - values[below])
+        quantile(&values, share).unwrap_or(f64::NAN)
     };
     (0..points).map(at).collect()
 }

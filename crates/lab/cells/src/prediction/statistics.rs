@@ -5,7 +5,7 @@
 
 use super::record::Record;
 use crate::observe::step_of;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::{ascending, mean, quantile};
 use motiform_inference::Track;
 use motiform_statistics::GappedVectors;
 use serde::{Deserialize, Serialize};
@@ -157,7 +157,7 @@ impl Asked {
     /// (-1) its motion.
     fn alignment(&self, moves: &GappedVectors, shape: &GappedVectors) -> Statistic {
         let side = SIDE.min(shape.len() / 8).cast_signed();
-        let size = mean(&shape.lengths());
+        let size = mean(shape.lengths()).unwrap_or(f64::NAN);
         let double = moves.doubled();
         let middle = (self.step / 2).cast_signed(); // of the displacement
         let lags: Vec<isize> = (-side..=side).collect();
@@ -169,15 +169,7 @@ impl Asked {
 
 fn quantiles(kind: Kind, mut samples: Vec<f64>) -> Statistic {
     ascending(&mut samples);
-    let quantile = |share: &f64| {
-        let place = (share / 100.0 * samples.len() as f64) as usize;
-        samples.get(place.min(samples.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
-    };
-    let values = QUANTILES.iter().map(quantile).collect();
+    let at = |share: &f64| quantile(&samples, share / 100.0).unwrap_or(f64::NAN);
+    let values = QUANTILES.iter().map(at).collect();
     Statistic { kind, at: QUANTILES.to_vec(), values }
-}
-
-/// Mean; NaN of nothing.
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
 }

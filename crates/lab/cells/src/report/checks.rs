@@ -5,13 +5,11 @@ use crate::Units;
 use crate::report::Setting;
 use crate::report::numbers::{plain, with_error};
 use crate::report::terms::typeset;
+use motiform_dynamics::distributions::NORMAL_95;
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart};
 use motiform_inference::{Channel, Coefficient};
 use motiform_study::Error;
-
-/// Half the width of a 95 % interval in standard errors.
-const NORMAL_95: f64 = 1.96;
 
 pub(crate) fn section(fitted: &Fitted, setting: &Setting<'_>) -> Result<Section, Error> {
     let n = fitted.model().frames as f64;

@@ -4,7 +4,7 @@ use crate::report::motion::mean_square;
 use crate::report::numbers::{answer, plain};
 use crate::report::{Case, Setting};
 use crate::{Numbers, Row, Units};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_figures::palette::INK;
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{Curve, Panel, SeriesFigure};

@@ -4,6 +4,7 @@ use crate::Fitted;
 use crate::report::Setting;
 use crate::report::maps::beneath;
 use crate::report::numbers::{estimate, plain};
+use motiform_dynamics::distributions::NORMAL_95;
 use motiform_figures::report::{Cell, Section, Table};
 use motiform_figures::{MapPlace, PlaceMap, literal};
 use motiform_inference::{Coordinate, Place, Placement, Plane, coordinates, draws};
@@ -16,9 +17,6 @@ const SEED: u64 = 1;
 const ELLIPSE: usize = 90;
 /// 95 % of a normal distribution in the plane lie within this Mahalanobis distance: sqrt(-2 ln 0.05).
 const WITHIN: f64 = 2.447_746_830_680_816;
-/// 95 % of a normal distribution lie within so many standard deviations.
-const NORMAL: f64 = 1.959_963_984_540_054;
-
 pub(crate) const PLANES: [(Plane, &str); 2] =
     [(Plane::Full, "plane of Fig. 4"), (Plane::Reduced, "plane of Fig. 1")];
 
@@ -82,7 +80,7 @@ fn cloud(fitted: &Fitted, plane: Plane) -> Vec<[f64; 2]> {
 fn region(place: &Place) -> Vec<[f64; 2]> {
     let sides = [0, 1].map(|k| {
         let estimate = &place.coordinates[k].estimate;
-        let deviation = NORMAL * place.covariance[k][k].max(f64::MIN_POSITIVE).sqrt();
+        let deviation = NORMAL_95 * place.covariance[k][k].max(f64::MIN_POSITIVE).sqrt();
         let side = |end: f64| if end.is_finite() { (end - estimate.value).abs() / deviation } else { 1.0 };
         (estimate.value, estimate.interval.map(side))
     });

@@ -3,6 +3,7 @@
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::survey::place;
 use motiform_dynamics::Watch;
+use motiform_lab::pool::all_cores;
 use motiform_lab::scan::{Classify, rows_at};
 use motiform_lab::verify::Repeated;
 use motiform_study::Error;
@@ -22,11 +23,10 @@ pub(crate) fn verify_atlas(folder: &Path, all: bool, watch: &dyn Watch) -> Resul
         (0..grid.places.len()).filter(|cell| grid.places[*cell].like.is_none()).collect();
     let every = if all { 1 } else { computed.len().div_ceil(CELLS).max(1) };
     let chosen: Vec<usize> = computed.into_iter().step_by(every).collect();
-    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let scan = plan.scan();
     let mut found = Repeated::default();
     for (number, group) in chosen.chunks(TOGETHER).enumerate() {
-        let Some(rows) = rows_at(&scan, group, threads, &Classify, watch)? else { return Ok(None) };
+        let Some(rows) = rows_at(&scan, group, all_cores(), &Classify, watch)? else { return Ok(None) };
         for (cell, again) in rows.chunk_by(|a, b| a.cell == b.cell).map(place) {
             found.rows += again.motions.iter().map(|motion| motion.rows).sum::<usize>();
             if again != grid.places[cell] {

@@ -1,6 +1,6 @@
 //! The body along its path: the rows that are shown, and the size of the outlines.
 
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::{Model, Outcome, Outline};
 use motiform_models::ModelInfo;
 use motiform_store::table::Table;

@@ -3,7 +3,7 @@
 use super::{Figures, words};
 use crate::scan::{Axis, CellSummary, ScanFolder, cells};
 use motiform_analysis::regime::Regime;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_figures::{Cell, Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured, PhaseDiagram};
 use motiform_models::ModelInfo;
 use motiform_models::parameters::Parameters;

@@ -6,7 +6,7 @@ use crate::analyse;
 use motiform_analysis::{Lyapunov, Regime, Share, Stay, Verdict, escape_limits};
 use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::{Outcome, Request, StopOnly};
 use motiform_kernels::Kernel;
 use motiform_study::{Error, RunPlan};

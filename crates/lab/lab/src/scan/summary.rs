@@ -3,7 +3,7 @@
 use super::rows::place;
 use super::{NUMBERS, PartError, Row, ScanFolder, read_part};
 use motiform_analysis::regime::{Course, Regime};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::median;
 use motiform_study::Error;
 
 /// The total results of a scan, in memory that does not grow with the cells.
@@ -166,24 +166,15 @@ pub fn for_each_part(folder: &ScanFolder, mut use_rows: impl FnMut(&[Row])) -> R
 fn motions(rows: &[Row]) -> Vec<Motion> {
     let of = |regime| {
         let same: Vec<&Row> = rows.iter().filter(|row| row.regime == regime).collect();
-        let medians = std::array::from_fn(|place| median(same.iter().map(|row| row.numbers[place])));
+        let medians = std::array::from_fn(|place| {
+            let defined = same.iter().map(|row| row.numbers[place]).filter(|number| !number.is_nan());
+            median(defined).unwrap_or(f64::NAN)
+        });
         Motion { regime, rows: same.len(), share: same.len() as f64 / rows.len() as f64, medians }
     };
     let mut motions: Vec<Motion> = Regime::ALL.into_iter().map(of).filter(|motion| motion.rows > 0).collect();
     motions.sort_by_key(|motion| std::cmp::Reverse(motion.rows)); // stable
     motions
-}
-
-/// The median of the numbers that are defined; NaN if none is.
-fn median(numbers: impl Iterator<Item = f64>) -> f64 {
-    let mut defined: Vec<f64> = numbers.filter(|number| !number.is_nan()).collect();
-    ascending(&mut defined);
-    let middle = defined.len() / 2;
-    match defined.len() {
-        0 => f64::NAN,
-        n if n % 2 == 1 => defined[middle],
-        _ => 0.5 * defined[middle - 1] + 0.5 * defined[middle],
-    }
 }
 
 #[cfg(test)]

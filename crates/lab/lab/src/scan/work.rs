@@ -3,7 +3,7 @@
 use super::evaluate::Evaluate;
 use super::queue::Queue;
 use super::{Row, ScanPlan};
-use crate::pool::{held, spread};
+use crate::pool::{held, on_threads, spread};
 use motiform_analysis::regime::Verdict;
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::Error;
@@ -61,13 +61,7 @@ pub fn compute(
         held: AtomicUsize::new(0),
         most: AtomicUsize::new(0),
     };
-    // Plain threads: the queue is the whole scheduler, and a pool would only hide it.
-    std::thread::scope(|scope| {
-        for _ in 1..threads.min(total) {
-            scope.spawn(|| work.compute());
-        }
-        work.compute();
-    });
+    on_threads(threads.min(total), || work.compute());
     if let Some(error) = held(&work.failure).take() {
         return Err(error);
     }

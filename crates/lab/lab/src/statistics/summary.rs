@@ -135,8 +135,10 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
         )
     };
     let side = |words: &str, side: &Side| {
-        let stays =
-            side.time.as_ref().map_or_else(|| "no stay was seen".to_owned(), |time| mean_time(time, units));
+        let stays = side.time.as_ref().map_or_else(
+            || "no stay: it does not vary, or crosses the threshold nowhere".to_owned(),
+            |time| mean_time(time, units),
+        );
         format!(
             "{} {words} {} for {stays} ({:.1} % of the time)",
             residence.quantity,

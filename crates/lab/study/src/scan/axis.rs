@@ -1,7 +1,7 @@
 //! An axis of a scan: a parameter, or a coordinate of the start, and the values it takes.
 
 use crate::Error;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_models::spelling::ascii;
 use motiform_models::{ModelInfo, parameters};
 use serde::{Deserialize, Serialize};

@@ -2,7 +2,7 @@
 
 use super::super::context::Context;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::{Outcome, Request, Sink};
 use motiform_study::{Error, RunPlan, Study};
 

@@ -6,7 +6,7 @@ use super::figure;
 use super::places::{Extent, agreement, places};
 use crate::curves::{Curves, Place};
 use motiform_analysis::Regime;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_figures::PhaseDiagram;
 use motiform_figures::report::{Claim, Section};
 use motiform_lab::draw::phase_diagram;

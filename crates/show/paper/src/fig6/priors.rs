@@ -10,7 +10,7 @@ use super::tracks::Track;
 use motiform_analysis::Regime;
 use motiform_analysis::symmetry::wrap;
 use motiform_dynamics::Shape;
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_figures::report::{Cell as Field, Claim, Table};
 use motiform_study::{Dataset, Error};
 

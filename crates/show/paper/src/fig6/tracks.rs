@@ -5,7 +5,7 @@ use super::super::fig5::drawings;
 use super::boundary::Boundary;
 use super::lengths::modes_for;
 use motiform_analysis::{Verdict, welch};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_figures::report::ReportFigure;
 use motiform_study::{Dataset, Error, Study};
 

@@ -4,7 +4,7 @@ use super::super::claims::{claim, differs};
 use super::super::context::Context;
 use super::super::fig6::Track;
 use motiform_analysis::{Regime, Verdict};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use motiform_figures::report::{Claim, ReportFigure};
 use motiform_figures::{Chart, ErrorBarSeries, Measured};
 use motiform_study::Error;

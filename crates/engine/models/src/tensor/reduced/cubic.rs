@@ -1,6 +1,6 @@
 //! The real roots of a cubic.
 
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::ascending;
 use std::f64::consts::TAU;
 
 /// Real roots of `x^3 + p x + q`, increasing: Cardano's where there is one, Viete's where there are three, each polished by

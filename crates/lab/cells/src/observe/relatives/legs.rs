@@ -1,9 +1,9 @@
 //! Legs and turns of a noisy path.
 
 use super::super::measures::{Measures, Series};
-use super::rests::median;
 use super::{Finding, middles};
 use motiform_analysis::symmetry::wrap;
+use motiform_dynamics::sample::median;
 use serde::Serialize;
 
 /// A turn is larger than this (rad), and than this many errors of the heading.
@@ -50,10 +50,10 @@ pub(super) fn of(measures: &Measures) -> Finding<ObservedLegs> {
     Finding::Found(ObservedLegs {
         least_turn,
         corners: corners.len(),
-        length: median(legs.iter().map(|leg| libm::hypot(leg[0], leg[1])).collect()),
-        duration: median(corners.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * series.dt).collect()),
-        swing: median(swings.collect()),
-        turn: median(turns.collect()),
+        length: median(legs.iter().map(|leg| libm::hypot(leg[0], leg[1]))),
+        duration: median(corners.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * series.dt)),
+        swing: median(swings),
+        turn: median(turns),
     })
 }
 

@@ -3,7 +3,7 @@
 use super::super::measures::{Measures, Series};
 use super::Finding;
 use motiform_analysis::{Rests, rests};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::{ascending, median, quantile};
 use motiform_inference::Observation;
 use serde::Serialize;
 
@@ -80,10 +80,5 @@ fn displacements(series: &Series, lag: usize) -> Vec<f64> {
 fn fast(sizes: &[f64]) -> f64 {
     let mut sorted = sizes.to_vec();
     ascending(&mut sorted);
-    sorted[(0.95 * (sorted.len() - 1) as f64) as usize]
-}
-
-pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
-    ascending(&mut values);
-    values.get(values.len() / 2).copied()
+    quantile(&sorted, 0.95).unwrap_or(0.0)
 }

@@ -3,7 +3,7 @@
 use super::super::measures::Series;
 use super::{along_and_across, middles};
 use motiform_analysis::{Spectrum, welch};
-use motiform_dynamics::order::ascending;
+use motiform_dynamics::sample::median;
 use serde::Serialize;
 
 /// A peak is this many times the median power from half its frequency to twice.
@@ -63,9 +63,8 @@ fn peak(spectrum: &Spectrum, k: usize, total: f64) -> Option<SpectralPeak> {
     if !(power[k] > power[k - 1] && power[k] >= power[k + 1]) {
         return None;
     }
-    let mut near = power[(k / 2).max(1)..(2 * k + 1).min(power.len())].to_vec();
-    ascending(&mut near);
-    let prominence = power[k] / near[near.len() / 2];
+    let near = &power[(k / 2).max(1)..(2 * k + 1).min(power.len())];
+    let prominence = power[k] / median(near.iter().copied())?;
     let broad = near.len() > 4; // with fewer, the peak is its own background
     let [left, middle, right] =
         [-1, 0, 1].map(|step: isize| libm::log(power[k.saturating_add_signed(step)].max(f64::MIN_POSITIVE)));
