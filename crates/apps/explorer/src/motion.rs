@@ -206,12 +206,10 @@ impl Work<'_> {
         let count = COUNT.min(self.job.plan.computation.initial.0.len() - 2);
         let span = LOOKS.1 * info.look;
         (self.tell)(Found::Followed)?;
-        let (mut history, mut next, mut gone) = (History::new(), 0.0, Ok(()));
+        let (mut next, mut gone) = (0.0, Ok(()));
         let mut tell = |time: f64, exponents: Vec<Estimate>, done: bool| {
-            let exponents = widened(&history, time, exponents);
             if !self.watch.stopped() && gone.is_ok() {
                 let text = said(message(self.job.revision, time, &exponents, done));
-                history.push((time, exponents.clone()));
                 gone = (self.tell)(Found::Exponents { time, exponents, text });
             }
         };
@@ -242,35 +240,9 @@ fn said(message: impl Into<Said>) -> String {
     text(&message.into())
 }
 
-/// Estimates whose errors are at least their change since half the averaging time. Statistics alone say too little of an average that
-/// approaches its limit as 1/time, as on a cycle with rests.
-fn widened(history: &History, time: f64, mut exponents: Vec<Estimate>) -> Vec<Estimate> {
-    let Some((_, then)) = history.iter().rev().find(|(then, _)| *then <= 0.5 * time) else {
-        return exponents;
-    };
-    for (now, then) in exponents.iter_mut().zip(then) {
-        now.error = now.error.max((now.value - then.value).abs()); // an error that is not known becomes the change
-    }
-    exponents
-}
-
 fn message(revision: u32, time: f64, exponents: &[Estimate], done: bool) -> Exponents {
     // An error that is not known yet is not a number: null.
     let known =
         |e: &Estimate| Exponent { value: e.value, error: Some(e.error).filter(|error| error.is_finite()) };
     Exponents { revision, time, exponents: exponents.iter().map(known).collect(), done }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_error_is_at_least_the_change_since_half_the_time() {
-        let one = |value: f64, error: f64| vec![Estimate { value, error }];
-        let history: History = vec![(10.0, one(0.4, 0.01)), (20.0, one(0.2, 0.01)), (30.0, one(0.13, 0.01))];
-        assert!((widened(&history, 40.0, one(0.1, 0.01))[0].error - 0.1).abs() < 1e-12);
-        assert!((widened(&history, 60.0, one(0.1, 0.2))[0].error - 0.2).abs() < 1e-12);
-        assert!((widened(&history, 15.0, one(0.1, 0.01))[0].error - 0.01).abs() < 1e-12, "too early to say");
-    }
 }

@@ -68,7 +68,14 @@ pub fn quoted(path: &str) -> String {
 /// The same in Python.
 pub(crate) fn python(start: &Subject, study: &Study) -> Result<String, Error> {
     let said = Said::of(start, study)?;
-    let set: Vec<String> = said.set.iter().map(|(name, value)| format!("{name}={value:?}")).collect();
+    let mut set: Vec<String> = said.set.iter().map(|(name, value)| format!("{name}={value:?}")).collect();
+    let mut options = vec![format!("{}", said.t_end)];
+    if !said.initial.is_empty() {
+        let initial: Vec<String> =
+            said.initial.iter().map(|(name, value)| format!("\"{name}\": {value:?}")).collect();
+        set.push(format!("initial={{{}}}", initial.join(", ")));
+        options.push("transient=0.0".to_owned());
+    }
     let set = set.join(", ");
     let replaced = |body: String| if set.is_empty() { body } else { format!("{body}.replace({set})") };
     let body = match &start.source {
@@ -76,13 +83,6 @@ pub(crate) fn python(start: &Subject, study: &Study) -> Result<String, Error> {
         Source::Preset { name, .. } => replaced(format!("motiform.preset(\"{name}\")")),
         Source::File(path) => replaced(format!("motiform.study({path:?})")),
     };
-    let mut options = vec![format!("{}", said.t_end)];
-    if !said.initial.is_empty() {
-        let initial: Vec<String> =
-            said.initial.iter().map(|(name, value)| format!("\"{name}\": {value:?}")).collect();
-        options.push("transient=0.0".to_owned());
-        options.push(format!("initial={{{}}}", initial.join(", ")));
-    }
     options.extend(said.noise.map(|amplitude| format!("noise={amplitude:?}")));
     options.extend(said.noise_velocity.map(|amplitude| format!("noise_velocity={amplitude:?}")));
     options.push(format!("seed={}", said.seed));
@@ -159,8 +159,8 @@ mod tests {
         );
         assert_eq!(
             python(&start, &study).unwrap(),
-            "import motiform\n\nbody = motiform.preset(\"fig5a\").replace(kappa2=0.5)\n\
-             run = body.simulate(160, transient=0.0, initial={\"v1\": -0.1, \"x\": 1e-300}, noise=0.25, seed=1)\n\
+            "import motiform\n\nbody = motiform.preset(\"fig5a\").replace(kappa2=0.5, initial={\"v1\": -0.1, \"x\": 1e-300})\n\
+             run = body.simulate(160, transient=0.0, noise=0.25, seed=1)\n\
              run.plot()\nprint(body.classify())\n"
         );
         assert!(python(&start, &bare).unwrap().contains("motiform.preset(\"fig5a\")\n"));

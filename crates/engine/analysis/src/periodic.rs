@@ -96,6 +96,14 @@ impl Flow {
         (rtol > 2.0 * TIGHTEST).then_some(Self { control, ..*self })
     }
 
+    /// The residual of an orbit that is closed, as a part of the size of its shape.
+    pub(crate) fn closed(&self) -> f64 {
+        match self.control {
+            StepControl::Adaptive { rtol, .. } => 30.0 * rtol,
+            StepControl::Fixed { .. } => 1e-6,
+        }
+    }
+
     /// The relative accuracy of states and maps over a period.
     #[must_use]
     pub fn accuracy(&self) -> f64 {
@@ -155,10 +163,7 @@ impl PeriodicOrbit {
     ) -> Option<Self> {
         let mut state = Newton::new(body, guess);
         let size = norm(guess.shape);
-        let tolerance = match flow.control {
-            StepControl::Adaptive { rtol, .. } => 30.0 * rtol,
-            StepControl::Fixed { .. } => 1e-6,
-        };
+        let tolerance = flow.closed();
         if state.miss(flow, watch)? > NO_RETURN * size {
             return None;
         }

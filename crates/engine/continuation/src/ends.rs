@@ -144,6 +144,7 @@ impl<P: Problem> Tracer<P> {
         let (place, (gains, x)) =
             all.find(|other| is_better(&changes.found, first.0, other.0, length)).unwrap_or(first);
         let (mut at, _) = changes.found.swap_remove(place);
+        let special = self.problem.met(&at.x, &x, gains);
         at.x = x;
         changes.found.retain(|(other, _)| {
             let apart = at.arclength - other.arclength;
@@ -157,10 +158,12 @@ impl<P: Problem> Tracer<P> {
         });
         let end = End::Meets { parameter: at.parameter(), gains };
         // it is a point of the motion with more symmetry, and this motion has the time of those that begin there
-        if let Some(certificate) = &mut at.certificate {
+        if let Some(certificate) = &mut at.certificate
+            && special == gains.special()
+        {
             certificate.normal_form = Some(self.problem.normal_form(&at.x, Order::Third, false));
         }
-        changes.found.push((at, gains.special()));
+        changes.found.push((at, special));
         Some(end)
     }
 

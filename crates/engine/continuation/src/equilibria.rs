@@ -26,6 +26,9 @@ use nalgebra::DMatrix;
 /// grown to four times that.
 const GROWN: f64 = 0.25;
 
+/// A shape that vanishes at a rate of turning above this part of the rate of the equations is a wave.
+const TURNS: f64 = 1e-4;
+
 /// Distances at which members of a family with one value of the parameter are looked for, in sizes of the shape, and the part of the range
 /// within which it is one value.
 const FAMILY: [f64; 2] = [0.05, 0.1];
@@ -207,6 +210,21 @@ impl Problem for Equilibria<'_> {
         }
         symmetric[self.dim] = 0.0;
         (found.axis.is_some() && self.classes.axis.is_none()).then_some((Broken::Mirror, symmetric))
+    }
+
+    /// A shape that turns while it vanishes is a wave of the motion with more symmetry, which oscillates there.
+    fn met(&self, x: &[f64], symmetric: &[f64], gains: Broken) -> Special {
+        let (pitchfork, turns) = (gains.special(), |rate: f64| rate.abs() > TURNS * self.units.rate);
+        let Ok(local) = self.local(symmetric, &()) else { return pitchfork };
+        let columns: Vec<Vec<f64>> = local.matrix.chunks(self.dim).map(<[f64]>::to_vec).collect();
+        let all = Level::of_pairs(&eigenvalues(&columns).unwrap_or_default());
+        let critical = all.iter().min_by(|a, b| a.growth.abs().total_cmp(&b.growth.abs()));
+        match critical {
+            Some(level) if gains == Broken::Rotations && turns(x[self.dim]) && turns(level.angle) => {
+                self.classify(symmetric, Level { growth: 0.0, angle: level.angle }, 0)
+            }
+            _ => pitchfork,
+        }
     }
 
     fn normal_form(&self, x: &[f64], order: Order, _doubled: bool) -> NormalForm {

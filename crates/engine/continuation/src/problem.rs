@@ -125,6 +125,11 @@ pub(super) trait Problem: Equations {
         None
     }
 
+    /// The special point at which the motion at `x` gains a symmetry, with the unknowns that have it.
+    fn met(&self, _x: &[f64], _symmetric: &[f64], gains: Broken) -> Special {
+        gains.special()
+    }
+
     /// The rate of change of the reduced shapes of an orbit, all nodes together: it changes its sign where an orbit shrinks to nothing and
     /// the branch goes on with the same orbits, half a period later.
     fn swing(&self, _local: &Self::Local) -> Option<Vec<f64>> {

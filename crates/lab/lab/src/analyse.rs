@@ -136,7 +136,7 @@ pub fn lyapunov_followed(
 ) -> Result<Lyapunov, Error> {
     let (model, shape) = start(plan)?;
     let settings = lyapunov_settings(plan, count, times)?;
-    Ok(motiform_analysis::lyapunov_followed(model.as_ref(), &shape, &settings, watch, follow)?)
+    Ok(motiform_analysis::lyapunov_followed(model.as_ref(), &shape, &settings, watch, follow)?.bounded())
 }
 
 /// The settings of [`lyapunov`] for a plan.

@@ -4,7 +4,7 @@ use crate::args::ClassifyOptions;
 use crate::commands::subject;
 use crate::output::{End, say, warn};
 use crate::progress::Progress;
-use motiform_analysis::Regime;
+use motiform_analysis::{Regime, Verdict};
 use motiform_lab::analyse;
 use motiform_lab::answers::{Classified, Motions};
 use motiform_lab::samples::{self, Basins, Escapes, Samples};
@@ -27,6 +27,7 @@ pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
     watch.finish();
     let Some(verdict) = verdict? else { return Ok(End::Interrupted) };
     say(&Classified::new(&plan, &verdict), options.motion.json)?;
+    advise(&plan, budget, &[verdict.clone()])?;
     Ok(if verdict.regime == Regime::Undetermined { End::NotAsAsked } else { End::Done })
 }
 
@@ -42,6 +43,20 @@ fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -
     let escapes = escapes?;
     let basins = Basins::new(&samples, &verdicts);
     say(&Motions::new(plan, &verdicts, &basins, escapes.as_ref()), options.motion.json)?;
+    advise(plan, budget, &verdicts)?;
     let undecided = verdicts.iter().any(|verdict| verdict.regime == Regime::Undetermined);
     Ok(if undecided { End::NotAsAsked } else { End::Done })
+}
+
+/// Advises a longer budget where one was spent without a name.
+fn advise(plan: &Plan, budget: f64, verdicts: &[Verdict]) -> anyhow::Result<()> {
+    let budget = analyse::settings(plan, budget)?.budget;
+    let is_spent = |verdict: &Verdict| verdict.regime == Regime::Undetermined && verdict.time >= budget;
+    if verdicts.iter().any(is_spent) {
+        warn(&format!(
+            "the budget of {budget:?} was spent without a name: a longer one may decide, such as --budget {:?}",
+            5.0 * budget
+        ));
+    }
+    Ok(())
 }

@@ -245,3 +245,28 @@ fn orbits_that_begin_on_stable_motions_can_be_followed_alone() {
         assert_eq!(json["branches"][0]["special"][0]["kind"], "hopf", "{json}");
     }
 }
+
+/// The circle of the cell model loses its stability to ellipses at length 4 pi. From an ellipse, too, the circle is a branch of its own, on
+/// both sides of that point.
+#[test]
+fn a_branch_that_is_met_at_its_symmetric_end_is_followed() {
+    let folder = Folder::new();
+    let list = folder.run("equilibria cell --set length=12.7 --set modes=12 --starts 30 --json").expect(0);
+    folder.write("cell.json", &list.stdout);
+    let rows = list.json()["equilibria"].as_array().expect("a list").clone();
+    let is_ellipse = |row: &Value| {
+        row["motion"] == "motionless" && row["shape"]["c2"].as_f64().is_some_and(|c2| c2.abs() > 0.1)
+    };
+    let ellipse = rows.iter().position(is_ellipse).expect("an ellipse at rest") + 1;
+    let continued =
+        format!("continue --start cell.json:{ellipse} --along length=12.4:12.7 --branches 3 --steady --json");
+    let branches = folder.run(&continued).expect(0).json()["branches"].as_array().expect("a list").clone();
+    let circle =
+        branches.iter().find(|branch| branch["origin"]["kind"] == "meets").expect("the branch that is met");
+    let at = circle["special"][0]["length"].as_f64().expect("a length");
+    assert!(
+        (at - 4.0 * std::f64::consts::PI).abs() < 1e-9 && circle["special"][0]["kind"] == "pitchfork",
+        "{circle}"
+    );
+    assert_eq!(circle["ends"].as_array().map(Vec::len), Some(2));
+}

@@ -15,7 +15,8 @@ impl Lyapunov {
     /// would count one that decays slowly as a dimension of the motion.
     ///
     /// It is the dimension of the set of shapes, all rotated copies included: the rotation of a body that turns counts as one.
-    /// `None` where too few exponents were computed for their sum to become negative, or one has no error. 0 where all are negative.
+    /// `None` where too few exponents were computed for their sum to become negative beyond its error, as in flows that keep volumes, or
+    /// one has no error. 0 where all are negative.
     ///
     /// Source: Kaplan, Yorke (1979), Lecture Notes in Mathematics 730, 204; Frederickson et al. (1983), J. Differ. Equ. 49, 185.
     ///
@@ -39,10 +40,13 @@ impl Lyapunov {
         if exponents.is_empty() || !exponents.iter().all(Estimate::has_error) {
             return None;
         }
-        let (mut sum, mut square) = (0.0, 0.0);
+        let (mut sum, mut square) = (0.0_f64, 0.0_f64);
         for (count, next) in exponents.iter().enumerate() {
             if sum + next.value < 0.0 {
                 let rate = -next.value;
+                if rate <= next.error || rate - sum <= libm::hypot(next.error, square.sqrt()) {
+                    return None;
+                }
                 let error = libm::sqrt(square + (sum * next.error / rate).powi(2)) / rate;
                 return Some(Estimate { value: count as f64 + sum / rate, error });
             }

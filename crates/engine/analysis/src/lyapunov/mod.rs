@@ -1,5 +1,6 @@
 //! Lyapunov exponents, from the exact tangent flow.
 
+mod bounds;
 mod dimension;
 mod frame;
 mod lanes;
@@ -173,10 +174,12 @@ impl SoFar<'_> {
         self.history.last().map_or(0.0, |last| last.0 - self.begun)
     }
 
-    /// The exponents with their errors, as in [`Lyapunov`]; `None` while there are too few intervals for an error.
+    /// The exponents with their errors, as in [`Lyapunov::bounded`]; `None` while there are too few intervals for an error.
     #[must_use]
     pub fn exponents(&self) -> Option<Vec<Estimate>> {
-        means(self.history, self.begun, 0.0, self.pace).ok().filter(|all| !all.is_empty())
+        let mut all = means(self.history, self.begun, 0.0, self.pace).ok().filter(|all| !all.is_empty())?;
+        bounds::bound(&mut all, self.history, self.begun);
+        Some(all)
     }
 }
 

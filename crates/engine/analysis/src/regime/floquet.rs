@@ -18,13 +18,22 @@ const UNRESOLVED: f64 = 1e-3;
 /// The same from which on an exponent is left out.
 const LOST: f64 = 0.5;
 
-/// The exponents of an orbit with those of its neutral directions, largest first.
+/// The exponents of an orbit.
+pub(super) struct Exponents {
+    /// With those of its neutral directions, largest first.
+    pub(super) all: Vec<Estimate>,
+    /// The largest multiplier over the orbit's time, and its error.
+    pub(super) growth: (f64, f64),
+}
+
+/// The exponents of an orbit, and its largest multiplier: in large systems that of the leading exponent, whose directions are followed
+/// until they are the leading ones.
 pub(super) fn exponents(
     body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     settings: &Settings,
     watch: &dyn Watch,
-) -> Vec<Estimate> {
+) -> Exponents {
     let (accuracy, time) = (settings.accuracy(), orbit.time);
     let neutral = along_group_and_flow(body, &orbit.shape).len();
     let mut all = vec![Estimate { value: 0.0, error: accuracy / time }; neutral];
@@ -44,7 +53,13 @@ pub(super) fn exponents(
     } else if !whole {
         others = leading_exponents(body, orbit, &settings.flow(), watch).unwrap_or_default();
     }
-    all.extend(others.into_iter().filter(|one| one.error * time < LOST && one.value.is_finite()));
+    others.retain(|one| one.error * time < LOST && one.value.is_finite());
+    let leading = others.iter().max_by(|a, b| a.value.total_cmp(&b.value)).filter(|_| !whole);
+    let growth = leading.map_or((orbit.growth(), orbit.growth_error()), |leading| {
+        let growth = libm::exp(leading.value * time);
+        (growth, growth * leading.error * time)
+    });
+    all.extend(others);
     all.sort_by(|a, b| b.value.total_cmp(&a.value));
-    all
+    Exponents { all, growth }
 }

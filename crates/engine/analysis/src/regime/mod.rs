@@ -17,6 +17,7 @@ mod legs;
 mod look;
 mod motion;
 mod period;
+mod place;
 mod recurrence;
 mod repeating;
 mod repeats;

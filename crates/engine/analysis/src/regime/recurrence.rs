@@ -3,6 +3,7 @@
 use super::family::within_family;
 use super::heteroclinic::attracting_saddle;
 use super::look::{Extreme, Look, Rest};
+use super::place::{find_placed, unlimited};
 use super::settings::Settings;
 use super::shortest::shortest;
 use crate::isotropy::Isotropy;
@@ -131,8 +132,7 @@ pub(super) fn periodic(
             angle: recurrence.angle,
             mirrored: recurrence.mirrored,
         };
-        let Some(orbit) = PeriodicOrbit::find_within(body, &guess, &settings.flow(), &mut effort, watch)
-        else {
+        let Some(orbit) = find_placed(body, &guess, &settings.flow(), &mut effort, watch) else {
             continue;
         };
         // Against the latest swing: an equilibrium, approached in a spiral, is a periodic orbit of no size.
@@ -169,7 +169,7 @@ fn resolved(
     let PeriodicOrbit { time, angle, mirrored, .. } = orbit;
     let guess = PeriodicGuess { shape: &orbit.shape, time, angle, mirrored };
     let flow = settings.flow().tighter(DECIDING);
-    let tighter = flow.and_then(|flow| PeriodicOrbit::find_within(body, &guess, &flow, effort, watch));
+    let tighter = flow.and_then(|flow| find_placed(body, &guess, &flow, effort, watch));
     match tighter.filter(decided) {
         Some(tighter) => tighter,
         None => within_family(body, &orbit, settings, effort, watch).unwrap_or(orbit),
@@ -202,7 +202,7 @@ fn unmirrored(
     // M u = R(-axis) u, so R(angle) M u = R(angle - axis) u
     let angle = wrap(orbit.angle - axis);
     let guess = PeriodicGuess { shape: &orbit.shape, time: orbit.time, angle, mirrored: false };
-    match PeriodicOrbit::find(body, &guess, &settings.flow(), watch) {
+    match find_placed(body, &guess, &settings.flow(), &mut unlimited(), watch) {
         Some(found) => (found, Recurrence { mirrored: false, angle, ..recurrence }),
         None => (orbit, recurrence),
     }

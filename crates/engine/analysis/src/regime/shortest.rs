@@ -1,6 +1,7 @@
 //! The shortest period of an orbit that came back after some multiple of it.
 
 use super::look::Look;
+use super::place::{find_placed, unlimited};
 use super::recurrence::Recurrence;
 use super::settings::Settings;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
@@ -59,7 +60,7 @@ fn of_fewer_returns(
                 let shorter = time < 0.75 * orbit.time || mirrored && !orbit.mirrored;
                 if near.distance < NEAR * diameter && shorter {
                     let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
-                    let found = PeriodicOrbit::find(body, &guess, &settings.flow(), watch)?;
+                    let found = find_placed(body, &guess, &settings.flow(), &mut unlimited(), watch)?;
                     let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
                     return found.is_stable().then_some((found, recurrence));
                 }
@@ -95,7 +96,7 @@ fn divided(
             }
             let time = orbit.time / *parts as f64;
             let guess = PeriodicGuess { shape: &orbit.shape, time, angle: near.angle, mirrored };
-            let found = PeriodicOrbit::find(body, &guess, &settings.flow(), watch);
+            let found = find_placed(body, &guess, &settings.flow(), &mut unlimited(), watch);
             if let Some(found) = found.filter(PeriodicOrbit::is_stable) {
                 return Some((found, *parts));
             }

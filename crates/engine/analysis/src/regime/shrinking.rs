@@ -5,6 +5,7 @@
 //! with what the multipliers say.
 
 use super::look::{Extreme, Look};
+use super::place::find_placed;
 use super::recurrence::Recurrence;
 use super::returns;
 use super::settings::Settings;
@@ -111,7 +112,7 @@ fn inside(
     let angle = align(body, &last.shape, &before.shape, mirrored).angle;
     let guess = PeriodicGuess { shape: &mean, time, angle: wrap(angle), mirrored };
     let mut effort = settings.first_look.max(0.25 * (last.t - minima[0].t));
-    let orbit = PeriodicOrbit::find_within(body, &guess, &settings.flow(), &mut effort, watch)?;
+    let orbit = find_placed(body, &guess, &settings.flow(), &mut effort, watch)?;
     Some((orbit, Recurrence { returns, mirrored, time, angle }))
 }
 

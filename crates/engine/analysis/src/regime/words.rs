@@ -162,13 +162,15 @@ pub(super) fn periodic(
         1 => "one return".to_owned(),
         more => format!("{more} returns"),
     };
+    let exponents = super::floquet::exponents(body, orbit, settings, watch);
+    let (growth, error) = exponents.growth;
+    let over = if period > orbit.time { " over half of it" } else { "" };
     let why = format!(
-        "{what}; period {period:.6}, largest multiplier {:.3e}: stable; it closes after {returns} to its section",
-        orbit.growth()
+        "{what}; period {period:.6}, largest multiplier {growth:.3e}{over}: stable; it closes after {returns} to its section"
     );
     let mut verdict = Verdict::new(form.regime(), Attractor::Periodic, why, time);
     verdict.form = Some(form);
-    let stability = ((1.0 - orbit.growth()) / orbit.growth_error().max(f64::MIN_POSITIVE)).min(f64::MAX);
+    let stability = ((1.0 - growth) / error.max(f64::MIN_POSITIVE)).min(f64::MAX);
     let turning = if orbit.mirrored || form.regime() == Regime::PulsatingStraight {
         f64::MAX
     } else {
@@ -178,7 +180,7 @@ pub(super) fn periodic(
     verdict.period = Some(period);
     verdict.net_rotation = Some(rotation);
     verdict.speed = path.speed();
-    verdict.exponents = super::floquet::exponents(body, orbit, settings, watch);
+    verdict.exponents = exponents.all;
     if path.moves() {
         // on a line the way back undoes the way forth
         let undone = period > orbit.period();

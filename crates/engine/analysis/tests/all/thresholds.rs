@@ -44,6 +44,22 @@ impl<T: Scalar> VectorField<T> for Ledge {
 }
 plain!(Ledge, 3);
 
+/// A fold of cycles: `r' = -r ((r^2 - 1/2)^2 + gap)`, turning at rate 1.15. Without a gap the two cycles are one, with one there is none; with
+/// a negative one the outer cycle has the exponent `-4 r^2 sqrt(-gap)`.
+struct Fold {
+    gap: f64,
+}
+
+impl<T: Scalar> VectorField<T> for Fold {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let square = u[0] * u[0] + u[1] * u[1] - u[0].constant(0.5);
+        let rate = -(square * square + u[0].constant(self.gap));
+        du[0] = rate * u[0] - u[1] * 1.15;
+        du[1] = rate * u[1] + u[0] * 1.15;
+    }
+}
+plain!(Fold, 2);
+
 /// Three independent limit cycles: returns to a section fill a surface.
 struct ThreeTorus;
 
@@ -112,4 +128,21 @@ fn a_torus_has_returns_on_a_curve() {
     assert_eq!(seen.attractor, Attractor::Torus, "{}", seen.why);
     let seen = verdict(&ThreeTorus, &[0.5, -0.1, 0.8, 0.1, 0.3, 0.6]);
     assert_eq!(seen.attractor, Attractor::Unknown, "{}", seen.why);
+}
+
+/// Beyond a fold of cycles orbits all but close, with residuals below every tolerance: there is no stable cycle, however small the gap. Before
+/// it there is one, with its exact exponent.
+#[test]
+fn beyond_a_fold_there_is_no_cycle() {
+    for gap in [1e-9, 1e-10, 1e-11, 0.0] {
+        let seen = verdict(&Fold { gap }, &[1.0, 0.0]);
+        assert_ne!(seen.attractor, Attractor::Periodic, "{gap}: {}", seen.why);
+    }
+    for gap in [-1e-4, -1e-6] {
+        let seen = verdict(&Fold { gap }, &[1.0, 0.0]);
+        assert_eq!(seen.attractor, Attractor::Periodic, "{gap}: {}", seen.why);
+        let exact = -4.0 * (0.5 + (-gap).sqrt()) * (-gap).sqrt();
+        let found = seen.exponents[1];
+        assert!((found.value - exact).abs() <= found.error.max(1e-9), "{gap}: {found:?} {exact}");
+    }
 }

@@ -231,7 +231,8 @@ fn why(differing: &[Regime], renamed: &[[Regime; 2]]) -> &'static str {
     } else if has(Regime::Rectangular) {
         "kind undetermined: rectangular motion is a heteroclinic cycle, which is no branch, found by sampling"
     } else {
-        "no branch that was followed ends or loses its stability there: more lines or initial states may find it"
+        "no special point of a followed branch lies there: another branch may end, or several motions coexist on both sides and the \
+         samples found different ones; more lines or initial states tell"
     }
 }
 

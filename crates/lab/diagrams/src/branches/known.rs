@@ -2,6 +2,7 @@
 
 use super::family::Bodies;
 use super::result::{Followed, Leg, Sample};
+use motiform_analysis::Isotropy;
 use motiform_analysis::equilibrium::Units;
 use motiform_continuation::{Branch, Motion, Settings, same_motion};
 use motiform_dynamics::{Equivariant, Watch};
@@ -52,7 +53,8 @@ pub(super) fn known(
         let between = between(pair, parameter);
         let found = moved(bodies, between.as_ref().unwrap_or(neighbour), parameter, settings, watch);
         found.is_some_and(|found| {
-            same_motion(body.as_ref(), &sample.point.motion, &found, &settings.flow, SAME)
+            !gained(body.as_ref(), &neighbour.point.motion, &found)
+                && same_motion(body.as_ref(), &sample.point.motion, &found, &settings.flow, SAME)
         })
     };
     let far = |neighbour: &Sample| (neighbour.point.parameter - parameter).abs();
@@ -68,6 +70,17 @@ pub(super) fn known(
     };
     let holds = |branch: &Followed| branch.legs.iter().any(holds_leg);
     branches.iter().position(holds)
+}
+
+/// Returns `true` if Newton's method has led from a steady motion to one of more symmetry, which is on another branch.
+fn gained(body: &dyn Equivariant, neighbour: &Motion, found: &Motion) -> bool {
+    let (Motion::Equilibrium(neighbour), Motion::Equilibrium(found)) = (neighbour, found) else {
+        return false;
+    };
+    let [before, now] = [neighbour, found].map(|one| Isotropy::of(body, &one.shape, Isotropy::SAME));
+    now.circle && !before.circle
+        || now.folds > before.folds
+        || now.mirror.is_some() && before.mirror.is_none()
 }
 
 /// The steady motion between two neighbours on a branch by linear interpolation: beside a point where branches cross, Newton's method leads

@@ -34,7 +34,7 @@ pub fn exponents(
         LyapunovSettings { count, method, control, transient, span: t_end, escape_norm, max_steps };
     let found = motiform_analysis::lyapunov(flow, start, &settings, watch)?;
     check_autonomous(flow, &found.shape, t_end)?;
-    Ok(found)
+    Ok(found.bounded())
 }
 
 /// The function must have the same rates at other times.

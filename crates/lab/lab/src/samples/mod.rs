@@ -115,7 +115,7 @@ pub fn lyapunov(
             Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
         }),
     })?;
-    Ok(orbits.map(summarise))
+    Ok(orbits.map(|orbits| summarise(orbits.into_iter().map(Lyapunov::bounded).collect())))
 }
 
 impl Exponents {
@@ -252,7 +252,7 @@ mod tests {
             &settings,
             &(),
         );
-        assert_eq!(found.orbits[7], alone.unwrap());
+        assert_eq!(found.orbits[7], alone.unwrap().bounded());
         assert!(found.agree && found.means[0].error < 0.6 * found.orbits[0].exponents[0].error);
         let fewer = lyapunov(&plan, samples(3, 2), 2, spans, &()).unwrap().unwrap();
         assert_eq!(

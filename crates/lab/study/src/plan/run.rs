@@ -198,8 +198,8 @@ fn noise(study: &Study, model: &dyn Model, look: f64) -> Result<Option<NoiseSett
     Ok((settings.largest() > 0.0 || !own.is_none()).then_some(settings))
 }
 
-/// The largest relative tolerance of a run: at 5e-4 zigzags close after two or three periods only.
-const LARGEST_RTOL: f64 = 1e-4;
+/// Relative tolerances that are allowed: with larger ones periods are followed twice, and motions have wrong names.
+const RTOL: std::ops::RangeInclusive<f64> = 1e-14..=1e-4;
 
 /// A stepper by name.
 ///
@@ -229,10 +229,10 @@ pub fn control(study: &Study, method: Method) -> Result<Control, Error> {
         }
         step => Control::Fixed { step: step.unwrap_or(DEFAULT_STEP) },
     };
-    method.validate(control.into())?;
-    if matches!(control, Control::Adaptive { rtol, .. } if rtol > LARGEST_RTOL) {
-        let remedy = "give at most 1e-4: with larger ones orbits do not close, and motions have wrong names";
-        return Err(Error::Setting { key: "rtol", value: run.rtol.to_string(), remedy });
+    if matches!(control, Control::Adaptive { rtol, .. } if !RTOL.contains(&rtol)) {
+        let remedy = "give a number from 1e-14 to 1e-4: with larger ones orbits do not close, and motions have wrong names";
+        return Err(Error::Setting { key: "rtol", value: format!("{:?}", run.rtol), remedy });
     }
+    method.validate(control.into())?;
     Ok(control)
 }

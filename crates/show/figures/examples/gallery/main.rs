@@ -3,16 +3,15 @@
 //!
 //! `cargo run --release -p motiform-figures --example gallery -- FOLDER`
 
-mod diagrams;
 mod kinds;
 
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use motiform_figures::palette::{BLUE, CATEGORIES, GREEN, VERMILION};
+use motiform_figures::palette::CATEGORIES;
 use motiform_figures::{
-    Animation, Camera, Chart, Curve, DEFAULT_SCALE, Frame, Medium, OutlineStamp, Panel, PathFigure,
-    PathPoint, SectionLine, SeriesFigure, SpaceTimeFigure, SpectrumCurve, Style, Width, png,
+    Animation, Camera, Chart, DEFAULT_SCALE, Frame, Medium, OutlineStamp, PathFigure, PathPoint, SectionLine,
+    SpaceTimeFigure, SpectrumCurve, Style, Width, png,
 };
 
 /// Drawing may fail, writing may fail: an example just says which.
@@ -26,11 +25,10 @@ fn main() -> Outcome {
     let folder = Path::new(&folder);
     std::fs::create_dir_all(folder)?;
     paths(folder)?;
-    save(folder, "series", &series().svg()?)?;
     save(folder, "return_map_dense", &kinds::return_map(20_000).svg()?)?;
     fields(folder)?;
     spectra(folder)?;
-    diagrams::draw(folder)?;
+    maps(folder)?;
     sizes(folder)?;
     films(folder)
 }
@@ -44,6 +42,17 @@ fn sizes(folder: &Path) -> Outcome {
             let svg = style.draw(figure.as_mut())?.svg;
             std::fs::write(folder.join(format!("{name}-{size}.png")), png(&svg, style.png_scale(), &[])?)?;
         }
+    }
+    Ok(())
+}
+
+/// Maps of few and of many cells.
+fn maps(folder: &Path) -> Outcome {
+    for (columns, rows) in [(12, 6), (16, 6), (40, 40), (64, 64), (200, 200), (3, 2)] {
+        save(folder, &format!("phase_{columns}x{rows}"), &kinds::phase_diagram(columns, rows).svg()?)?;
+    }
+    for columns in [12, 130] {
+        save(folder, &format!("strip_{columns}"), &kinds::strip(columns).svg()?)?;
     }
     Ok(())
 }
@@ -157,43 +166,6 @@ fn section() -> PathFigure {
     figure
 }
 
-fn series() -> SeriesFigure {
-    let times: Vec<f64> = (0..5000).map(|i| f64::from(i) * 0.04).collect();
-    let curve = |label: &str, colour, f: fn(f64) -> Option<f64>| Curve {
-        label: label.into(),
-        colour,
-        values: times.iter().map(|t| f(*t)).collect(),
-    };
-    let panel = |label: &str, curves| Panel { label: label.into(), curves };
-    SeriesFigure {
-        title: "Zigzag motion, *κ*_2 = 0.9, *κ*_3 = 0.1".into(),
-        panels: vec![
-            panel("speed", vec![curve("", BLUE, |t| Some(0.8 + 0.1 * (t / 3.0).sin()))]),
-            panel(
-                "turning rate (rad per model time)",
-                vec![curve("", BLUE, |t| {
-                    ((t / 3.0).sin() < 0.95).then(|| 0.02 * (t / 6.0).sin() * (t / 40.0).exp())
-                })],
-            ),
-            panel("|*S*|", vec![curve("", BLUE, |t| Some(2e-5 * (1.0 + (t / 3.0).cos().powi(4))))]),
-            panel(
-                "|*U*|, |*V*|",
-                vec![
-                    curve("|*U*| of the full model", CATEGORIES[0], |t| {
-                        Some(12_000.0 * (t / 5.0).cos().powi(2))
-                    }),
-                    curve("|*V*|", VERMILION, |t| Some(9000.0 * (t / 7.0).sin().powi(2))),
-                    curve("bound", GREEN, |_| Some(12_500.0)),
-                ],
-            ),
-        ],
-        notes: vec!["Grey: turning rate undefined, since the speed is below 10^{-6}.".into()],
-        caption: vec!["Full tensor model, Runge–Kutta 4(5), relative tolerance 10^{-9}.".into()],
-        times,
-        ..SeriesFigure::default()
-    }
-}
-
 fn fields(folder: &Path) -> Outcome {
     type Field = fn(f64, f64) -> f64;
     type Case = (&'static str, Field, (f64, f64), usize, usize);
@@ -231,22 +203,18 @@ fn wave_packet(t: f64, s: f64) -> f64 {
     (-((t - 1e5) / 3e4).powi(2)).exp() * (TAU * s + 5e-4 * t).sin()
 }
 
-/// Like white noise, a function of the index.
-fn noise(i: usize) -> f64 {
-    (1e4 * (12.9898 * i as f64).sin()).fract().abs() + 0.05
-}
-
 fn spectra(folder: &Path) -> Outcome {
     type Power = fn(usize, f64) -> f64;
-    let line: Power = |i, f| noise(i) * 1e-4 / (1.0 + (30.0 * f).powi(4)) + 1e-6 / ((f - 0.1).powi(2) + 1e-6);
-    let red: Power = |i, f| noise(i) / (1.0 + (100.0 * f).powi(2));
-    let weak: Power = |i, f| 1e-3 * noise(i + 7) / (1.0 + (20.0 * f).powi(2));
+    let line: Power =
+        |i, f| kinds::noise(i) * 1e-4 / (1.0 + (30.0 * f).powi(4)) + 1e-6 / ((f - 0.1).powi(2) + 1e-6);
+    let red: Power = |i, f| kinds::noise(i) / (1.0 + (100.0 * f).powi(2));
+    let weak: Power = |i, f| 1e-3 * kinds::noise(i + 7) / (1.0 + (20.0 * f).powi(2));
     let cases: [(&str, usize, f64, Vec<Power>); 5] = [
         ("spectrum", 4096, 10.0, vec![line]),
         ("spectrum_eight_decades", 100_000, 50.0, vec![red, weak]),
         ("spectrum_single_peak", 256, 5.0, vec![|i, _| if i == 31 { 3.0 } else { 0.0 }]),
         ("spectrum_flat", 4, 3.0, vec![|_, _| 2e-5]),
-        ("spectrum_deep", 2000, 100.0, vec![|i, f| noise(i) * ((-f).exp() + 1e-32)]),
+        ("spectrum_deep", 2000, 100.0, vec![|i, f| kinds::noise(i) * ((-f).exp() + 1e-32)]),
     ];
     for (name, count, last, curves) in cases {
         let frequencies: Vec<f64> = (0..count).map(|i| last * i as f64 / (count - 1) as f64).collect();

@@ -223,7 +223,9 @@ impl<'t> Walk<'t> {
         }
         let (found, _) = upright(self.steady.text, &self.steady.state(&at.x), 1e-4);
         if found.kept.len() < self.steady.frame.kept.len() {
-            return Some(("pitchfork", true));
+            // a shape that turns while it vanishes is a wave of the motion at rest, which oscillates there
+            let turns = at.x[at.x.len() - 2].abs() > 1e-4;
+            return Some((if found.folds == 0 && turns { "hopf" } else { "pitchfork" }, true));
         }
         let slope = |s: f64| self.at(a, b, s).map_or(f64::NAN, |at| at.tangent[at.tangent.len() - 1]);
         if test == 0 {

@@ -5,7 +5,7 @@ use super::starts::everything;
 use super::text::Text;
 use crate::common::Random;
 use motiform_analysis::RelativeEquilibrium;
-use motiform_continuation::{Branch, End, Family, Settings, Special, switch};
+use motiform_continuation::{Branch, End, Family, Point, Settings, Special, switch};
 
 /// By how much numbers are larger in other units: lengths, rates, the parameter.
 #[derive(Clone, Copy, Debug)]
@@ -61,13 +61,17 @@ pub(super) fn points(text: &Text, u: &[f64], p: f64, larger: Larger) -> Vec<Vec<
     let mut out = Vec::new();
     for settings in [settings.reversed(), settings] {
         let mut branch = Branch::of_equilibria(&family, p, &start, &settings, &()).expect("a branch");
-        let mut found = Vec::new();
+        let (mut found, mut hopf) = (Vec::new(), Vec::new());
         for point in branch.by_ref().filter(|point| point.special.is_some()) {
-            if matches!(point.special, Some(Special::Hopf(_))) && first_hopf.is_none() {
-                first_hopf = Some(point.clone());
+            if matches!(point.special, Some(Special::Hopf(_))) {
+                hopf.push(point.clone());
             }
             found.extend(read(&point, larger));
         }
+        // where the branch ends as a wave of the motion at rest, it is what begins there
+        let ends = |point: &Point| matches!(branch.end(), Some(End::Meets { parameter, .. }) if *parameter == point.parameter);
+        let first = hopf.into_iter().find(|point| !ends(point));
+        first_hopf = first_hopf.or(first);
         found.extend(end(branch.end(), larger));
         out.push(found);
     }

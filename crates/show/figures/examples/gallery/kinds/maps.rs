@@ -18,7 +18,7 @@ pub(super) fn shares(x: f64, y: f64) -> Vec<(String, f64)> {
     }
 }
 
-pub(super) fn phase_diagram(columns: usize, rows: usize) -> PhaseDiagram {
+pub(crate) fn phase_diagram(columns: usize, rows: usize) -> PhaseDiagram {
     let (x, y) = (axis(-1.5, 1.5, columns), axis(0.0, 1.0, rows));
     let line = |label: &str, style, f: fn(f64) -> f64| ExpectedLine {
         label: label.into(),
@@ -43,8 +43,8 @@ pub(super) fn phase_diagram(columns: usize, rows: usize) -> PhaseDiagram {
     }
 }
 
-pub(super) fn strip() -> PhaseDiagram {
-    let x = axis(0.0, 1.3, 24);
+pub(crate) fn strip(columns: usize) -> PhaseDiagram {
+    let x = axis(0.0, 1.3, columns);
     PhaseDiagram {
         title: "Motions over *K*".into(),
         caption: words(),

@@ -6,7 +6,8 @@ mod measurements;
 
 pub(crate) use bodies::return_map;
 use bodies::{film_strip, panels, path, section, series, space_time, spectrum, tracks};
-use maps::{branches, curves, phase_diagram, places, strip};
+use maps::{branches, curves, places};
+pub(crate) use maps::{phase_diagram, strip};
 use measurements::{bands, exponents, rest_times, survival};
 use motiform_figures::Figure;
 use std::f64::consts::TAU;
@@ -27,7 +28,7 @@ pub(crate) fn kinds() -> Vec<Kind> {
         ("spectrum-deep", Box::new(spectrum(1e-26))),
         ("phase-tiles", Box::new(phase_diagram(9, 6))),
         ("phase-mosaic", Box::new(phase_diagram(60, 50))),
-        ("strip", Box::new(strip())),
+        ("strip", Box::new(strip(24))),
         ("branches", Box::new(branches(false))),
         ("period", Box::new(branches(true))),
         ("curves", Box::new(curves(None, false))),
@@ -57,7 +58,7 @@ fn axis(from: f64, to: f64, count: usize) -> Vec<f64> {
 }
 
 /// Like white noise, a function of the index.
-fn noise(i: usize) -> f64 {
+pub(crate) fn noise(i: usize) -> f64 {
     (1e4 * (12.9898 * i as f64).sin()).fract().abs() + 0.05
 }
 
