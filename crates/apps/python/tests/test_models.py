@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import copy
 import inspect
+import json
+import operator
 import pickle
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -105,3 +109,42 @@ def test_numbers_of_numpy_are_numbers() -> None:
     assert (body.kappa2, body.gamma) == (0.5, 1.0)
     with pytest.raises(AttributeError, match="kapa2"):
         body.kapa2  # type: ignore[attr-defined]  # noqa: B018
+
+
+BODIES = {
+    "tensor": lambda: motiform.preset("fig5a"),
+    "cell": lambda: motiform.Cell(length=21.6),
+    "text": lambda: motiform.Amplitudes(modes=[1], equations={"z1": "(gamma - |z1|^2)*z1"}, parameters={"gamma": 1.0}),
+}
+
+
+@pytest.mark.parametrize("name", list(BODIES))
+def test_a_body_cannot_be_changed(name: str) -> None:
+    body = BODIES[name]()
+    known = next(iter(body.parameters))
+    value = body.parameters[known]
+    for attribute in (known, "kapa2", "t_end", "parameters", "_study"):
+        with pytest.raises(AttributeError, match=rf"{attribute} = 7.*replace\({attribute}=7\)"):
+            setattr(body, attribute, 7)
+    with pytest.raises(AttributeError, match="cannot be changed"):
+        del body._study
+    changes: list[Callable[[Any], object]] = [
+        lambda values: values.update({known: 5.0}),
+        lambda values: values.pop(known),
+        lambda values: values.setdefault("new", 1.0),
+        lambda values: operator.setitem(values, known, 5.0),
+        lambda values: operator.delitem(values, known),
+        lambda values: operator.ior(values, {known: 5.0}),
+        lambda values: values.clear(),
+    ]
+    for values in (body.parameters, body.initial, body.run):
+        before = dict(values)
+        for change in changes:
+            with pytest.raises(TypeError, match=r"read-only: replace\(NAME=value\)"):
+                change(values)
+        assert values == before == pickle.loads(pickle.dumps(values)) == copy.deepcopy(values) == json.loads(json.dumps(values))
+    for same in (pickle.loads(pickle.dumps(body)), copy.copy(body), copy.deepcopy(body)):
+        assert same == body and same.parameters[known] == value
+    assert body.replace(**body.parameters).parameters == body.parameters
+    body(0.0, np.zeros(len(body.coordinates)))  # keeps what it computes with
+    assert {**body.parameters, known: 5.0}[known] == 5.0 and body.parameters[known] == value

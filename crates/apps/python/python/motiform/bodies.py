@@ -24,7 +24,7 @@ def docstring(info: ModelInfo) -> str:
 
 def _class(info: ModelInfo) -> type[Model]:
     def __init__(self: Model, *, initial: Mapping[str, float] | None = None, **parameters: float) -> None:
-        self._study = _motiform.Study.of_model(info.name).with_(parameters, dict(initial or {}))
+        vars(self)["_study"] = _motiform.Study.of_model(info.name).with_(parameters, dict(initial or {}))
 
     kind = inspect.Parameter.KEYWORD_ONLY
     named: list[Any] = [

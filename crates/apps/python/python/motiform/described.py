@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import _motiform
 from ._registry import MODELS, RUN_SETTINGS, ModelInfo, info_of
+from .fixed import Fixed, Values
 from .units import Units, units_of
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ D = TypeVar("D", bound="Described")
 _SETTINGS = frozenset({"random", "units", *RUN_SETTINGS})
 
 
-class Described:
+class Described(Fixed):
     """A study: immutable, comparable, and the same after pickling."""
 
     _study: _motiform.Study
@@ -26,7 +27,7 @@ class Described:
     @classmethod
     def _of(cls: type[D], study: _motiform.Study) -> D:
         model = cls.__new__(cls)
-        model._study = study
+        vars(model)["_study"] = study
         return model
 
     @property
@@ -50,20 +51,19 @@ class Described:
         return self._study.free
 
     @property
-    def parameters(self) -> dict[str, float]:
-        """All parameters, in the order of the registry."""
-        return dict(self._study.parameters())
+    def parameters(self) -> Mapping[str, float]:
+        """All parameters, in the order of the registry; read-only."""
+        return Values(self._study.parameters())
 
     @property
-    def initial(self) -> dict[str, float]:
-        """The given initial values; if there are none, the initial state is random."""
-        return dict(self._study.initial())
+    def initial(self) -> Mapping[str, float]:
+        """The given initial values, read-only; if there are none, the initial state is random."""
+        return Values(self._study.initial())
 
     @property
-    def run(self) -> dict[str, Any]:
-        """The run settings: ``t_end``, ``transient``, ``stepper``, ``rtol``, ``seed``, ..."""
-        settings: dict[str, Any] = json.loads(self._study.run())
-        return settings
+    def run(self) -> Mapping[str, Any]:
+        """The run settings, read-only: ``t_end``, ``transient``, ``stepper``, ``rtol``, ``seed``, ..."""
+        return Values(json.loads(self._study.run()))
 
     @property
     def units(self) -> Units | None:

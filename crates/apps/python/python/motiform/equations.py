@@ -63,7 +63,7 @@ class Amplitudes(Model):
             if not isinstance(equation, str):
                 raise TypeError(f"the equation of {name} must be text, such as 'gamma*z1', not {type(equation).__name__}; motiform.Field takes functions")
         text = _text(modes, equations, parameters or {}, {"velocity": velocity, "symmetry": symmetry}, noise or {})
-        self._study = _motiform.Study.parse(text, "amplitudes").with_({}, dict(initial or {}))
+        vars(self)["_study"] = _motiform.Study.parse(text, "amplitudes").with_({}, dict(initial or {}))
 
 
 def _text(

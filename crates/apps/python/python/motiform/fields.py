@@ -14,6 +14,7 @@ import numpy.typing as npt
 from . import _motiform
 from .addresses import address_of
 from .calls import OnEnd, ended_early, known_end, raised_with, real
+from .fixed import Fixed, Values
 from .progress import Bar, Progress
 from .results import Crossings, Exponents, Outcome, exponents_of, outcome_of
 from .trajectory import Floats, crossing_frame
@@ -55,7 +56,7 @@ class Orbit:
         return pd.DataFrame(np.column_stack((self.t, self.states)), columns=["t", *self.names])
 
 
-class Field:
+class Field(Fixed):
     """A vector field ``dx/dt = f(t, x; p)`` given as a compiled function of C::
 
         void f(double t, const double *x, const double *p, double *dx)
@@ -88,6 +89,12 @@ class Field:
     >>> field.lyapunov(initial={"x": 1.0, "y": 1.0, "z": 20.0}, t_end=2000.0)
     """
 
+    _functions: tuple[Any, Any]
+    _coordinates: list[str]
+    _parameters: Values[float]
+    _initial: Values[float]
+    _native: _motiform.Field
+
     def __init__(
         self,
         function: Any,
@@ -97,16 +104,29 @@ class Field:
         jacobian: Any = None,
         initial: Mapping[str, float] | None = None,
     ) -> None:
-        self._functions = (function, jacobian)
-        self.coordinates: list[str] = _names(coordinates)
-        """Names of the coordinates."""
-        self.parameters: dict[str, float] = {name: _number(name, value) for name, value in (parameters or {}).items()}
-        """Names and values of the parameters."""
-        self.initial: dict[str, float] = {name: _number(name, value) for name, value in (initial or {}).items()}
-        """The given initial values."""
+        own = vars(self)  # nothing else can set attributes
+        own["_functions"] = (function, jacobian)
+        own["_coordinates"] = _names(coordinates)
+        own["_parameters"] = Values({name: _number(name, value) for name, value in (parameters or {}).items()})
+        own["_initial"] = Values({name: _number(name, value) for name, value in (initial or {}).items()})
         self._start(None, needed=False)
         addresses = (address_of(function, "function"), None if jacobian is None else address_of(jacobian, "jacobian"))
-        self._native = _motiform.Field(self.coordinates, list(self.parameters.values()), *addresses, self._functions)
+        own["_native"] = _motiform.Field(self.coordinates, list(self.parameters.values()), *addresses, self._functions)
+
+    @property
+    def coordinates(self) -> list[str]:
+        """Names of the coordinates."""
+        return list(self._coordinates)
+
+    @property
+    def parameters(self) -> Mapping[str, float]:
+        """Names and values of the parameters; read-only."""
+        return self._parameters
+
+    @property
+    def initial(self) -> Mapping[str, float]:
+        """The given initial values; read-only."""
+        return self._initial
 
     def replace(self, *, initial: Mapping[str, float] | None = None, **parameters: float) -> Field:
         """A copy with other values of parameters, or other initial values."""
