@@ -73,6 +73,12 @@ def ended_early(how: str, on_end: OnEnd) -> None:
         warnings.warn(f"the run {how}; see the result's outcome", EndedEarly, stacklevel=3)
 
 
+def left_out(notes: Iterable[str]) -> None:
+    """Warns, at the line that called the caller, of the bodies that are not in a result, or not as long as the others."""
+    for text in notes:
+        warnings.warn(text, EndedEarly, stacklevel=3)
+
+
 def raised_with(raised: BaseException, result: object) -> BaseException:
     """The exception that stopped a call; after Ctrl-C it carries the result so far."""
     return Interrupted(result) if isinstance(raised, KeyboardInterrupt) else raised

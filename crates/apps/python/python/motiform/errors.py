@@ -4,7 +4,8 @@ from __future__ import annotations
 
 
 class EndedEarly(UserWarning):
-    """A run did not reach its end: it escaped, its step size became too small, or its step budget was used up. See ``outcome`` of the result."""
+    """A run did not reach its end: it escaped, its step size became too small, or its step budget was used up. See ``outcome`` of the result,
+    or ``summary["notes"]`` of statistics of many bodies."""
 
 
 class Incomplete(UserWarning):

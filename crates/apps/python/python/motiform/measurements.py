@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from . import _motiform, plotting
+from .calls import left_out
 from .units import Asked, Units, chosen, converted, dimensions, factor
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ class Statistics:
     bodies: int
     """Bodies that were measured."""
     complete: bool
-    """Whether none was left out because of an interruption."""
+    """Whether none was left out because of an interruption; ``summary["notes"]`` says which were left out because they ended early."""
     mean_speed: Measured
     """Mean speed."""
     persistence: Measured
@@ -144,11 +145,16 @@ def statistics(
     radii: Sequence[float] = (),
     threshold: Threshold = None,
 ) -> Statistics:
-    """Statistics of the bodies in folders written by ``motiform simulate``, one each; rows before `transient` are left out."""
+    """Statistics of the bodies in folders written by ``motiform simulate``, one each; rows before `transient` are left out.
+
+    A run that did not reach its end counts as far as it goes, with the warning :class:`EndedEarly`.
+    """
     several = [folders] if isinstance(folders, (str, os.PathLike)) else list(folders)
     paths = [os.fspath(folder) for folder in several]
     text, tables, _ = _motiform.statistics_of(paths, float(transient), asked(radii, threshold))
-    return statistics_from(text, tables)
+    result = statistics_from(text, tables)
+    left_out(result.summary["notes"])
+    return result
 
 
 def asked(radii: Sequence[float], threshold: Threshold) -> tuple[list[float], tuple[str, float | None] | None]:

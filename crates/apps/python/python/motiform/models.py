@@ -14,7 +14,7 @@ from ._registry import PRESETS
 from .analysed import Analysed
 from .atlases import Atlas, atlas_of, axis_text
 from .branches import Branches, branches_of
-from .calls import OnEnd, Random, ended_early, known_end, raised_with, range_of, real, remark, span, with_given
+from .calls import OnEnd, Random, ended_early, known_end, left_out, raised_with, range_of, real, remark, span, with_given
 from .curves import Curves, curves_of
 from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
@@ -177,7 +177,7 @@ class Model(Analysed):
         >>> found.plot("autocorrelations")
 
         Body k is :meth:`simulate` with the seed ``seed + k``: another random start, and other noise. Those that do not complete are
-        left out. `radii` are those of discs that bodies leave; `threshold` is that of the residence times: a quantity (``"speed"``, a mode), or
+        left out, with the warning :class:`EndedEarly` that says how many, and how the first one ended. `radii` are those of discs that bodies leave; `threshold` is that of the residence times: a quantity (``"speed"``, a mode), or
         one with a value. Without `dt_out` samples are as far apart as in the model's own run, and further where all bodies would have more than
         two million. An interruption raises :class:`Interrupted` with the statistics of the bodies that are finished.
 
@@ -197,6 +197,7 @@ class Model(Analysed):
         result = statistics_from(text, tables, self.units)
         if raised is not None:
             raise raised_with(raised, result)
+        left_out(result.summary["notes"])
         return result
 
     def curves(
