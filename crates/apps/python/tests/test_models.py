@@ -69,6 +69,8 @@ def refused(binary: Path, *arguments: str) -> str:
         (ValueError, lambda: motiform.Tensor(kappa2=1e9), ("--set", "kappa2=1e9")),
         (ValueError, lambda: motiform.preset("fig7"), ("--preset", "fig7")),
         (ValueError, lambda: motiform.Tensor().simulate(-1.0), ("--t-end=-1",)),
+        (ValueError, lambda: motiform.Tensor().simulate(1.0, dt_out=0), ("--dt-out", "0")),
+        (ValueError, lambda: motiform.Tensor().simulate(1.0, dt_out=-1.0), ("--dt-out=-1",)),
         (ValueError, lambda: motiform.Tensor().simulate(1.0, stepper="rk5"), ("--stepper", "rk5")),
         (ValueError, lambda: motiform.Tensor(initial={"w1": 1.0}), ("--initial", "w1=1")),
     ],
@@ -148,3 +150,11 @@ def test_a_body_cannot_be_changed(name: str) -> None:
     assert body.replace(**body.parameters).parameters == body.parameters
     body(0.0, np.zeros(len(body.coordinates)))  # keeps what it computes with
     assert {**body.parameters, known: 5.0}[known] == 5.0 and body.parameters[known] == value
+
+
+def test_no_time_between_rows_is_refused_and_the_default_is_not() -> None:
+    body = motiform.preset("fig5a")
+    for zero in (0, 0.0, np.float64(0.0)):
+        with pytest.raises(ValueError, match="dt_out = 0: give a time above 0"):
+            body.statistics(3, t_end=50.0, noise=0.1, dt_out=zero)
+    assert len(body.replace(dt_out=0.0).simulate(10.0)) == len(body.simulate(10.0, dt_out=0.005)) == 2001  # as in a study

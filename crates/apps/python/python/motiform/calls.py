@@ -34,6 +34,7 @@ def range_of(key: str, value: Any) -> tuple[str, str]:
 def with_given(study: _motiform.Study, initial: Mapping[str, float] | None, given: dict[str, Any]) -> _motiform.Study:
     """The study with these initial values and settings; `None` leaves one as it is."""
     run = {name: value for name, value in given.items() if value is not None}
+    known_apart(run.get("dt_out"))
     if not run and initial is None:
         return study
     return study.with_(None, None if initial is None else dict(initial), run)
@@ -63,6 +64,12 @@ def known_end(on_end: OnEnd | None) -> None:
     """Raises for a wish that is none, before the run."""
     if on_end not in (None, "warn", "ignore", "raise"):
         raise ValueError(f"on_end = {on_end!r}: give 'warn', 'ignore' or 'raise'")
+
+
+def known_apart(dt_out: Any) -> None:
+    """Raises for a time of 0 between rows, which in a study stands for the default."""
+    if np.isscalar(dt_out) and dt_out == 0:
+        raise ValueError("dt_out = 0: give a time above 0")
 
 
 def ended_early(how: str, on_end: OnEnd) -> None:

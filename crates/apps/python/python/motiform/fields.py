@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _motiform
 from .addresses import address_of
-from .calls import OnEnd, ended_early, known_end, raised_with, real
+from .calls import OnEnd, ended_early, known_apart, known_end, raised_with, real
 from .fixed import Fixed, Values
 from .progress import Bar, Progress
 from .results import Crossings, Exponents, Outcome, exponents_of, outcome_of
@@ -160,6 +160,7 @@ class Field(Fixed):
         orbit that does not reach its end is a value with its outcome: see :meth:`Model.simulate`.
         """
         known_end(on_end)
+        known_apart(dt_out)
         run = _given(
             t_end=t_end, transient=transient, dt_out=dt_out, stepper=stepper, rtol=rtol, atol=atol, step=step, max_steps=max_steps,
             escape_norm=escape_norm,
