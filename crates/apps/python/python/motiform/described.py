@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import _motiform
 from ._registry import MODELS, RUN_SETTINGS, ModelInfo, info_of
+from .calls import coordinates_of, known_whole, start_of
 from .fixed import Fixed, Values
 from .units import Units, units_of
 
@@ -86,10 +87,16 @@ class Described(Fixed):
     def replace(self, *, initial: Mapping[str, float] | None = None, **changes: Any) -> Self:
         """A copy with other parameters, run settings (``t_end``, ``rtol``, ``seed``, ...), initial values or ``units`` (``"20um,1min"``)."""
         settings = {name: changes.pop(name) for name in list(changes) if name in _SETTINGS}
-        return self._of(self._study.with_(changes, dict(initial or {}), settings))
+        known_whole(**settings)
+        if "units" in settings:
+            settings["units"] = _units_text(settings["units"])
+        return self._of(self._study.with_(changes, start_of(initial, coordinates_of(self._study)), settings))
 
     def tie(self, **expressions: str) -> Self:
         """A copy in which parameters follow from others: ``body.tie(b3="d3", kappa3="2*kappa2")``, also in scans over them."""
+        for name, expression in expressions.items():
+            if not isinstance(expression, str):
+                raise TypeError(f"{name} = {expression!r}: give an expression as text, such as '2*kappa2'; replace({name}={expression!r}) sets a value")
         return self._of(self._study.tied(expressions))
 
     def to_toml(self) -> str:
@@ -109,3 +116,10 @@ class Described(Fixed):
         # Equations given as text have no defaults to leave out.
         values = self.parameters.items() if type(self).__name__ == "Amplitudes" else self._study.given()
         return f"{type(self).__name__}({', '.join(f'{name}={value:g}' for name, value in values)})"
+
+
+def _units_text(units: object) -> str:
+    """Units as a study has them."""
+    if not isinstance(units, (str, Units)):
+        raise TypeError(f"units = {units!r}: write what a unit of length and one of time are, such as '20um,1min'")
+    return str(units)

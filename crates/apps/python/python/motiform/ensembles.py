@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
-from .calls import Random, remark, with_given
+from .calls import Random, known_whole, remark, with_given
 from .progress import Bar, Progress
 from .results import Outcome, outcome_of
 from .trajectory import Floats
@@ -102,6 +102,7 @@ def ensemble(
     """
     from .fields import Field
 
+    known_whole(threads=threads)
     given = {
         "random": random, "seed": seed, "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
         "escape_norm": escape_norm,

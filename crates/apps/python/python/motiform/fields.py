@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _motiform
 from .addresses import address_of
-from .calls import OnEnd, ended_early, known_apart, known_end, raised_with, real
+from .calls import OnEnd, ended_early, known_apart, known_end, raised_with, real, start_of
 from .fixed import Fixed, Values
 from .progress import Bar, Progress
 from .results import Crossings, Exponents, Outcome, exponents_of, outcome_of
@@ -108,7 +108,7 @@ class Field(Fixed):
         own["_functions"] = (function, jacobian)
         own["_coordinates"] = _names(coordinates)
         own["_parameters"] = Values({name: _number(name, value) for name, value in (parameters or {}).items()})
-        own["_initial"] = Values({name: _number(name, value) for name, value in (initial or {}).items()})
+        own["_initial"] = Values({name: _number(name, value) for name, value in start_of(initial, self.coordinates).items()})
         self._start(None, needed=False)
         addresses = (address_of(function, "function"), None if jacobian is None else address_of(jacobian, "jacobian"))
         own["_native"] = _motiform.Field(self.coordinates, list(self.parameters.values()), *addresses, self._functions)
@@ -285,7 +285,7 @@ class Field(Fixed):
         return f"Field({', '.join(parts)})"
 
     def _start(self, initial: Mapping[str, float] | None, *, needed: bool = True) -> list[float]:
-        values = self.initial if initial is None else initial
+        values = self.initial if initial is None else start_of(initial, self.coordinates)
         for name in values:
             if name not in self.coordinates:
                 raise ValueError(f"no coordinate {name!r}: the initial values are those of {', '.join(self.coordinates)}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import reprlib
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
@@ -14,7 +15,7 @@ from ._registry import PRESETS
 from .analysed import Analysed
 from .atlases import Atlas, atlas_of, axis_text
 from .branches import Branches, branches_of
-from .calls import OnEnd, Random, ended_early, known_end, left_out, raised_with, range_of, real, remark, span, with_given
+from .calls import OnEnd, Random, ended_early, known_end, known_whole, left_out, raised_with, range_of, real, remark, span, with_given
 from .curves import Curves, curves_of
 from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
@@ -183,6 +184,7 @@ class Model(Analysed):
 
         More: docs/statistics.md.
         """
+        known_whole(bodies=bodies, threads=threads)
         if t_end is not None and dt_out is None:
             dt_out = _motiform.samples_apart(self._study, t_end, bodies)
         given = {
@@ -274,6 +276,7 @@ class Model(Analysed):
 
         More: docs/atlas.md.
         """
+        known_whole(samples=samples, threads=threads)
         names = None if axes is None else [axis_text(name, values) for name, values in axes.items()]
         study = with_given(self._study, None, {"random": random, "seed": seed})
         remark(study, () if axes is None else tuple(axes))
@@ -308,6 +311,8 @@ class Model(Analysed):
 
 def preset(name: str) -> Model:
     """A parameter set of the paper: ``fig1`` .. ``fig5b`` (tensor), ``fig6a`` .. ``fig6d`` (cell)."""
+    if not isinstance(name, str):
+        raise TypeError(f"name = {reprlib.repr(name)}: give the name of a parameter set of the paper: {', '.join(PRESETS)}")
     return of_study(_motiform.Study.preset(name))
 
 

@@ -16,7 +16,7 @@ import xarray as xr
 
 from . import _motiform
 from ._registry import ATTRACTORS, COURSES, NUMBERS, REGIMES, VERSION, info_of
-from .calls import Random, remark
+from .calls import Random, known_whole, remark
 from .errors import Incomplete, Interrupted
 from .executors import gather
 from .models import Model
@@ -85,6 +85,7 @@ def scan(
 
     More: docs/python.md, docs/clusters.md.
     """
+    known_whole(samples=samples, seed=seed)
     made = None if axes is None else [(name, _axis(name, values)) for name, values in axes.items()]
     study = model._study if random is None else model._study.with_(None, None, {"random": random})
     plan = _motiform.ScanPlan(study, made, samples, seed, budget)
