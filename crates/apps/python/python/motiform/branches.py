@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from . import plotting
+from .equality import equal, hashed
 from .units import Asked, Units, chosen, table_in
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Branch:
     """One branch, in its order."""
+
+    __eq__, __hash__ = equal, hashed
 
     motion: str
     """The kind of motion that most of its points have."""
@@ -50,6 +53,8 @@ class Branch:
 @dataclass(frozen=True)
 class Branches:
     """Branches in the order in which they were found; the first is the motion of the start."""
+
+    __eq__, __hash__ = equal, hashed
 
     along: str
     """The parameter."""

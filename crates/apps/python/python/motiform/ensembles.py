@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _motiform
 from .calls import Random, known_whole, remark, with_given
+from .equality import equal, hashed
 from .progress import Bar, Progress
 from .results import Outcome, outcome_of
 from .trajectory import Floats
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Ensemble:
     """The states of many orbits at given times."""
+
+    __eq__, __hash__ = equal, hashed
 
     t: Floats
     """The times, (T,)."""

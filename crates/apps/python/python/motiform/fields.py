@@ -14,6 +14,7 @@ import numpy.typing as npt
 from . import _motiform
 from .addresses import address_of
 from .calls import OnEnd, ended_early, known_apart, known_end, raised_with, real, start_of
+from .equality import equal, hashed
 from .fixed import Fixed, Values
 from .progress import Bar, Progress
 from .results import Crossings, Exponents, Outcome, exponents_of, outcome_of
@@ -30,6 +31,8 @@ __all__ = ["Field", "Orbit"]
 @dataclass(frozen=True)
 class Orbit:
     """A recorded orbit of a :class:`Field`."""
+
+    __eq__, __hash__ = equal, hashed
 
     t: Floats
     """Times of the rows, (rows,)."""

@@ -15,6 +15,7 @@ import pandas as pd
 
 from . import _motiform, plotting
 from .calls import left_out
+from .equality import equal, hashed
 from .units import Asked, Units, chosen, converted, dimensions, factor
 
 if TYPE_CHECKING:
@@ -28,6 +29,8 @@ Threshold = str | tuple[str, float] | None
 @dataclass(frozen=True)
 class Measured:
     """A number with its 95 % interval, or the reason why there is none."""
+
+    __eq__, __hash__ = equal, hashed
 
     value: float
     """The number; NaN if it is not known."""
@@ -53,6 +56,8 @@ class Measured:
 @dataclass(frozen=True)
 class Statistics:
     """Statistics of many bodies. Definitions and formulas: docs/statistics.md."""
+
+    __eq__, __hash__ = equal, hashed
 
     bodies: int
     """Bodies that were measured."""

@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _motiform
+from .equality import same
 from .results import Outcome, outcome_of
 from .units import Asked, Dimension, Units, chosen, factor, units_of
 from .units import name as unit_name
@@ -264,6 +265,17 @@ class Trajectory:
         computation = self.manifest["plan"]["computation"]
         study = _motiform.Study.of_model(computation["model"])
         return _motiform.Flow(study.with_(parameters=computation["parameters"]))
+
+    def __eq__(self, other: object) -> bool:
+        """The same plan, the same end, and the same numbers, NaN equal to NaN."""
+        if not isinstance(other, Trajectory):
+            return NotImplemented
+        if (self.manifest["plan_hash"], self.names, self.outcome) != (other.manifest["plan_hash"], other.names, other.outcome):
+            return False
+        return same(self._block, other._block) and same(self.crossings, other.crossings)
+
+    def __hash__(self) -> int:
+        return hash(self.manifest["plan_hash"])
 
     def __repr__(self) -> str:
         return f"<Trajectory: {len(self)} rows of {', '.join(self._place)}; {self._run.ended}>"

@@ -224,7 +224,7 @@ class Cell:
         progress: Progress = None,
     ) -> CellFit:
         """The equations that describe it; :meth:`Cells.fit` explains the settings."""
-        known_whole(seed=seed, threads=threads)
+        known_whole(seed=seed)
         settings = (order, modes, draws, seed, simulations, ladder, 1)
         found = self._cells._fit([self.name], settings, progress)[self.name]
         self._last = found
