@@ -161,12 +161,15 @@ class Verdict:
     """Whether the numbers are in model units: false of what :meth:`in_units` returns."""
 
     def in_units(self, units: Asked = True) -> Verdict:
-        """A copy with speeds, rates, times and lengths in the units of the study, or in others (``"20um,1min"``); all else stays as it is."""
+        """A copy with speeds, rates, times and lengths in the units of the study, or in others (``"20um,1min"``); all else stays as it is.
+
+        The sentence `why` has its numbers in model units; as text the copy says so.
+        """
         return in_units(self, units)
 
     def __str__(self) -> str:
         course = f", {self.course.replace('-', ' ')}" if self.course else ""
-        return f"{self.regime}{course}: {self.why}"
+        return f"{self.regime}{course}: {self.why}{'' if self.in_model_units else ' (numbers in model units)'}"
 
 
 def verdict_of(raw: dict[str, Any]) -> Verdict:

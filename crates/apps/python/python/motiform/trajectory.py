@@ -236,11 +236,13 @@ class Trajectory:
     def outline(self, t: float, *, radius: float | None = None, scale: float = 1.0, points: int = 200) -> Floats | None:
         """The boundary in the plane at the recorded time nearest to `t`, (points, 2) in model lengths.
 
-        `radius` is that of the undeformed body (:attr:`radius`); `scale` enlarges the body about its centre. ``None``
+        `radius`, above 0, is that of the undeformed body (:attr:`radius`); `scale` enlarges the body about its centre. ``None``
         if the shape is not a closed curve.
         """
         if points < 3:
             raise ValueError(f"points = {points}: give at least 3")
+        if radius is not None and not 0.0 < radius < np.inf:
+            raise ValueError(f"radius = {radius}: give a length above 0; by default it is {self.radius:g}")
         row = self.row(t)
         curve = self._run.outline(row, self.radius if radius is None else radius, points)
         return None if curve is None else scale * curve + self.position[row]
