@@ -180,7 +180,8 @@ class Model(Analysed):
         Body k is :meth:`simulate` with the seed ``seed + k``: another random start, and other noise. Those that do not complete are
         left out, with the warning :class:`EndedEarly` that says how many, and how the first one ended. `radii` are those of discs that bodies leave; `threshold` is that of the residence times: a quantity (``"speed"``, a mode), or
         one with a value. Without `dt_out` samples are as far apart as in the model's own run, and further where all bodies would have more than
-        two million. An interruption raises :class:`Interrupted` with the statistics of the bodies that are finished.
+        two million. Ctrl-C raises :class:`Interrupted` with the statistics of the bodies that are finished, and
+        ``KeyboardInterrupt`` if there is none.
 
         More: docs/statistics.md.
         """
