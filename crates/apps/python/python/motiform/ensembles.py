@@ -105,7 +105,7 @@ def ensemble(
     """
     from .fields import Field
 
-    known_whole(threads=threads)
+    known_whole(seed=seed, max_steps=max_steps, threads=threads)
     given = {
         "random": random, "seed": seed, "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
         "escape_norm": escape_norm,

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _motiform
 from .addresses import address_of
-from .calls import OnEnd, ended_early, known_apart, known_end, raised_with, real, start_of
+from .calls import OnEnd, ended_early, known_apart, known_end, known_whole, raised_with, real, start_of
 from .equality import equal, hashed
 from .fixed import Fixed, Values
 from .progress import Bar, Progress
@@ -164,6 +164,7 @@ class Field(Fixed):
         """
         known_end(on_end)
         known_apart(dt_out)
+        known_whole(max_steps=max_steps)
         run = _given(
             t_end=t_end, transient=transient, dt_out=dt_out, stepper=stepper, rtol=rtol, atol=atol, step=step, max_steps=max_steps,
             escape_norm=escape_norm,
