@@ -61,6 +61,25 @@ def test_errors_show_the_place() -> None:
         motiform.Amplitudes(modes=[1, 2], equations={"z1": "z1", "z2": "z1"})
 
 
+@pytest.mark.parametrize("key", ["equations", "parameters", "noise"])
+@pytest.mark.parametrize("given", [lambda z: z, ["z1"], "z1"])
+def test_what_is_no_mapping_is_named(key: str, given: object) -> None:
+    arguments: dict[str, object] = {"modes": [1], "equations": {"z1": "z1"}, key: given}
+    with pytest.raises(TypeError, match=rf"^{key} = .*: give a mapping from (amplitudes|names) to" + (".*motiform.Field" if key == "equations" else "")):
+        motiform.Amplitudes(**arguments)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["units", "run", "simulate", "parameters", "replace", "self", "initial", "t_end", "seed", "random"])
+def test_a_parameter_is_not_called_as_something_of_bodies(name: str) -> None:
+    with pytest.raises(ValueError, match=rf"{name} is the name of (a setting of runs|an attribute of bodies): choose another name"):
+        motiform.Amplitudes(modes=[1], equations={"z1": f"({name} - |z1|^2)*z1"}, parameters={name: 1.0})
+
+
+def test_names_that_bodies_do_not_have_are_free() -> None:
+    body = motiform.Amplitudes(modes=[1], equations={"z1": "(budget - |z1|^2)*z1"}, parameters={"budget": 1.0})
+    assert body.replace(budget=2.0).budget == 2.0
+
+
 def test_noise_of_equations_is_reproducible() -> None:
     body = motiform.Amplitudes(
         modes=[1, 2],

@@ -158,6 +158,17 @@ def test_what_does_not_work_says_why(library: ctypes.CDLL) -> None:
     with pytest.raises(TypeError, match="pickled"):
         pickle.dumps(field)
     assert field.replace(omega=1.0).parameters == {"omega": 1.0} and field.parameters == {"omega": 2.0}
+    with pytest.raises(TypeError, match=r"initial = \[1, 2\]: give a mapping from coordinates to values, such as \{'a': 0.1\}"):
+        field.simulate(1.0, initial=[1, 2])  # type: ignore[arg-type]
+    for call in (lambda: field.simulate(1.0, max_steps=-1), lambda: motiform.ensemble(field, 1.0, starts=[[1.0, 0.0]], max_steps=-1)):
+        with pytest.raises(ValueError, match="max_steps = -1: give a whole number above 0"):
+            call()
+    with pytest.raises(ValueError, match="dt_out = 0: give a time above 0"):
+        field.simulate(1.0, dt_out=0)
+    with pytest.raises(AttributeError, match="a Field cannot be changed"):
+        field.parameters = {"omega": 1.0}  # type: ignore[misc]
+    with pytest.raises(TypeError, match="read-only"):
+        field.parameters["omega"] = 1.0  # type: ignore[index]
 
 
 @pytest.mark.parametrize(

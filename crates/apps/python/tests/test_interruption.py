@@ -6,8 +6,11 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
+
+import motiform
 
 LONG = {
     "simulate": "motiform.preset('fig5b').simulate(1e7, dt_out=1e3, transient=0.0)",
@@ -16,6 +19,7 @@ LONG = {
     "lyapunov": "motiform.preset('fig5b').lyapunov(6, t_end=1e7)",
     "equilibria": "motiform.preset('fig6a').equilibria(starts=100000)",
     "section": "motiform.preset('fig5b').section('y', 0.0, t_end=1e7)",
+    "statistics": "motiform.Tensor(gamma=1, kappa2=2, kappa3=2).statistics(5000, t_end=100.0, noise=0.1)",
     "scan": "motiform.scan(motiform.preset('fig5b'), {'kappa2': '0.4:0.6:2000'}, samples=50)",
 }
 
@@ -42,7 +46,35 @@ def test_ctrl_c_is_answered(name: str) -> None:
         process.send_signal(signal.SIGINT)
         words = process.stdout.read().split()
     assert words and words[0] == "stopped", words
-    kinds = {"simulate": "Trajectory", "transient": "Trajectory", "scan": "Dataset"}
+    kinds = {"simulate": "Trajectory", "transient": "Trajectory", "statistics": "Statistics", "scan": "Dataset"}
     assert words[2] == kinds.get(name, "NoneType")
     print(f"{name}: {float(words[1]) - pressed:.3f} s")
     assert float(words[1]) - pressed < 5.0  # 0.2 s where nothing else runs; a machine may be busy
+
+
+FIRST = """
+import motiform, sys
+print("ready", "dask" in sys.modules, flush=True)
+try:
+    motiform.scan(motiform.preset("fig5b"), {axes}, samples={samples}, out={out!r})
+except motiform.Interrupted as stop:
+    print("stopped", *stop.result.regime.shape, int((stop.result.regime < 0).sum()), flush=True)
+"""
+
+
+@pytest.mark.parametrize("out", [None, "line"])
+def test_ctrl_c_at_the_first_scan_waits_for_its_imports(out: str | None, tmp_path: Path) -> None:
+    program = FIRST.format(axes="{'kappa2': '0.4:0.6:2000'}", samples=50, out=out)
+    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True, cwd=tmp_path) as process:
+        assert process.stdout is not None and process.stdout.readline().startswith("ready")
+        time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        words = process.stdout.read().split()
+    assert words[:3] == ["stopped", "2000", "50"] and int(words[3]) > 0, words
+
+
+def test_ctrl_c_is_not_lost_if_the_scan_is_over_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("motiform.scans._first_dataset", KeyboardInterrupt)
+    with pytest.raises(motiform.Interrupted) as stopped:
+        motiform.scan(motiform.Tensor(gamma=1.0), {"kappa2": [0.5]}, progress=False)
+    assert stopped.value.result.regime.shape == (1, 1)

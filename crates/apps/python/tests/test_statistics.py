@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import subprocess
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -56,6 +57,20 @@ def test_what_is_wrong_is_named() -> None:
         body.statistics(0)
 
 
+def test_bodies_that_are_left_out_are_warned_of(tmp_path: Path, binary: Path) -> None:
+    body = motiform.preset("fig5a")
+    with pytest.warns(motiform.EndedEarly, match="of 8 bodies are left out.*blew up at") as warned:
+        found = body.statistics(8, t_end=50.0, noise=0.1)
+    assert found.complete and found.bodies < 8 and [str(one.message) for one in warned] == found.summary["notes"]
+    assert Path(warned[0].filename) == Path(__file__)
+    escaping = "simulate tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --t-end 50 --transient 0 --dt-out 0.001 --no-figures"
+    start = "v1=8 v2=1 s11=30 u111=-20".split()
+    words = [*escaping.split(), *(word for value in start for word in ("--initial", value))]
+    subprocess.run([binary, *words, "--out", tmp_path / "one"], capture_output=True)
+    with pytest.warns(motiform.EndedEarly, match="one: .*it counts as far as it goes"):
+        motiform.statistics(tmp_path / "one")
+
+
 def test_an_interruption_keeps_what_is_finished() -> None:
     def stop(fraction: float) -> None:
         if fraction > 0.1:
@@ -69,8 +84,6 @@ def test_an_interruption_keeps_what_is_finished() -> None:
 
 
 def test_datasets_of_the_command_line_are_bodies(tmp_path: Path, binary: Path) -> None:
-    import subprocess
-
     for seed in "123":
         words = ["simulate", "tensor", "--set", "gamma=1", "--noise", "0.2", "--t-end", "300", "--no-figures"]
         subprocess.run(

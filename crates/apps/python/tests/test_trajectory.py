@@ -85,6 +85,9 @@ def test_outlines_lie_about_the_body(run: motiform.Trajectory) -> None:
     for bad in (-0.1, 50.1, float("nan")):
         with pytest.raises(ValueError, match="the recording is from 0 to 50"):
             run.outline(bad)
+    for radius in (-2, 0.0, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match=rf"radius = {radius}: give a length above 0; by default it is {run.radius:g}"):
+            run.outline(20.3, radius=radius)
 
 
 def test_the_field_is_that_of_the_run() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 import re
 import subprocess
@@ -10,10 +11,12 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+import pandas as pd
 import pytest
 
 import motiform
 from motiform._registry import NUMBERS
+from motiform.branches import _special_in
 from motiform.units import dimensions
 
 UNITS = "20um,3min"
@@ -111,6 +114,7 @@ def test_results_are_converted_on_request(body: motiform.Model) -> None:
     assert other.speed.mean == pytest.approx(20.0 / 3.0 * verdict.speed.mean)
     assert other.drift == pytest.approx(20.0 * (verdict.drift or 0.0)) and other.swing == verdict.swing
     assert (verdict.regime, verdict.why) == (other.regime, other.why)
+    assert str(other) == f"{verdict} (numbers in model units)" and str(verdict.in_units(False)) == str(verdict)
     with pytest.raises(ValueError, match="already"):
         other.in_units()
     exponents = body.lyapunov(2, t_end=200.0)
@@ -144,6 +148,18 @@ def test_statistics_are_those_that_the_program_prints(binary: Path) -> None:
     assert found.plot("first_passage").get_ylabel() == "mean first-passage time (min)"
 
 
+def test_reasons_keep_model_units_and_say_so(body: motiform.Model) -> None:
+    found = body.statistics(4, t_end=20.0, noise=0.02)
+    other = found.in_units()
+    assert re.search(r"longest lag \d", found.diffusion.reason) and not other.diffusion.known
+    assert other.diffusion.reason == f"{found.diffusion.reason} (numbers in model units)" and other.mean_speed.reason == ""
+    times, converted = found.correlation_times["velocity"], other.correlation_times["velocity"]
+    assert not times.known and converted.reason.startswith(times.reason) and "model units" in str(converted)
+    assert repr(other) != repr(found) == repr(found.in_units(False))
+    np.testing.assert_allclose(other.msd["lag"], 3.0 * found.msd["lag"])
+    np.testing.assert_allclose(other.autocorrelations["lag"], 3.0 * found.autocorrelations["lag"])
+
+
 def test_columns_of_motions_have_the_units_that_scans_state() -> None:
     known = dimensions("motion")
     for name, _, unit in NUMBERS:
@@ -168,6 +184,33 @@ def test_branches_and_curves_are_converted_on_request(body: motiform.Model) -> N
     assert len(curves) >= 1 and curves.units == body.units
     np.testing.assert_allclose(curves.in_units("1um,2s").points["period"], 2.0 * curves.points["period"], rtol=1e-14)
     np.testing.assert_array_equal(curves.in_units().points["kappa2"], curves.points["kappa2"])
+
+
+def test_connections_are_converted_on_request() -> None:
+    body = motiform.preset("fig4").replace(kappa2=0.9, kappa3=0.1, units=UNITS)
+    found = body.branches(("kappa2", 0.8, 1.6), from_="zigzag", branches=2)
+    special, other = found.special, found.in_units().special
+    (place,) = special.index[special["kind"] == "homoclinic"][:1]
+    before, after = special.loc[place], other.loc[place]
+    for name in ("rate", "saddle_quantity"):
+        assert after[name] == pytest.approx(before[name] / 3.0)
+    for name in ("leading_growing", "leading_decaying"):
+        np.testing.assert_allclose(after[name], np.array(before[name]) / 3.0)
+    np.testing.assert_allclose(after["saddle"]["eigenvalues"], np.array(before["saddle"]["eigenvalues"]) / 3.0)
+    assert after["saddle"]["speed"] == pytest.approx(20.0 / 3.0 * before["saddle"]["speed"])
+    assert after["saddle"]["shape"] == before["saddle"]["shape"]
+    unchanged = ["kappa2", "error", "remaining", "coefficient", "kind", "law"]
+    assert special[unchanged].equals(other[unchanged])
+    np.testing.assert_allclose(other["period"], 3.0 * special["period"])
+
+
+def test_saddles_of_cycles_are_converted_each() -> None:
+    saddle = {"speed": 1.0, "turning_rate": 3.0, "eigenvalues": [[3.0, 0.0]], "shape": [1.0], "leading_growing": [6.0, 0.0], "share": 0.5}
+    table = pd.DataFrame({"saddles": [[saddle, saddle], math.nan, None], "rate": [3.0, math.nan, None]})
+    made = _special_in(table, motiform.Units(UNITS))
+    expected = {"speed": pytest.approx(20.0 / 3.0), "turning_rate": 1.0, "eigenvalues": [[1.0, 0.0]], "shape": [1.0], "leading_growing": [2.0, 0.0], "share": 0.5}
+    assert made["saddles"][0] == [expected, expected] and math.isnan(made["saddles"][1]) and made["saddles"][2] is None
+    assert made["rate"][0] == 1.0 and table["saddles"][0][0] == saddle
 
 
 def test_scans_and_atlases_are_converted_on_request(body: motiform.Model) -> None:

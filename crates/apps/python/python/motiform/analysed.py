@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Literal
 
 from . import _motiform
-from .calls import OnEnd, Random, ended_early, known_end, remark, span, with_given
+from .calls import OnEnd, Random, ended_early, known_end, known_whole, remark, span, with_given
 from .described import Described
 from .progress import Bar, Progress
 from .results import (
@@ -72,6 +72,7 @@ class Analysed(Described):
 
         More: docs/regimes.md.
         """
+        known_whole(samples=samples, threads=threads)
         study = with_given(self._study, initial, {"random": random, "seed": seed})
         remark(study)
         with Bar(progress, 100.0, "%") as bar:
@@ -96,6 +97,7 @@ class Analysed(Described):
         More: docs/regimes.md.
         """
         known_end(on_end)
+        known_whole(count=count)
         study = with_given(self._study, initial, {"random": random, "seed": seed})
         remark(study)
         count = min(6, len(study.coordinates())) if count is None else count

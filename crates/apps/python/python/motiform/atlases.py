@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ import pandas as pd
 
 from . import _motiform, plotting
 from .branches import _points
+from .equality import equal, hashed
 from .units import Asked, Units, chosen, table_in
 
 if TYPE_CHECKING:
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Region:
     """Connected cells with the same motions."""
+
+    __eq__, __hash__ = equal, hashed
 
     motions: tuple[str, ...]
     """Its motions: more than one where motions coexist."""
@@ -36,6 +39,8 @@ class Region:
 @dataclass(frozen=True)
 class Boundary:
     """All edges between cells with one set of motions and cells with another."""
+
+    __eq__, __hash__ = equal, hashed
 
     between: tuple[tuple[str, ...], tuple[str, ...]]
     """The motions on both sides."""
@@ -53,6 +58,8 @@ class Boundary:
 class Atlas:
     """Regions, boundaries and special points of a plane of two parameters."""
 
+    __eq__, __hash__ = equal, hashed
+
     parameters: tuple[str, str]
     """The parameters, across and upwards."""
     regions: tuple[Region, ...]
@@ -67,7 +74,7 @@ class Atlas:
     """A row per point of each curve: ``curve``, ``kind``, ``motion``, ``codimension_2``, ``unstable``, both parameters, ``period``."""
     summary: Mapping[str, Any]
     """Everything that ``motiform atlas --json`` prints."""
-    _native: _motiform.Atlas
+    _native: _motiform.Atlas = field(compare=False)
     units: Units | None = None
     """What a unit of length and one of time are, if the study says it."""
     in_model_units: bool = True

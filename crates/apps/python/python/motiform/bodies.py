@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import inspect
+import reprlib
 from collections.abc import Mapping
 from typing import Any
 
 from . import _motiform
 from ._registry import MODELS, ModelInfo
+from .calls import coordinates_of, start_of
 from .models import Model
 
 __all__ = ["Cell", "Tensor"]
@@ -23,8 +25,14 @@ def docstring(info: ModelInfo) -> str:
 
 
 def _class(info: ModelInfo) -> type[Model]:
-    def __init__(self: Model, *, initial: Mapping[str, float] | None = None, **parameters: float) -> None:
-        self._study = _motiform.Study.of_model(info.name).with_(parameters, dict(initial or {}))
+    name = info.name.capitalize()
+
+    def __init__(self: Model, *values: object, initial: Mapping[str, float] | None = None, **parameters: float) -> None:
+        if values:
+            first, given = info.parameters[0].name, reprlib.repr(values[0])
+            raise TypeError(f"{name}({given}): parameters are given by name, such as {name}({first}={info.parameters[0].default:g})")
+        study = _motiform.Study.of_model(info.name)
+        vars(self)["_study"] = study.with_(parameters, start_of(initial, coordinates_of(study)))
 
     kind = inspect.Parameter.KEYWORD_ONLY
     named: list[Any] = [
@@ -34,7 +42,6 @@ def _class(info: ModelInfo) -> type[Model]:
     own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
     start = inspect.Parameter("initial", kind, default=None)
     setattr(__init__, "__signature__", inspect.Signature([own, *named, start]))  # noqa: B010
-    name = info.name.capitalize()
     body = {"__init__": __init__, "__doc__": docstring(info), "__module__": __name__}
     return type(name, (Model,), body)
 

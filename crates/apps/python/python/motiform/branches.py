@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from . import plotting
-from .units import Asked, Units, chosen, table_in
+from .equality import equal, hashed
+from .units import Asked, Dimension, Units, chosen, factor, scaled, table_in
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Branch:
     """One branch, in its order."""
+
+    __eq__, __hash__ = equal, hashed
 
     motion: str
     """The kind of motion that most of its points have."""
@@ -51,6 +54,8 @@ class Branch:
 class Branches:
     """Branches in the order in which they were found; the first is the motion of the start."""
 
+    __eq__, __hash__ = equal, hashed
+
     along: str
     """The parameter."""
     branches: tuple[Branch, ...]
@@ -77,13 +82,14 @@ class Branches:
         return pd.concat(filled, ignore_index=True) if filled else pd.DataFrame(columns=["kind", self.along])
 
     def in_units(self, units: Asked = True) -> Branches:
-        """A copy with speeds, turning rates and periods in the units of the study, or in others (``"20um,1min"``). Parameters, states,
-        eigenvalues and coefficients stay in model units."""
+        """A copy with speeds, turning rates and periods in the units of the study, or in others (``"20um,1min"``), and so the rates and saddles
+        of connections in `special`. Parameters, states, coefficients, amplitudes, and ``leading_re`` and ``leading_im`` of points, which are
+        eigenvalues or multipliers, stay in model units."""
         if not self.in_model_units:
             raise ValueError(f"the branches are in {self.units} already")
         shown = chosen(units, self.units)
         made = tuple(
-            replace(branch, points=table_in(branch.points, shown), special=table_in(branch.special, shown))
+            replace(branch, points=table_in(branch.points, shown), special=_special_in(branch.special, shown))
             for branch in self.branches
         )
         points = table_in(self.points, shown)
@@ -99,6 +105,34 @@ class Branches:
     def __repr__(self) -> str:
         motions = ", ".join(branch.motion for branch in self.branches)
         return f"<{len(self)} branches along {self.along}: {motions}>"
+
+
+_RATE: Dimension = (0, -1)
+_OF_CONNECTIONS: dict[str, Dimension] = {
+    "rate": _RATE, "frequency": _RATE, "saddle_quantity": _RATE, "leading_growing": _RATE, "leading_decaying": _RATE
+}  # fmt: skip
+_OF_SADDLES = {**_OF_CONNECTIONS, "eigenvalues": _RATE, "turning_rate": (0, -1, True), "speed": (1, -1)}
+
+
+def _special_in(table: pd.DataFrame, units: Units | None) -> pd.DataFrame:
+    """A copy of a table of special points in other units."""
+    made = table_in(table, units)
+    for name in (name for name in _OF_CONNECTIONS if name in table):
+        by = factor(units, _OF_CONNECTIONS[name])
+        made[name] = [scaled(value, by) for value in table[name]]
+    for name in (name for name in ("saddle", "saddles") if name in table):
+        made[name] = [_saddles_in(value, units) for value in table[name]]
+    return made
+
+
+def _saddles_in(value: Any, units: Units | None) -> Any:
+    """A saddle, or a list of them; what is none is left as it is."""
+    if isinstance(value, list):
+        return [_saddles_in(saddle, units) for saddle in value]
+    if not isinstance(value, Mapping):
+        return value
+    by = {name: factor(units, dimension) for name, dimension in _OF_SADDLES.items()}
+    return {name: scaled(number, by[name]) if name in by else number for name, number in value.items()}
 
 
 _READ: dict[str, Callable[[str], Any]] = {

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import reprlib
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -34,9 +35,31 @@ def range_of(key: str, value: Any) -> tuple[str, str]:
 def with_given(study: _motiform.Study, initial: Mapping[str, float] | None, given: dict[str, Any]) -> _motiform.Study:
     """The study with these initial values and settings; `None` leaves one as it is."""
     run = {name: value for name, value in given.items() if value is not None}
+    known_apart(run.get("dt_out"))
+    known_whole(**run)
     if not run and initial is None:
         return study
-    return study.with_(None, None if initial is None else dict(initial), run)
+    return study.with_(None, None if initial is None else start_of(initial, coordinates_of(study)), run)
+
+
+def coordinates_of(study: _motiform.Study) -> list[str]:
+    """The names that initial values may have."""
+    return [*(name for name, _ in study.coordinates()), "x", "y"]
+
+
+def start_of(initial: Any, coordinates: Sequence[str]) -> dict[str, Any]:
+    """Initial values by name; what is no mapping from names is rejected."""
+    try:
+        values = dict({} if initial is None else initial)
+    except (TypeError, ValueError):
+        values = {None: None}
+    if any(not isinstance(name, str) for name in values):
+        names = ", ".join(coordinates if len(coordinates) <= 12 else [*coordinates[:10], "..", *coordinates[-2:]])
+        raise TypeError(
+            f"initial = {reprlib.repr(initial)}: give a mapping from coordinates to values, such as "
+            f"{{{coordinates[0]!r}: 0.1}}; the coordinates are {names}"
+        )
+    return values
 
 
 def remark(study: _motiform.Study, varied: Iterable[str] = ()) -> None:
@@ -65,12 +88,39 @@ def known_end(on_end: OnEnd | None) -> None:
         raise ValueError(f"on_end = {on_end!r}: give 'warn', 'ignore' or 'raise'")
 
 
+WHOLE = 2**64
+"""Whole numbers of the native module are below this."""
+
+
+def known_whole(**given: Any) -> None:
+    """Raises for whole numbers that are negative or too large; the native module says what else is wrong."""
+    for name, value in given.items():
+        if isinstance(value, (int, np.integer)) and name in _WHOLE and not 0 <= value < WHOLE:
+            remedy = f"from 0 to {WHOLE - 1}" if name == "seed" else "above 0"
+            raise ValueError(f"{name} = {value}: give a whole number {remedy}")
+
+
+_WHOLE = ("seed", "max_steps", "samples", "bodies", "count", "threads")
+
+
+def known_apart(dt_out: Any) -> None:
+    """Raises for a time of 0 between rows, which in a study stands for the default."""
+    if np.isscalar(dt_out) and dt_out == 0:
+        raise ValueError("dt_out = 0: give a time above 0")
+
+
 def ended_early(how: str, on_end: OnEnd) -> None:
     """Does what was asked for a run that ended early."""
     if on_end == "raise":
         raise RuntimeError(f"the run {how}")
     if on_end == "warn":
         warnings.warn(f"the run {how}; see the result's outcome", EndedEarly, stacklevel=3)
+
+
+def left_out(notes: Iterable[str]) -> None:
+    """Warns, at the line that called the caller, of the bodies that are not in a result, or not as long as the others."""
+    for text in notes:
+        warnings.warn(text, EndedEarly, stacklevel=3)
 
 
 def raised_with(raised: BaseException, result: object) -> BaseException:

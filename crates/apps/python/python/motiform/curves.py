@@ -11,6 +11,7 @@ import pandas as pd
 
 from . import plotting
 from .branches import _points
+from .equality import equal, hashed
 from .units import Asked, Units, chosen, table_in
 
 if TYPE_CHECKING:
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Curve:
     """One curve, from one end to the other."""
+
+    __eq__, __hash__ = equal, hashed
 
     kind: str
     """What is critical along it: hopf, fold, pitchfork, symmetry-breaking, period-doubling, torus."""
@@ -39,6 +42,8 @@ class Curve:
 @dataclass(frozen=True)
 class Curves:
     """Curves in the order in which they were found."""
+
+    __eq__, __hash__ = equal, hashed
 
     parameters: tuple[str, str]
     """The parameters, across and upwards."""

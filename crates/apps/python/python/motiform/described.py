@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from . import _motiform
 from ._registry import MODELS, RUN_SETTINGS, ModelInfo, info_of
+from .calls import coordinates_of, known_whole, start_of
+from .fixed import Fixed, Values
 from .units import Units, units_of
 
 if TYPE_CHECKING:
@@ -18,7 +20,7 @@ D = TypeVar("D", bound="Described")
 _SETTINGS = frozenset({"random", "units", *RUN_SETTINGS})
 
 
-class Described:
+class Described(Fixed):
     """A study: immutable, comparable, and the same after pickling."""
 
     _study: _motiform.Study
@@ -26,7 +28,7 @@ class Described:
     @classmethod
     def _of(cls: type[D], study: _motiform.Study) -> D:
         model = cls.__new__(cls)
-        model._study = study
+        vars(model)["_study"] = study
         return model
 
     @property
@@ -50,20 +52,19 @@ class Described:
         return self._study.free
 
     @property
-    def parameters(self) -> dict[str, float]:
-        """All parameters, in the order of the registry."""
-        return dict(self._study.parameters())
+    def parameters(self) -> Mapping[str, float]:
+        """All parameters, in the order of the registry; read-only."""
+        return Values(self._study.parameters())
 
     @property
-    def initial(self) -> dict[str, float]:
-        """The given initial values; if there are none, the initial state is random."""
-        return dict(self._study.initial())
+    def initial(self) -> Mapping[str, float]:
+        """The given initial values, read-only; if there are none, the initial state is random."""
+        return Values(self._study.initial())
 
     @property
-    def run(self) -> dict[str, Any]:
-        """The run settings: ``t_end``, ``transient``, ``stepper``, ``rtol``, ``seed``, ..."""
-        settings: dict[str, Any] = json.loads(self._study.run())
-        return settings
+    def run(self) -> Mapping[str, Any]:
+        """The run settings, read-only: ``t_end``, ``transient``, ``stepper``, ``rtol``, ``seed``, ..."""
+        return Values(json.loads(self._study.run()))
 
     @property
     def units(self) -> Units | None:
@@ -86,10 +87,16 @@ class Described:
     def replace(self, *, initial: Mapping[str, float] | None = None, **changes: Any) -> Self:
         """A copy with other parameters, run settings (``t_end``, ``rtol``, ``seed``, ...), initial values or ``units`` (``"20um,1min"``)."""
         settings = {name: changes.pop(name) for name in list(changes) if name in _SETTINGS}
-        return self._of(self._study.with_(changes, dict(initial or {}), settings))
+        known_whole(**settings)
+        if "units" in settings:
+            settings["units"] = _units_text(settings["units"])
+        return self._of(self._study.with_(changes, start_of(initial, coordinates_of(self._study)), settings))
 
     def tie(self, **expressions: str) -> Self:
         """A copy in which parameters follow from others: ``body.tie(b3="d3", kappa3="2*kappa2")``, also in scans over them."""
+        for name, expression in expressions.items():
+            if not isinstance(expression, str):
+                raise TypeError(f"{name} = {expression!r}: give an expression as text, such as '2*kappa2'; replace({name}={expression!r}) sets a value")
         return self._of(self._study.tied(expressions))
 
     def to_toml(self) -> str:
@@ -109,3 +116,10 @@ class Described:
         # Equations given as text have no defaults to leave out.
         values = self.parameters.items() if type(self).__name__ == "Amplitudes" else self._study.given()
         return f"{type(self).__name__}({', '.join(f'{name}={value:g}' for name, value in values)})"
+
+
+def _units_text(units: object) -> str:
+    """Units as a study has them."""
+    if not isinstance(units, (str, Units)):
+        raise TypeError(f"units = {units!r}: write what a unit of length and one of time are, such as '20um,1min'")
+    return str(units)

@@ -12,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
-from .calls import Random, remark, with_given
+from .calls import Random, known_whole, remark, with_given
+from .equality import equal, hashed
 from .progress import Bar, Progress
 from .results import Outcome, outcome_of
 from .trajectory import Floats
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Ensemble:
     """The states of many orbits at given times."""
+
+    __eq__, __hash__ = equal, hashed
 
     t: Floats
     """The times, (T,)."""
@@ -102,6 +105,7 @@ def ensemble(
     """
     from .fields import Field
 
+    known_whole(seed=seed, max_steps=max_steps, threads=threads)
     given = {
         "random": random, "seed": seed, "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
         "escape_norm": escape_norm,

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import reprlib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import _motiform
+from .calls import coordinates_of, start_of
 from .models import Model
 
 __all__ = ["Amplitudes"]
@@ -39,7 +41,7 @@ class Amplitudes(Model):
     Raises
     ------
     ValueError
-        With the place in the text, and what was expected.
+        With the place in the text, and what was expected; or for a parameter with the name of a setting or of an attribute of bodies.
 
     Examples
     --------
@@ -59,11 +61,22 @@ class Amplitudes(Model):
         noise: Mapping[str, str] | None = None,
         initial: Mapping[str, float] | None = None,
     ) -> None:
+        for key, given, example in (
+            ("equations", equations, "from amplitudes to text, such as {'z1': 'gamma*z1'}; motiform.Field takes functions"),
+            ("parameters", parameters, "from names to values, such as {'gamma': 1.0}"),
+            ("noise", noise, "from amplitudes to text, such as {'z1': 'D'}"),
+        ):
+            if given is not None and not isinstance(given, Mapping):
+                raise TypeError(f"{key} = {reprlib.repr(given)}: give a mapping {example}")
+        for name in parameters or {}:
+            if name == "self" or (hasattr(Amplitudes, name) and not name.startswith("_")):
+                raise ValueError(f"parameters: {name} is the name of an attribute of bodies: choose another name")
         for name, equation in equations.items():
             if not isinstance(equation, str):
                 raise TypeError(f"the equation of {name} must be text, such as 'gamma*z1', not {type(equation).__name__}; motiform.Field takes functions")
         text = _text(modes, equations, parameters or {}, {"velocity": velocity, "symmetry": symmetry}, noise or {})
-        self._study = _motiform.Study.parse(text, "amplitudes").with_({}, dict(initial or {}))
+        study = _motiform.Study.parse(text, "amplitudes")
+        vars(self)["_study"] = study.with_({}, start_of(initial, coordinates_of(study)))
 
 
 def _text(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 
 class EndedEarly(UserWarning):
-    """A run did not reach its end: it escaped, its step size became too small, or its step budget was used up. See ``outcome`` of the result."""
+    """A run did not reach its end: it escaped, its step size became too small, or its step budget was used up. See ``outcome`` of the result,
+    or ``summary["notes"]`` of statistics of many bodies."""
 
 
 class Incomplete(UserWarning):
@@ -20,9 +21,11 @@ class WorkersLost(RuntimeWarning):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a long call. The results computed so far are in ``result``."""
+    """Ctrl-C during ``simulate``, ``statistics``, ``branches``, ``curves``, ``scan``, or ``observe`` and ``fit`` of cells. The results computed so far are in
+    ``result``."""
 
     def __init__(self, result: object) -> None:
         super().__init__("interrupted; what was computed so far is the exception's result")
         self.result = result
-        """A shorter ``Trajectory``, or a ``Dataset`` with missing rows."""
+        """A shorter ``Trajectory``, ``Statistics`` of the bodies that are finished, the ``Branches`` or ``Curves`` found so far, a ``Dataset`` with missing
+        rows, or the cells that are done."""

@@ -13,7 +13,9 @@ import numpy.typing as npt
 
 from . import _motiform
 from .addresses import address_of
-from .calls import OnEnd, ended_early, known_end, raised_with, real
+from .calls import OnEnd, ended_early, known_apart, known_end, known_whole, raised_with, real, start_of
+from .equality import equal, hashed
+from .fixed import Fixed, Values
 from .progress import Bar, Progress
 from .results import Crossings, Exponents, Outcome, exponents_of, outcome_of
 from .trajectory import Floats, crossing_frame
@@ -29,6 +31,8 @@ __all__ = ["Field", "Orbit"]
 @dataclass(frozen=True)
 class Orbit:
     """A recorded orbit of a :class:`Field`."""
+
+    __eq__, __hash__ = equal, hashed
 
     t: Floats
     """Times of the rows, (rows,)."""
@@ -55,7 +59,7 @@ class Orbit:
         return pd.DataFrame(np.column_stack((self.t, self.states)), columns=["t", *self.names])
 
 
-class Field:
+class Field(Fixed):
     """A vector field ``dx/dt = f(t, x; p)`` given as a compiled function of C::
 
         void f(double t, const double *x, const double *p, double *dx)
@@ -88,6 +92,12 @@ class Field:
     >>> field.lyapunov(initial={"x": 1.0, "y": 1.0, "z": 20.0}, t_end=2000.0)
     """
 
+    _functions: tuple[Any, Any]
+    _coordinates: list[str]
+    _parameters: Values[float]
+    _initial: Values[float]
+    _native: _motiform.Field
+
     def __init__(
         self,
         function: Any,
@@ -97,16 +107,29 @@ class Field:
         jacobian: Any = None,
         initial: Mapping[str, float] | None = None,
     ) -> None:
-        self._functions = (function, jacobian)
-        self.coordinates: list[str] = _names(coordinates)
-        """Names of the coordinates."""
-        self.parameters: dict[str, float] = {name: _number(name, value) for name, value in (parameters or {}).items()}
-        """Names and values of the parameters."""
-        self.initial: dict[str, float] = {name: _number(name, value) for name, value in (initial or {}).items()}
-        """The given initial values."""
+        own = vars(self)  # nothing else can set attributes
+        own["_functions"] = (function, jacobian)
+        own["_coordinates"] = _names(coordinates)
+        own["_parameters"] = Values({name: _number(name, value) for name, value in (parameters or {}).items()})
+        own["_initial"] = Values({name: _number(name, value) for name, value in start_of(initial, self.coordinates).items()})
         self._start(None, needed=False)
         addresses = (address_of(function, "function"), None if jacobian is None else address_of(jacobian, "jacobian"))
-        self._native = _motiform.Field(self.coordinates, list(self.parameters.values()), *addresses, self._functions)
+        own["_native"] = _motiform.Field(self.coordinates, list(self.parameters.values()), *addresses, self._functions)
+
+    @property
+    def coordinates(self) -> list[str]:
+        """Names of the coordinates."""
+        return list(self._coordinates)
+
+    @property
+    def parameters(self) -> Mapping[str, float]:
+        """Names and values of the parameters; read-only."""
+        return self._parameters
+
+    @property
+    def initial(self) -> Mapping[str, float]:
+        """The given initial values; read-only."""
+        return self._initial
 
     def replace(self, *, initial: Mapping[str, float] | None = None, **parameters: float) -> Field:
         """A copy with other values of parameters, or other initial values."""
@@ -140,6 +163,8 @@ class Field:
         orbit that does not reach its end is a value with its outcome: see :meth:`Model.simulate`.
         """
         known_end(on_end)
+        known_apart(dt_out)
+        known_whole(max_steps=max_steps)
         run = _given(
             t_end=t_end, transient=transient, dt_out=dt_out, stepper=stepper, rtol=rtol, atol=atol, step=step, max_steps=max_steps,
             escape_norm=escape_norm,
@@ -264,7 +289,7 @@ class Field:
         return f"Field({', '.join(parts)})"
 
     def _start(self, initial: Mapping[str, float] | None, *, needed: bool = True) -> list[float]:
-        values = self.initial if initial is None else initial
+        values = self.initial if initial is None else start_of(initial, self.coordinates)
         for name in values:
             if name not in self.coordinates:
                 raise ValueError(f"no coordinate {name!r}: the initial values are those of {', '.join(self.coordinates)}")

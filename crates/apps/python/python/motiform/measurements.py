@@ -7,13 +7,16 @@ import io
 import json
 import math
 import os
+import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from . import _motiform, plotting
+from .calls import left_out
+from .equality import equal, hashed
 from .units import Asked, Units, chosen, converted, dimensions, factor
 
 if TYPE_CHECKING:
@@ -27,6 +30,8 @@ Threshold = str | tuple[str, float] | None
 @dataclass(frozen=True)
 class Measured:
     """A number with its 95 % interval, or the reason why there is none."""
+
+    __eq__, __hash__ = equal, hashed
 
     value: float
     """The number; NaN if it is not known."""
@@ -53,10 +58,12 @@ class Measured:
 class Statistics:
     """Statistics of many bodies. Definitions and formulas: docs/statistics.md."""
 
+    __eq__, __hash__ = equal, hashed
+
     bodies: int
     """Bodies that were measured."""
     complete: bool
-    """Whether none was left out because of an interruption."""
+    """Whether none was left out because of an interruption; ``summary["notes"]`` says which were left out because they ended early."""
     mean_speed: Measured
     """Mean speed."""
     persistence: Measured
@@ -100,7 +107,8 @@ class Statistics:
 
     def in_units(self, units: Asked = True) -> Statistics:
         """A copy with numbers and tables in the units of the study, or in others (``"20um,1min"``). `summary` and the powers of spectra,
-        which are of several quantities, stay in model units."""
+        which are of several quantities, stay in model units, and so do the numbers in `doubt` and in the reasons why a number is not known,
+        which then say so."""
         if not self.in_model_units:
             raise ValueError(f"the statistics are in {self.units} already")
         shown = chosen(units, self.units)
@@ -110,6 +118,9 @@ class Statistics:
         by_speed = factor(shown, dimensions("state")["speed"])
         tables["distributions"].loc[rows, ["from", "to"]] *= by_speed
         tables["distributions"].loc[rows, ["density", "lower", "upper"]] /= by_speed
+        if shown is not None:
+            said = {part.name: _in_model_units(getattr(made, part.name)) for part in fields(made) if part.name not in _AS_IT_IS}
+            made = replace(made, **said)
         return replace(made, **tables, units=shown, in_model_units=shown is None)
 
     def plot(self, what: str = "msd", ax: Axes | None = None, *, units: Asked = None) -> Axes:
@@ -122,6 +133,20 @@ class Statistics:
 
     def __repr__(self) -> str:
         return f"<statistics of {self.bodies} bodies: persistence time {self.persistence}, diffusion {self.diffusion}>"
+
+
+_AS_IT_IS = ("summary", "bodies", "complete", "units", "in_model_units")
+
+
+def _in_model_units(value: Any) -> Any:
+    """A reason, also that of a number, which says that its numbers are in model units."""
+    if isinstance(value, str):
+        return f"{value} (numbers in model units)" if re.search(r"\d", value) else value
+    if isinstance(value, Measured):
+        return replace(value, reason=_in_model_units(value.reason))
+    if isinstance(value, Mapping):
+        return {name: _in_model_units(entry) for name, entry in value.items()}
+    return value
 
 
 _TABLES = ("msd", "autocorrelations", "distributions", "spectra", "first_passage")
@@ -144,11 +169,16 @@ def statistics(
     radii: Sequence[float] = (),
     threshold: Threshold = None,
 ) -> Statistics:
-    """Statistics of the bodies in folders written by ``motiform simulate``, one each; rows before `transient` are left out."""
+    """Statistics of the bodies in folders written by ``motiform simulate``, one each; rows before `transient` are left out.
+
+    A run that did not reach its end counts as far as it goes, with the warning :class:`EndedEarly`.
+    """
     several = [folders] if isinstance(folders, (str, os.PathLike)) else list(folders)
     paths = [os.fspath(folder) for folder in several]
     text, tables, _ = _motiform.statistics_of(paths, float(transient), asked(radii, threshold))
-    return statistics_from(text, tables)
+    result = statistics_from(text, tables)
+    left_out(result.summary["notes"])
+    return result
 
 
 def asked(radii: Sequence[float], threshold: Threshold) -> tuple[list[float], tuple[str, float | None] | None]:

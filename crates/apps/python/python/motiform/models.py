@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import reprlib
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
@@ -14,7 +15,7 @@ from ._registry import PRESETS
 from .analysed import Analysed
 from .atlases import Atlas, atlas_of, axis_text
 from .branches import Branches, branches_of
-from .calls import OnEnd, Random, ended_early, known_end, raised_with, range_of, real, remark, span, with_given
+from .calls import OnEnd, Random, ended_early, known_end, known_whole, left_out, raised_with, range_of, real, remark, span, with_given
 from .curves import Curves, curves_of
 from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
@@ -177,12 +178,14 @@ class Model(Analysed):
         >>> found.plot("autocorrelations")
 
         Body k is :meth:`simulate` with the seed ``seed + k``: another random start, and other noise. Those that do not complete are
-        left out. `radii` are those of discs that bodies leave; `threshold` is that of the residence times: a quantity (``"speed"``, a mode), or
+        left out, with the warning :class:`EndedEarly` that says how many, and how the first one ended. `radii` are those of discs that bodies leave; `threshold` is that of the residence times: a quantity (``"speed"``, a mode), or
         one with a value. Without `dt_out` samples are as far apart as in the model's own run, and further where all bodies would have more than
-        two million. An interruption raises :class:`Interrupted` with the statistics of the bodies that are finished.
+        two million. Ctrl-C raises :class:`Interrupted` with the statistics of the bodies that are finished, and
+        ``KeyboardInterrupt`` if there is none.
 
         More: docs/statistics.md.
         """
+        known_whole(bodies=bodies, threads=threads)
         if t_end is not None and dt_out is None:
             dt_out = _motiform.samples_apart(self._study, t_end, bodies)
         given = {
@@ -197,6 +200,7 @@ class Model(Analysed):
         result = statistics_from(text, tables, self.units)
         if raised is not None:
             raise raised_with(raised, result)
+        left_out(result.summary["notes"])
         return result
 
     def curves(
@@ -273,6 +277,7 @@ class Model(Analysed):
 
         More: docs/atlas.md.
         """
+        known_whole(samples=samples, threads=threads)
         names = None if axes is None else [axis_text(name, values) for name, values in axes.items()]
         study = with_given(self._study, None, {"random": random, "seed": seed})
         remark(study, () if axes is None else tuple(axes))
@@ -307,6 +312,8 @@ class Model(Analysed):
 
 def preset(name: str) -> Model:
     """A parameter set of the paper: ``fig1`` .. ``fig5b`` (tensor), ``fig6a`` .. ``fig6d`` (cell)."""
+    if not isinstance(name, str):
+        raise TypeError(f"name = {reprlib.repr(name)}: give the name of a parameter set of the paper: {', '.join(PRESETS)}")
     return of_study(_motiform.Study.preset(name))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
+from .equality import equal, hashed
 from .units import Asked, Units, chosen, converted, dimensions
 
 R = TypeVar("R")
@@ -57,6 +58,8 @@ def outcome_of(raw: dict[str, Any], complete: bool, text: str) -> Outcome:
 class Estimate:
     """A number with the half width of its 95 % confidence interval; ``None`` where the data say nothing about it."""
 
+    __eq__, __hash__ = equal, hashed
+
     value: float
     error: float | None = None
 
@@ -64,6 +67,8 @@ class Estimate:
 @dataclass(frozen=True)
 class Spread:
     """Mean and extremes over the motion."""
+
+    __eq__, __hash__ = equal, hashed
 
     mean: float
     min: float
@@ -91,6 +96,8 @@ class Accuracy:
 class Saddle:
     """The rates of the saddles of a heteroclinic cycle (inverse model time)."""
 
+    __eq__, __hash__ = equal, hashed
+
     out: float
     inward: float
     error: float = 0.0
@@ -100,6 +107,8 @@ class Saddle:
 @dataclass(frozen=True)
 class Verdict:
     """The regime of a motion, with the evidence. Numbers that are not defined for the motion are ``None``, or empty."""
+
+    __eq__, __hash__ = equal, hashed
 
     regime: str
     """motionless, straight, pulsating-straight, circular, spinning, rectangular, quasi-periodic, zigzag, chaotic, blow-up or
@@ -152,12 +161,15 @@ class Verdict:
     """Whether the numbers are in model units: false of what :meth:`in_units` returns."""
 
     def in_units(self, units: Asked = True) -> Verdict:
-        """A copy with speeds, rates, times and lengths in the units of the study, or in others (``"20um,1min"``); all else stays as it is."""
+        """A copy with speeds, rates, times and lengths in the units of the study, or in others (``"20um,1min"``); all else stays as it is.
+
+        The sentence `why` has its numbers in model units; as text the copy says so.
+        """
         return in_units(self, units)
 
     def __str__(self) -> str:
         course = f", {self.course.replace('-', ' ')}" if self.course else ""
-        return f"{self.regime}{course}: {self.why}"
+        return f"{self.regime}{course}: {self.why}{'' if self.in_model_units else ' (numbers in model units)'}"
 
 
 def verdict_of(raw: dict[str, Any]) -> Verdict:
@@ -177,6 +189,8 @@ def verdict_of(raw: dict[str, Any]) -> Verdict:
 class Share:
     """The share of one motion among random starts, with Wilson's 95 % interval."""
 
+    __eq__, __hash__ = equal, hashed
+
     regime: str
     count: int
     of: int
@@ -190,6 +204,8 @@ class Share:
 @dataclass(frozen=True)
 class Motions:
     """The motions of many initial states."""
+
+    __eq__, __hash__ = equal, hashed
 
     verdicts: tuple[Verdict, ...]
     """The verdict on each initial state, in order."""
@@ -216,6 +232,8 @@ def motions_of(raw: dict[str, Any]) -> Motions:
 @dataclass(frozen=True)
 class Exponents:
     """Lyapunov exponents of one orbit (inverse model time), largest first."""
+
+    __eq__, __hash__ = equal, hashed
 
     values: npt.NDArray[np.float64]
     """(count,)"""
@@ -268,6 +286,8 @@ def exponents_of(raw: dict[str, Any]) -> Exponents:
 class Equilibrium:
     """A steady motion: a shape that is constant up to a steady rotation."""
 
+    __eq__, __hash__ = equal, hashed
+
     kind: str
     """motionless, straight, circular or spinning."""
     shape: dict[str, float]
@@ -316,6 +336,8 @@ def equilibrium_of(raw: dict[str, Any]) -> Equilibrium:
 @dataclass(frozen=True)
 class Crossings:
     """The crossings of an orbit with a section."""
+
+    __eq__, __hash__ = equal, hashed
 
     table: pd.DataFrame
     """One row per crossing: ``t``, ``x``, ``y``, the coordinates of the shape (of a field: its coordinates), ``rising``."""

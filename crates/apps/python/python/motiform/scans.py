@@ -7,6 +7,7 @@ import os
 import warnings
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
+from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ import xarray as xr
 
 from . import _motiform
 from ._registry import ATTRACTORS, COURSES, NUMBERS, REGIMES, VERSION, info_of
-from .calls import Random, remark
+from .calls import Random, known_whole, remark
 from .errors import Incomplete, Interrupted
 from .executors import gather
 from .models import Model
@@ -85,38 +86,62 @@ def scan(
 
     More: docs/python.md, docs/clusters.md.
     """
+    known_whole(samples=samples, seed=seed)
     made = None if axes is None else [(name, _axis(name, values)) for name, values in axes.items()]
     study = model._study if random is None else model._study.with_(None, None, {"random": random})
     plan = _motiform.ScanPlan(study, made, samples, seed, budget)
     remark(study, (name for name, _ in plan.axes()))
-    xr.Dataset({"first": ("x", [0])})  # xarray imports much at its first dataset: not when Ctrl-C waits for one
+    stopped = _first_dataset()
     with Bar(progress, plan.cells, "cells") as bar:
+        show = bar.callable() if stopped is None else _stop
         if out is not None:
             opening = "resume" if resume else "replace" if overwrite else "new"
             files = _motiform.ScanFiles(os.fspath(out), plan, shard, opening)
             try:
                 _warn_of(files.damaged())
                 if executor is None:
-                    raised = files.run(_threads(threads), bar.callable())
+                    raised = files.run(_threads(threads), show)
                 else:
-                    raised = gather(plan, executor, None, files, bar.callable())
+                    raised = gather(plan, executor, None, files, show)
             finally:
                 del files  # gives the folder free; a traceback would keep it
+            raised = raised or stopped
             result = read_scan(out, why, quiet=shard is not None or raised is not None)
         elif shard is not None:
             raise ValueError(f"shard = {shard!r}: a share of a scan needs a folder, give out=...")
         elif executor is None:
-            arrays, raised = plan.compute(_threads(threads), why, bar.callable())
+            arrays, raised = plan.compute(_threads(threads), why, show)
             result = dataset(plan, arrays)
         else:
             table = Table(plan, why)
-            raised = gather(plan, executor, table, None, bar.callable())
+            raised = gather(plan, executor, table, None, show)
             result = dataset(plan, table.arrays())
     if model.units is not None:
         result.attrs["units"] = str(model.units)
+    raised = raised or stopped  # a scan may be over before it reports its progress
     if raised is not None:
         raise Interrupted(result) if isinstance(raised, KeyboardInterrupt) else raised
     return result
+
+
+def _first_dataset() -> KeyboardInterrupt | None:
+    """Makes a first dataset, for which xarray imports much for seconds: in a thread of its own, where Ctrl-C does not end an import halfway.
+
+    Ctrl-C is kept: the scan then ends with the rows that it has.
+    """
+    thread = Thread(target=lambda: xr.Dataset({"first": ("x", [0])}))
+    thread.start()
+    try:
+        thread.join()
+    except KeyboardInterrupt as stop:
+        thread.join()
+        return stop
+    return None
+
+
+def _stop(_: float) -> None:
+    """Progress of a scan that was interrupted before it began."""
+    raise KeyboardInterrupt
 
 
 def merge(folders: Sequence[Path], out: Path, *, overwrite: bool = False) -> xr.Dataset:

@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _motiform
+from .equality import same
 from .results import Outcome, outcome_of
 from .units import Asked, Dimension, Units, chosen, factor, units_of
 from .units import name as unit_name
@@ -235,11 +236,13 @@ class Trajectory:
     def outline(self, t: float, *, radius: float | None = None, scale: float = 1.0, points: int = 200) -> Floats | None:
         """The boundary in the plane at the recorded time nearest to `t`, (points, 2) in model lengths.
 
-        `radius` is that of the undeformed body (:attr:`radius`); `scale` enlarges the body about its centre. ``None``
+        `radius`, above 0, is that of the undeformed body (:attr:`radius`); `scale` enlarges the body about its centre. ``None``
         if the shape is not a closed curve.
         """
         if points < 3:
             raise ValueError(f"points = {points}: give at least 3")
+        if radius is not None and not 0.0 < radius < np.inf:
+            raise ValueError(f"radius = {radius}: give a length above 0; by default it is {self.radius:g}")
         row = self.row(t)
         curve = self._run.outline(row, self.radius if radius is None else radius, points)
         return None if curve is None else scale * curve + self.position[row]
@@ -264,6 +267,17 @@ class Trajectory:
         computation = self.manifest["plan"]["computation"]
         study = _motiform.Study.of_model(computation["model"])
         return _motiform.Flow(study.with_(parameters=computation["parameters"]))
+
+    def __eq__(self, other: object) -> bool:
+        """The same plan, the same end, and the same numbers, NaN equal to NaN."""
+        if not isinstance(other, Trajectory):
+            return NotImplemented
+        if (self.manifest["plan_hash"], self.names, self.outcome) != (other.manifest["plan_hash"], other.names, other.outcome):
+            return False
+        return same(self._block, other._block) and same(self.crossings, other.crossings)
+
+    def __hash__(self) -> int:
+        return hash(self.manifest["plan_hash"])
 
     def __repr__(self) -> str:
         return f"<Trajectory: {len(self)} rows of {', '.join(self._place)}; {self._run.ended}>"

@@ -108,20 +108,20 @@ D = TypeVar("D")
 def converted(result: D, units: Units | None, dimensions: Mapping[str, Dimension]) -> D:
     """A copy of a result with the named fields in other units than those of the model. Nothing else is changed."""
     named = {part.name: dimensions[part.name] for part in fields(result) if part.name in dimensions}  # type: ignore[arg-type]
-    made = {key: _scaled(getattr(result, key), factor(units, dimension)) for key, dimension in named.items()}
+    made = {key: scaled(getattr(result, key), factor(units, dimension)) for key, dimension in named.items()}
     return replace(result, **made)  # type: ignore[type-var]
 
 
-def _scaled(value: Any, by: float) -> Any:
-    """Numbers, and all numbers in results, arrays, tuples and mappings."""
+def scaled(value: Any, by: float) -> Any:
+    """Numbers, and all numbers in results, arrays, tuples, lists and mappings."""
     if isinstance(value, (bool, str)) or value is None:
         return value
     if isinstance(value, (int, float, np.ndarray)):
         return value * by
-    if isinstance(value, tuple):
-        return tuple(_scaled(entry, by) for entry in value)
+    if isinstance(value, (tuple, list)):
+        return type(value)(scaled(entry, by) for entry in value)
     if isinstance(value, dict):
-        return {key: _scaled(entry, by) for key, entry in value.items()}
+        return {key: scaled(entry, by) for key, entry in value.items()}
     if is_dataclass(value) and not isinstance(value, type):
-        return replace(value, **{part.name: _scaled(getattr(value, part.name), by) for part in fields(value)})
+        return replace(value, **{part.name: scaled(getattr(value, part.name), by) for part in fields(value)})
     raise TypeError(f"{type(value).__name__} has no unit")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import pandas as pd
 
+from ..equality import equal, hashed
 from ..equations import Amplitudes
 
 if TYPE_CHECKING:
@@ -20,6 +21,8 @@ _Result = TypeVar("_Result")
 @dataclass(frozen=True)
 class Value:
     """A number with its standard errors; NaN where there is none."""
+
+    __eq__, __hash__ = equal, hashed
 
     value: float
     """The number."""
@@ -44,6 +47,8 @@ class Value:
 @dataclass(frozen=True)
 class Observation:
     """How a cell moves, from its samples alone."""
+
+    __eq__, __hash__ = equal, hashed
 
     cell: str
     """Name of the cell."""
@@ -105,6 +110,8 @@ class Found(dict[str, _Result]):
 class Place:
     """Where a fitted cell lies on a diagram of the paper, or why it has no place there."""
 
+    __eq__, __hash__ = equal, hashed
+
     coordinates: Mapping[str, Value]
     """The parameters that span the diagram; empty without a place."""
     others: Mapping[str, Value]
@@ -132,6 +139,8 @@ class Place:
 class Noise:
     """The noise of a fit, in the units of the data."""
 
+    __eq__, __hash__ = equal, hashed
+
     measurement_factor: Value
     """Factor of the errors of the modes that the vertices give."""
     eta_v: Value
@@ -145,6 +154,8 @@ class Noise:
 @dataclass(frozen=True)
 class CellFit:
     """The equations of a cell, and what follows from them. Definitions: docs/inference.md."""
+
+    __eq__, __hash__ = equal, hashed
 
     cell: str
     """Name of the cell."""

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from .. import _motiform
-from ..calls import raised_with
+from ..calls import known_whole, raised_with
 from ..equations import Amplitudes
 from ..progress import Bar, Progress
 from ..trajectory import Floats
@@ -101,6 +101,7 @@ class Cells(Sequence["Cell"]):
 
         Ctrl-C raises :class:`motiform.Interrupted` with the fits that are done.
         """
+        known_whole(seed=seed, threads=threads)
         settings = (order, modes, draws, seed, simulations, ladder, threads or os.cpu_count() or 1)
         return self._fit(self.names, settings, progress)
 
@@ -223,6 +224,7 @@ class Cell:
         progress: Progress = None,
     ) -> CellFit:
         """The equations that describe it; :meth:`Cells.fit` explains the settings."""
+        known_whole(seed=seed)
         settings = (order, modes, draws, seed, simulations, ladder, 1)
         found = self._cells._fit([self.name], settings, progress)[self.name]
         self._last = found
