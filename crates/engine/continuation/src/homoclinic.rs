@@ -288,17 +288,17 @@ impl std::fmt::Display for Connection {
         }?;
         match self.law {
             PeriodLaw::Logarithmic { rate } => {
-                write!(f, ": its time grows as -ln|p - p0| / {}", places::<6>(rate))
+                write!(f, ": its time grows as -ln|p - p0| / {} in model time", places::<6>(rate))
             }
             PeriodLaw::Oscillating { rate, frequency } => {
                 let [rate, frequency] = [rate, frequency].map(places::<6>);
                 write!(f, ": the parameter oscillates as exp(-{rate} T) cos({frequency} T) with its time T")
             }
             PeriodLaw::Resonant { amplitude } => {
-                write!(f, ": its time grows as {} / |p - p0|", places::<6>(amplitude))
+                write!(f, ": its time grows as {} / |p - p0| in model time", places::<6>(amplitude))
             }
             PeriodLaw::SquareRoot { amplitude } => {
-                write!(f, ": its time grows as {} / sqrt|p - p0|", places::<6>(amplitude))
+                write!(f, ": its time grows as {} / sqrt|p - p0| in model time", places::<6>(amplitude))
             }
         }?;
         match self.quantity() {

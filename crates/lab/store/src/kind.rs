@@ -83,7 +83,7 @@ impl Kind {
             Self::Scan => "a scan",
             Self::Branches => "branches",
             Self::Curves => "curves",
-            Self::Atlas => "atlas",
+            Self::Atlas => "an atlas",
             Self::Lifetimes => "lifetimes",
             Self::Statistics => "statistics",
             Self::Observations => "observations of cells",
