@@ -220,3 +220,22 @@ fn a_jitter_leaves_a_chaotic_cell_its_name() {
     assert!((centre.value - 0.01).abs() < 4.0 * centre.error && centre.error < 0.002, "{centre:?}");
     assert_eq!((still.motion_name(), moved.motion_name()), ("chaotic", "chaotic"));
 }
+
+/// The same cells in another order have the same jitter and the same p-value, near the level of significance and elsewhere.
+#[test]
+fn the_order_of_cells_does_not_matter() {
+    for seed in 0..6 {
+        let walker = Walker { frames: 60, ..WALK };
+        let cells: Vec<Vec<Outline>> = (0..7).map(|k| walker.outlines(3000 + 7 * seed + k)).collect();
+        let seen = |cells: Vec<Vec<Outline>>| {
+            field(tracks(cells).jittering(0.02 * seed as f64, seed)).jitter.expect("seven cells")
+        };
+        let one = seen(cells.clone());
+        let turned = cells.iter().skip(3).chain(&cells[..3]).cloned().collect();
+        for other in [turned, cells.into_iter().rev().collect()] {
+            let other = seen(other);
+            assert_eq!(one.p_value, other.p_value);
+            assert!((one.deviation - other.deviation).abs() < 1e-9, "{one:?} {other:?}");
+        }
+    }
+}
