@@ -58,7 +58,9 @@ impl FieldOfView {
 
     fn jumps_in_words(&self, units: &Units) -> String {
         let one = |jump: &super::StageJump| {
-            let [x, y] = jump.displacement.map(four_digits);
+            let error = jump.error.filter(|error| *error > 0.0);
+            let [x, y] =
+                jump.displacement.map(|x| error.map_or_else(|| four_digits(x), |error| with_error(x, error)));
             format!("({x}, {y}) {} at frame {}", units.length, jump.frame)
         };
         let mut words = self.jumps.iter().take(MOST_JUMPS).map(one).collect::<Vec<_>>().join(", ");
