@@ -46,8 +46,14 @@ impl FieldOfView {
                     "outlines of a frame move together; the correction 'jitter' subtracts it".to_owned()
                 }
             };
-            let size = four_digits(jitter.deviation);
-            rows.push(("jitter", format!("{size} {}, {}: {verdict}", units.length, PValue(jitter.p_value))));
+            // p is that of displacements in common; where their size is 0 there are none, whatever it is
+            let size = match jitter.deviation {
+                0.0 => format!("0 {}, as of cells that move independently", units.length),
+                deviation => {
+                    format!("{} {}, {}", four_digits(deviation), units.length, PValue(jitter.p_value))
+                }
+            };
+            rows.push(("jitter", format!("{size}: {verdict}")));
         }
         if let Some(pixel) = self.pixel {
             let words = format!("outlines follow pixels of {} {}", four_digits(pixel), units.length);

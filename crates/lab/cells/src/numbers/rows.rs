@@ -100,7 +100,10 @@ impl Numbers {
     }
 
     fn without_steps(&self) -> String {
-        without_steps(self.seen)
+        match &self.steps {
+            Some(steps) if steps.path == 0.0 => "every displacement is 0".to_owned(),
+            _ => without_steps(self.seen),
+        }
     }
 }
 

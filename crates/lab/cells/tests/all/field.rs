@@ -258,3 +258,22 @@ fn errors_of_jumps_hold_the_jitter() {
     // 60 numbers: 0.09
     assert!((0.72..1.28).contains(&rms), "{rms}");
 }
+
+/// A jitter of size 0 is said without a probability, which would contradict it; the error of a jump is said.
+#[test]
+fn words_about_the_field_do_not_contradict_each_other() {
+    let mut none = 0;
+    for seed in 0..8 {
+        let sample = sample(tracks((0..4).map(|k| WALK.outlines(5000 + 4 * seed + k)).collect()));
+        let jitter = sample.field.jitter.as_ref().expect("four cells");
+        let words = sample.field.in_words(&motiform_cells::Units::of(&sample));
+        let words = &words.iter().find(|row| row.0 == "jitter").expect("a row").1;
+        assert_eq!(words.contains("p = "), jitter.deviation > 0.0, "{words}");
+        none += u32::from(jitter.deviation == 0.0);
+    }
+    assert!(none > 0, "no field without");
+    let jumped = sample(walkers(12).jumping(80, [6.0, 3.0]));
+    let words = jumped.field.in_words(&motiform_cells::Units::of(&jumped));
+    let words = &words.iter().find(|row| row.0 == "stage jumps").expect("a row").1;
+    assert!(words.matches('\u{b1}').count() == 2, "{words}");
+}
