@@ -109,6 +109,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
     if let Some(found) = &fitted.regime {
         object["share"] = json!(found.share);
         let counts: Map<String, Value> =
+        object["best_model"] = found.best.name().into();
             found.counts.iter().map(|(regime, count)| (regime.name().to_owned(), json!(count))).collect();
         object["draws"] = counts.into();
         object["driven"] = json!(found.driven);
@@ -200,7 +201,12 @@ impl Fitted {
                 counts(found)
             ),
             Some(found) => {
-                format!("motions of {} models that the data allow: {}", found.draws, counts(found))
+                let motions =
+                    format!("motions of {} models that the data allow: {}", found.draws, counts(found));
+                match found.why_unnamed() {
+                    Some(why) => format!("{motions}; no name: {why}"),
+                    None => motions,
+                }
             }
         }
     }
