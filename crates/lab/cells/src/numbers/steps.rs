@@ -48,7 +48,7 @@ impl Steps {
         let squares: Vec<f64> = rates.iter().map(|rate| rate * rate).collect();
         let own = |error: f64| {
             let noise = 4.0 * error * error / (places.interval * places.interval);
-            Some(reaching_up(averaged(&squares)?, 2).map(|square| (square - noise).max(0.0).sqrt()))
+            Some(reaching_up(averaged(&squares)?).map(|square| (square - noise).max(0.0).sqrt()))
         };
         let angles = angles(places);
         let cosines: Vec<f64> = angles.iter().map(|angle| libm::cos(*angle)).collect();
@@ -60,7 +60,7 @@ impl Steps {
         }
         Some(Self {
             count: rates.len(),
-            speed: averaged(&rates).map(|mean| reaching_up(mean, 1)),
+            speed: averaged(&rates).map(reaching_up),
             rms_speed: error.and_then(own),
             path,
             net,
@@ -72,16 +72,16 @@ impl Steps {
     }
 }
 
-/// The mean of a power of the speed with an upper end for an error that grows with the speed, as that of a speed does: where the true speed
-/// is v (1 + r), the error of the estimate v is as much larger. On the speed the end is `v/(1 - r)`, r the relative error; no interval
+/// The mean of speeds, or of their squares, with an upper end for an error that grows with the speed, as that of a speed does: where the
+/// true mean is m (1 + r), the error of the estimate m is as much larger. The upper end is `m/(1 - r)`, r the relative error; no interval
 /// where that has no end. With the same error to both sides means of few independent samples are too low more often than they should.
-fn reaching_up(mean: Measured, power: i32) -> Measured {
+fn reaching_up(mean: Measured) -> Measured {
     let upper = |[low, high]: [f64; 2]| {
         if high <= mean.value {
             return Some([low, high]);
         }
-        let left = 1.0 - (high - mean.value) / (mean.value * f64::from(power));
-        (left > 0.0).then(|| [low, mean.value / left.powi(power)])
+        let left = 1.0 - (high - mean.value) / mean.value;
+        (left > 0.0).then(|| [low, mean.value / left])
     };
     Measured { interval: mean.interval.and_then(upper), ..mean }
 }
