@@ -98,7 +98,8 @@ pub fn observe(cell: &CellTrack) -> Observation {
         return bare(reason);
     }
     if frames < LEAST_FRAMES {
-        return bare(format!("{frames} frames count; at least {LEAST_FRAMES} are needed to name a motion"));
+        let count = if frames == 1 { "1 frame counts".to_owned() } else { format!("{frames} frames count") };
+        return bare(format!("{count}; at least {LEAST_FRAMES} are needed to name a motion"));
     }
     let Some(measures) = Measures::of(&cell.path()) else {
         let all = cell.modes.frames.len();
