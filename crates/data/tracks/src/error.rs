@@ -133,6 +133,16 @@ pub enum Error {
         /// The statement of the option.
         option_says: String,
     },
+    /// Units in the header of a table that are not known, or contradict each other.
+    #[error("{}: {found}; {remedy}", .file.display())]
+    HeaderUnit {
+        /// The file.
+        file: PathBuf,
+        /// The units and their columns.
+        found: String,
+        /// The remedy.
+        remedy: &'static str,
+    },
     /// Files in different units cannot be read together.
     #[error("{}: its {what} is {found}, that of the files before it {before}; read them separately", .file.display())]
     Units {

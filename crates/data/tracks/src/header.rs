@@ -1,16 +1,19 @@
 //! The header of a table: which column is which.
 
 use crate::split::split;
+use crate::units::divided;
 use crate::{Columns, Error, Result};
 use std::path::Path;
 
 /// The usual names, compared without case and punctuation.
 const CELL: &[&str] = &["cell", "cellid", "celllabel", "track", "trackid", "particle", "label", "id"];
 const FRAME: &[&str] = &["frame", "frameid", "framenumber", "timepoint", "slice"];
-const TIME: &[&str] = &["time", "t", "positiont", "post", "timestamp", "elapsed"];
+pub(crate) const TIME: &[&str] = &["time", "t", "positiont", "post", "timestamp", "elapsed"];
 const ORDER: &[&str] = &["i", "vertex", "vertexid", "node", "nodeid", "point", "pointid", "index"];
-const X: &[&str] = &["x", "nodex", "xcoord", "xpx", "coordx", "posx", "positionx", "vertx", "vertexx"];
-const Y: &[&str] = &["y", "nodey", "ycoord", "ypx", "coordy", "posy", "positiony", "verty", "vertexy"];
+pub(crate) const X: &[&str] =
+    &["x", "nodex", "xcoord", "xpx", "coordx", "posx", "positionx", "vertx", "vertexx"];
+pub(crate) const Y: &[&str] =
+    &["y", "nodey", "ycoord", "ypx", "coordy", "posy", "positiony", "verty", "vertexy"];
 const TEXT: &[&str] = &["wkt", "geometry", "polygon", "geom"];
 
 /// The places of the columns.
@@ -90,37 +93,11 @@ pub(crate) fn needed(
 
 /// Letters and digits in lower case, without a unit: `Node X (px)` is `nodex`, `x_um` is `x`.
 fn plain(name: &str) -> String {
-    letters(divided(name).0)
+    letters(divided(name).name)
 }
-
-/// The unit of a column that is known here: `x [um]`, `t (min)`, `x_um`, `time s`.
-pub(crate) fn unit_of(name: &str) -> Option<String> {
-    divided(name).1
-}
-
-/// A name and the unit behind it, in brackets, or as the last word of a place or a time: `x_um`, but not `x_min`, which is a smallest x.
-/// Other words in brackets belong to neither.
-fn divided(name: &str) -> (&str, Option<String>) {
-    let named = |&(before, _): &(&str, &str)| before.contains(char::is_alphanumeric);
-    if let Some((before, rest)) = name.split_once(['[', '(']).filter(named) {
-        let unit = crate::scale::unit(rest.trim_end().trim_end_matches([']', ')']));
-        return (before, Some(unit).filter(|unit| LENGTHS.contains(&&**unit) || TIMES.contains(&&**unit)));
-    }
-    let Some((before, word)) = name.trim_end().rsplit_once(['_', ' ', '.', '/', '-']).filter(named) else {
-        return (name, None);
-    };
-    let (bare, unit) = (letters(before), crate::scale::unit(word));
-    let is_of = |usual: &[&str], units: &[&str]| usual.contains(&&*bare) && units.contains(&&*unit);
-    let fits = is_of(X, LENGTHS) || is_of(Y, LENGTHS) || is_of(TIME, TIMES);
-    if fits && !word.is_empty() { (before, Some(unit)) } else { (name, None) }
-}
-
-/// Units of columns that are known here.
-const LENGTHS: &[&str] = &["um", "nm", "mm", crate::PIXEL];
-const TIMES: &[&str] = &["s", "ms", "min", "h", crate::FRAME];
 
 /// Letters and digits in lower case.
-fn letters(name: &str) -> String {
+pub(crate) fn letters(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 

@@ -50,6 +50,7 @@ mod scale;
 mod split;
 pub mod synthetic;
 mod tracks;
+mod units;
 mod write;
 
 pub use detect::detect;

@@ -119,18 +119,20 @@ impl fmt::Display for Note {
             }
             Self::Becomes { cell, into } => write!(f, "cell {cell} becomes {}", into.join(", ")),
             Self::SeveralParts { cell, frames } => {
-                write!(f, "cell {cell}: several parts in {frames} frames; the largest is kept")
+                write!(f, "cell {cell}: several parts in {}; the largest is kept", counted(*frames, "frame"))
             }
             Self::WithoutOutline { file, count } => {
-                write!(f, "{file}: {count} detections without an outline, left out")
+                write!(f, "{file}: {} without an outline, left out", counted(*count, "detection"))
             }
             Self::WithoutTrack { file, count } => {
-                write!(f, "{file}: {count} outlines in no track, left out")
+                write!(f, "{file}: {} in no track, left out", counted(*count, "outline"))
             }
             Self::FilteredTracks { file, count } => {
-                write!(f, "{file}: {count} tracks that the file has filtered out, left out")
+                write!(f, "{file}: {} that the file has filtered out, left out", counted(*count, "track"))
             }
-            Self::BadLinks { file, count } => write!(f, "{file}: {count} links to nothing, left out"),
+            Self::BadLinks { file, count } => {
+                write!(f, "{file}: {} to nothing, left out", counted(*count, "link"))
+            }
             Self::SameFrameTwice { cell, frames } => {
                 write!(f, "cell {cell}: the same outline several times in {}; one kept", list(frames))
             }
@@ -146,11 +148,17 @@ impl fmt::Display for Note {
             Self::SameCell { first, second, frames } => {
                 write!(
                     f,
-                    "cells {first} and {second} have the same outlines in {frames} frames: leave one out"
+                    "cells {first} and {second} have the same outlines in {}: leave one out",
+                    counted(*frames, "frame")
                 )
             }
         }
     }
+}
+
+/// `1 frame`, `2 frames`.
+fn counted(count: usize, one: &str) -> String {
+    if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
 }
 
 /// `frame 3`, `frames 3, 4, 5 and 20 more`.

@@ -1,6 +1,6 @@
 //! Cells as further steps use them: the frames that count, with their errors, and what was left out.
 
-use crate::{Correction, FieldOfView, Result};
+use crate::{Correction, FieldOfView, Result, Units};
 use motiform_inference::{LEAST_FRAMES, MOST_MODES, Observation, Track};
 use motiform_tracks::modes::{CellModes, Flag, FrameModes, ModeOptions, modes};
 use motiform_tracks::{Options, Tracks, read};
@@ -35,6 +35,8 @@ pub struct CellTrack {
     pub drift: Option<[f64; 2]>,
     /// Mean radius R0 over these frames; 0 without any.
     pub radius: f64,
+    /// Units of its lengths and times.
+    pub units: Units,
 }
 
 impl Sample {
@@ -51,7 +53,7 @@ impl Sample {
     pub fn of_tracks(tracks: Tracks, modes_options: &ModeOptions) -> Self {
         let modes = modes(&tracks, modes_options);
         let field = FieldOfView::of(&tracks, &modes);
-        Self { cells: with_field(modes, &field), tracks, field }
+        Self { cells: with_field(modes, &field, &Units::of_tracks(&tracks)), tracks, field }
     }
 
     /// The same cells without these motions of the stage, as they were found in all cells together.
@@ -59,7 +61,8 @@ impl Sample {
     pub fn corrected(mut self, wanted: &[Correction], modes_options: &ModeOptions) -> Self {
         if !wanted.is_empty() {
             self.field.correct(&mut self.tracks, wanted);
-            self.cells = with_field(modes(&self.tracks, modes_options), &self.field);
+            let units = Units::of_tracks(&self.tracks);
+            self.cells = with_field(modes(&self.tracks, modes_options), &self.field, &units);
         }
         self
     }
@@ -97,7 +100,7 @@ impl Sample {
 impl CellTrack {
     /// The frames of a cell that count. The noise of a vertex is pooled over the cell: that of a frame is uncertain by itself.
     #[must_use]
-    fn new(modes: CellModes, field: &FieldOfView) -> Self {
+    fn new(modes: CellModes, field: &FieldOfView, units: &Units) -> Self {
         let (mut frames, mut breaks, mut parted) = (Vec::new(), Vec::new(), false);
         let mut sum = 0.0;
         let jumps = |frame: &FrameModes| field.jumps.iter().any(|jump| jump.frame == frame.frame);
@@ -127,6 +130,7 @@ impl CellTrack {
             bridged,
             drift: field.uncorrected_drift(),
             radius,
+            units: units.clone(),
         }
     }
 
@@ -183,7 +187,7 @@ impl CellTrack {
 }
 
 /// Cells with what their field of view says: frames at which the stage jumps have its flag, whatever the cell shows by itself.
-fn with_field(mut all: Vec<CellModes>, field: &FieldOfView) -> Vec<CellTrack> {
+fn with_field(mut all: Vec<CellModes>, field: &FieldOfView, units: &Units) -> Vec<CellTrack> {
     if !field.is_corrected(Correction::Jumps) {
         for jump in &field.jumps {
             let frames = all.iter_mut().flat_map(|cell| &mut cell.frames);
@@ -196,5 +200,5 @@ fn with_field(mut all: Vec<CellModes>, field: &FieldOfView) -> Vec<CellTrack> {
             }
         }
     }
-    all.into_iter().map(|modes| CellTrack::new(modes, field)).collect()
+    all.into_iter().map(|modes| CellTrack::new(modes, field, units)).collect()
 }

@@ -47,8 +47,8 @@ pub use fitted::{Fitted, PERSISTENT_WALK};
 pub use folder::write_observations;
 pub use names::file_names;
 pub use numbers::{
-    FormNumber, Forms, Numbers, PopulationNumber, PopulationNumbers, Row, Steps, Withheld, number_columns,
-    numbers, population_numbers,
+    FormNumber, Forms, Numbers, OfWalk, PopulationNumber, PopulationNumbers, Row, StatedWalk, Steps,
+    WalkTests, Withheld, number_columns, numbers, population_numbers,
 };
 pub use observe::{
     AtLag, Finding, Memory, Motion, MotionStatistics, Observation, ObservedChaos, ObservedLegs,

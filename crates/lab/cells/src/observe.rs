@@ -14,7 +14,7 @@ pub use relatives::{
 };
 pub use statistics::{AtLag, Memory, MotionStatistics};
 
-use crate::{CellTrack, Numbers, numbers};
+use crate::{CellTrack, Numbers, Units, numbers};
 use measures::Measures;
 use motiform_analysis::regime::Regime;
 use motiform_analysis::symmetry::wrap;
@@ -98,7 +98,8 @@ pub fn observe(cell: &CellTrack) -> Observation {
         return bare(reason);
     }
     if frames < LEAST_FRAMES {
-        return bare(format!("{frames} frames count; at least {LEAST_FRAMES} are needed to name a motion"));
+        let count = if frames == 1 { "1 frame counts".to_owned() } else { format!("{frames} frames count") };
+        return bare(format!("{count}; at least {LEAST_FRAMES} are needed to name a motion"));
     }
     let Some(measures) = Measures::of(&cell.path()) else {
         let all = cell.modes.frames.len();
@@ -108,10 +109,10 @@ pub fn observe(cell: &CellTrack) -> Observation {
         ));
     };
     let repeats = Repeats::of(&measures);
-    let (regime, why) = decide(&measures, cell.radius, repeats.as_ref());
+    let (regime, why) = decide(&measures, cell, repeats.as_ref());
     let motion = match regime {
         None => Motion { regime, why, confidence: None },
-        Some(_) => resampled(&measures, (regime, why), cell.radius, repeats.as_ref()),
+        Some(_) => resampled(&measures, (regime, why), cell, repeats.as_ref()),
     };
     let motion = beside_drift(cell, motion);
     let mut statistics = statistics::of_records(std::iter::once(&measures.series));
@@ -128,10 +129,10 @@ pub fn observe(cell: &CellTrack) -> Observation {
 fn resampled(
     measures: &Measures,
     (regime, why): (Option<Regime>, String),
-    radius: f64,
+    cell: &CellTrack,
     repeats: Option<&Repeats>,
 ) -> Motion {
-    let same = measures.resampled().filter(|other| decide(other, radius, repeats).0 == regime).count();
+    let same = measures.resampled().filter(|other| decide(other, cell, repeats).0 == regime).count();
     let confidence = same as f64 / measures::RESAMPLES as f64;
     if confidence >= LEAST_CONFIDENCE {
         return Motion { regime, why, confidence: Some(confidence) };
@@ -144,7 +145,7 @@ fn resampled(
 fn beside_drift(cell: &CellTrack, motion: Motion) -> Motion {
     let Some(velocity) = cell.drift.filter(|_| motion.regime.is_some()) else { return motion };
     let still = Measures::of(&cell.path_without(velocity));
-    let other = still.and_then(|m| decide(&m, cell.radius, Repeats::of(&m).as_ref()).0);
+    let other = still.and_then(|m| decide(&m, cell, Repeats::of(&m).as_ref()).0);
     if other == motion.regime {
         return motion;
     }
@@ -170,9 +171,10 @@ pub fn population_statistics(found: &[Observation]) -> Option<(usize, MotionStat
 }
 
 /// The motion of these numbers, or what is missing.
-fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regime>, String) {
+fn decide(m: &Measures, cell: &CellTrack, repeats: Option<&Repeats>) -> (Option<Regime>, String) {
+    let (radius, units) = (cell.radius, &cell.units);
     if m.displacement < CLEAR * m.displacement_error {
-        return rest(m);
+        return rest(m, units);
     }
     let steady_speed = m.speed_scatter < STEADY;
     if steady_speed
@@ -189,11 +191,12 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
             return (None, why);
         }
         let why = format!(
-            "straight over a path of {}: net displacement is {:.1} % of the path, and the turning rate, {} rad per unit of time, is within \
-             {CLEAR} of its errors of 0",
+            "straight over a path of {} {}: net displacement is {:.1} % of the path, and the turning rate, {}, is within {CLEAR} of its \
+             errors of 0",
             four_digits(m.length),
+            units.length,
             100.0 * m.directness,
-            with_error(m.turning, m.turning_error)
+            rate(m, units)
         );
         return (Some(Regime::Straight), why);
     }
@@ -215,14 +218,11 @@ fn decide(m: &Measures, radius: f64, repeats: Option<&Repeats>) -> (Option<Regim
         if let Some(why) = unsteady(m) {
             return (None, format!("{turns:.1} turns at a steady rate, but {why}"));
         }
-        let why = format!(
-            "{turns:.1} turns at a steady rate, {} rad per unit of time, and a steady speed",
-            with_error(m.turning, m.turning_error)
-        );
+        let why = format!("{turns:.1} turns at a steady rate, {}, and a steady speed", rate(m, units));
         return (Some(Regime::Circular), why);
     }
     match repeats {
-        Some(repeats) => repeating(repeats, m),
+        Some(repeats) => repeating(repeats, m, units),
         None => {
             let why = "neither steady nor repeating: noise and chaos cannot be told apart by samples alone; equations \
              fitted to them can decide";
@@ -245,7 +245,12 @@ fn unsteady(m: &Measures) -> Option<String> {
     })
 }
 
-fn rest(m: &Measures) -> (Option<Regime>, String) {
+/// The turning rate with its error and unit.
+fn rate(m: &Measures, units: &Units) -> String {
+    format!("{} rad/{}", with_error(m.turning, m.turning_error), units.time)
+}
+
+fn rest(m: &Measures, units: &Units) -> (Option<Regime>, String) {
     if m.wandering >= CLEAR {
         let why = format!(
             "displacements from frame to frame are within {CLEAR} of their errors, but over the record the cell \
@@ -255,11 +260,17 @@ fn rest(m: &Measures) -> (Option<Regime>, String) {
         return (None, why);
     }
     if m.shape_change < CLEAR {
-        let why = format!(
-            "displacements of {} are within {CLEAR} of their errors, {}, and so are changes of shape",
-            four_digits(m.displacement),
-            four_digits(m.displacement_error)
-        );
+        let errors = format!("their errors, {} {}", four_digits(m.displacement_error), units.length);
+        let why = match m.displacement {
+            0.0 => format!(
+                "displacements do not exceed {errors}, and changes of shape are within {CLEAR} of theirs"
+            ),
+            size => format!(
+                "displacements of {} {} are within {CLEAR} of {errors}, and so are changes of shape",
+                four_digits(size),
+                units.length
+            ),
+        };
         return (Some(Regime::Motionless), why);
     }
     (None, "the centre rests within its errors while the shape changes".to_owned())
@@ -273,9 +284,10 @@ fn full(circles: i64) -> String {
     }
 }
 
-fn repeating(repeats: &Repeats, m: &Measures) -> (Option<Regime>, String) {
+fn repeating(repeats: &Repeats, m: &Measures, units: &Units) -> (Option<Regime>, String) {
     let Repeats { period, periods, likeness, rotation, rotation_error, .. } = repeats;
-    let (period, turn) = (four_digits(*period), with_error(*rotation, *rotation_error));
+    let (period, turn) =
+        (format!("{} {}", four_digits(*period), units.time), with_error(*rotation, *rotation_error));
     if *periods < LEAST_REPEATS {
         let why = format!(
             "it repeats with a period of {period}, but {periods:.1} periods were seen; {LEAST_REPEATS} are needed"

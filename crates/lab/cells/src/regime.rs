@@ -68,6 +68,30 @@ impl FittedRegime {
         self.best == Regime::BlowUp
     }
 
+    /// Why there is no name although models were classified; `None` where there is one, or where noise carries the cell.
+    #[must_use]
+    pub fn why_unnamed(&self) -> Option<String> {
+        if self.regime.is_some() || self.carried {
+            return None;
+        }
+        let lost = self.counts.iter().find(|one| one.0 == Regime::BlowUp).map_or(0, |one| one.1);
+        let most = self.counts.iter().filter(|one| one.0 != Regime::BlowUp).max_by_key(|one| one.1)?;
+        Some(match self.best {
+            _ if lost as f64 > MOST_LOST * self.draws as f64 => "more than a tenth of them blow up".to_owned(),
+            Regime::Undetermined => {
+                "the best model itself has no motion that the classification decides, and the name would be that of it".to_owned()
+            }
+            best if best != most.0 => {
+                format!("the best model itself is {}, and not as most of them", best.name())
+            }
+            _ => format!(
+                "{:.0} % of those that do not blow up agree with the best model, and {:.0} % are needed",
+                100.0 * self.share,
+                100.0 * LEAST_SHARE
+            ),
+        })
+    }
+
     /// `true` if the models rest without their noise, although the cell moves: then the displacement is that of the noise, and the motion
     /// is no rest.
     #[must_use]

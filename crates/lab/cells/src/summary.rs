@@ -1,5 +1,6 @@
 //! Results as JSON: the contract of `motiform fit --json` and `motiform observe --json`.
 
+use crate::fitted::noise_json;
 use crate::{
     CellFit, CellTrack, Comparison, Fitted, FittedRegime, Observation, Prediction, Sample, Statistic,
     fitted_population, observed_population, population_numbers, population_statistics,
@@ -108,6 +109,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["regime"] = fitted.motion_name().into();
     if let Some(found) = &fitted.regime {
         object["share"] = json!(found.share);
+        object["best_model"] = found.best.name().into();
         let counts: Map<String, Value> =
             found.counts.iter().map(|(regime, count)| (regime.name().to_owned(), json!(count))).collect();
         object["draws"] = counts.into();
@@ -125,13 +127,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["handed_excluded"] = json!(fitted.handedness.excluded);
     object["symmetry"] = json!(fitted.symmetry());
     object["handed_p_value"] = json!(fitted.handedness.p_value);
-    let noise = &model.noise;
-    object["noise"] = json!({
-        "measurement_factor": number(&noise.s),
-        "eta_v": number(&noise.eta_v),
-        "eta_shape": number(&noise.eta_shape),
-        "centre": number(&noise.centre),
-    });
+    object["noise"] = noise_json(&model.noise);
     object["stage"] = json!(fitted.stage);
     object["handed_beside_stage"] = json!(fitted.beside_stage);
     object["handed_beside_stretch"] = json!(fitted.beside_stretch);
@@ -200,7 +196,12 @@ impl Fitted {
                 counts(found)
             ),
             Some(found) => {
-                format!("motions of {} models that the data allow: {}", found.draws, counts(found))
+                let motions =
+                    format!("motions of {} models that the data allow: {}", found.draws, counts(found));
+                match found.why_unnamed() {
+                    Some(why) => format!("{motions}; no name: {why}"),
+                    None => motions,
+                }
             }
         }
     }

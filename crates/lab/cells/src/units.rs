@@ -3,6 +3,7 @@
 use crate::Sample;
 use motiform_study::quantity::Unit;
 use motiform_study::{Dimension, Quantity};
+use motiform_tracks::Tracks;
 
 /// Units of lengths and times.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,7 +20,12 @@ impl Units {
     /// Those of a data set.
     #[must_use]
     pub fn of(sample: &Sample) -> Self {
-        let tracks = &sample.tracks;
+        Self::of_tracks(&sample.tracks)
+    }
+
+    /// Those of outlines.
+    #[must_use]
+    pub fn of_tracks(tracks: &Tracks) -> Self {
         Self {
             length: tracks.length_unit.clone(),
             time: tracks.time_unit.clone(),

@@ -9,7 +9,8 @@ use std::path::PathBuf;
 /// Files with outlines, and their units.
 #[derive(Args)]
 pub(crate) struct CellsOptions {
-    /// Files with outlines of tracked cells: tables (CSV, Parquet), TrackMate XML, QuimP, AmoePy, ImageJ regions, WKT
+    /// Files with outlines of tracked cells: tables (CSV, Parquet), TrackMate XML, QuimP, AmoePy, ImageJ regions, WKT,
+    /// label masks (TIFF, PNG, or a folder of them)
     #[arg(value_name = "FILE", required = true)]
     pub(crate) files: Vec<PathBuf>,
     /// Time between frames, where the file does not say it; without it times are in frames
@@ -24,7 +25,8 @@ pub(crate) struct CellsOptions {
     /// Unit of --pixel-size, for the results
     #[arg(long, value_name = "UNIT", default_value = "um")]
     pub(crate) length_unit: String,
-    /// The format, where the content does not decide it: csv, parquet, trackmate, quimp-csv, quimp-snqp, amoepy, roi, roi-zip or wkt
+    /// The format, where the content does not decide it: csv, parquet, trackmate, quimp-csv, quimp-snqp, amoepy, roi, roi-zip,
+    /// wkt or masks
     #[arg(long = "input-format", alias = "format", value_name = "FORMAT", value_parser = format)]
     pub(crate) format: Option<Format>,
     /// A column of the table by its header (repeatable): cell, frame, i, x, y or wkt, e.g. --column frame=t

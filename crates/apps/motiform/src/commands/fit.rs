@@ -218,13 +218,10 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
     text += &sets(fitted)?;
     text += &ladder(fitted)?;
     let noise = &model.noise;
-    let [velocity, shape] =
-        [&noise.eta_v, &noise.eta_shape].map(|estimate| with_error(estimate.value, estimate.error));
     let Units { length, time, .. } = Units::of(sample);
-    writeln!(
-        text,
-        "noise          velocity {velocity} {length}/{time}^1.5, shape {shape} {length}/{time}^0.5"
-    )?;
+    let velocity = fitted.noise_of_velocity(&format!("{length}/{time}^1.5"));
+    let shape = fitted.noise_of_shape(&format!("{length}/{time}^0.5"));
+    writeln!(text, "noise          velocity {velocity}, shape {shape}")?;
     if noise.is_of_centre() {
         let centre = with_error(noise.centre.value, noise.centre.error);
         writeln!(

@@ -133,14 +133,15 @@ fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error
     let mut text = String::new();
     let mut missing: Vec<(String, Vec<&str>)> = Vec::new();
     for row in found.numbers.rows() {
-        if let Answer::Unknown { reason } = row.value {
+        let unit = units.unit(row.quantity.dimension);
+        if let Some(reason) = row.reason(&unit) {
             match missing.iter_mut().find(|(same, _)| *same == reason) {
                 Some((_, names)) => names.push(row.quantity.symbol),
                 None => missing.push((reason, vec![row.quantity.symbol])),
             }
             continue;
         }
-        let value = answer(&row.value, &units.unit(row.quantity.dimension));
+        let value = answer(&row.value, &unit);
         writeln!(text, "{:<15}{}", row.quantity.symbol, value.trim_end())?;
     }
     for (reason, names) in missing {

@@ -83,3 +83,28 @@ fn a_failed_write_is_not_an_undecided_cell() {
         );
     }
 }
+
+/// Cells that do not move have displacements of 0, and no turning for that reason; the help names every format.
+#[test]
+fn reasons_and_formats_are_named() {
+    let folder = Folder::new();
+    // octagons of whole numbers about (0, 0), of changing size: repeated outlines would not count
+    let mut rows = "cell,frame,i,x,y\n".to_owned();
+    for frame in 0..9 {
+        let (a, b) = (20 + frame % 3, 8);
+        let corners = [[a, -b], [a, b], [b, a], [-b, a], [-a, b], [-a, -b], [-b, -a], [b, -a]];
+        for (i, [x, y]) in corners.into_iter().enumerate() {
+            _ = writeln!(rows, "a,{frame},{i},{x},{y}");
+        }
+    }
+    folder.write("cells.csv", &rows);
+    let text = folder.run("observe cells.csv --pixel-size 0.5 --interval 2").expect(1).stdout;
+    assert!(text.contains("directionality, turning cosine, turning rate: every displacement is 0"), "{text}");
+    for command in ["observe", "fit"] {
+        let help = folder.run(&format!("{command} --help")).expect(0).stdout;
+        for words in ["label masks", "wkt or masks"] {
+            let flat = help.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(flat.contains(words), "{command}: {words}");
+        }
+    }
+}

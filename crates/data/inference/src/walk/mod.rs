@@ -49,6 +49,9 @@ pub struct PersistentWalk {
     pub error: Bounded,
     /// Log-likelihood of the places after the first of each piece.
     pub log_likelihood: f64,
+    /// `true` if the places are as likely, within the intervals, without any motion: then there is no lower end to speed and diffusion
+    /// coefficient, and the persistence time has no bound.
+    pub rests: bool,
     /// Steps between places.
     pub steps: usize,
     /// Probability of autocorrelations of the innovations as large as these, if the walk describes the places (Ljung and Box).
@@ -110,12 +113,23 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
         [Known::Persistence, Known::Speed, Known::Diffusion, Known::Error].map(|known| table.bounded(known));
     let found = filter::steps(pieces, best);
     let tests = Tests::of(&found, best[1]);
+    let rests = table.rests();
+    let moves = |end: Option<f64>| end.filter(|_| !rests);
     Some(PersistentWalk {
-        persistence,
-        speed: Bounded { high: speed.high.filter(|_| persistence.low.is_some()), ..speed },
-        diffusion: Bounded { high: diffusion.high.filter(|_| persistence.high.is_some()), ..diffusion },
+        persistence: Bounded { low: moves(persistence.low), high: moves(persistence.high), ..persistence },
+        speed: Bounded {
+            low: moves(speed.low),
+            high: speed.high.filter(|_| persistence.low.is_some()),
+            ..speed
+        },
+        diffusion: Bounded {
+            low: moves(diffusion.low),
+            high: diffusion.high.filter(|_| persistence.high.is_some()),
+            ..diffusion
+        },
         error,
         log_likelihood: table.highest(),
+        rests,
         steps,
         p_value: ljung_box(&filter::by_coordinate(&found, pieces.len())).1,
         turning_score: tests.turning,

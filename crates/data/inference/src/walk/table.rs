@@ -42,6 +42,8 @@ fn value_at(walk: &Entry, known: Known, variance: f64) -> f64 {
 pub(super) struct Table {
     entries: Vec<Entry>,
     best: Entry,
+    /// The likelihood of errors alone: of the largest error beside the shortest persistence time that are looked at.
+    still: f64,
 }
 
 impl Table {
@@ -63,7 +65,18 @@ impl Table {
         let mut entries: Vec<Entry> = ridge.iter().flat_map(|walk| places.around(walk, least)).collect();
         entries.extend(ridge);
         entries.push(best);
-        Some(Self { entries, best })
+        let still = places.walk([ends[0], Places::errors()[1]]).highest();
+        Some(Self { entries, best, still })
+    }
+
+    /// `true` if the likelihood of errors alone is within that of the intervals.
+    pub(super) fn rests(&self) -> bool {
+        self.still > self.level()
+    }
+
+    /// The log-likelihood at the ends of intervals.
+    fn level(&self) -> f64 {
+        self.highest() - drop(self.best.sums.count)
     }
 
     pub(super) fn highest(&self) -> f64 {
@@ -83,7 +96,7 @@ impl Table {
     pub(super) fn bounded(&self, known: Known) -> Bounded {
         let value = value_at(&self.best, known, self.best.sums.scale());
         let hull = hull(self.points(known));
-        let level = self.highest() - drop(self.best.sums.count);
+        let level = self.level();
         let crossing = |a: &[f64; 2], b: &[f64; 2]| a[0] + (b[0] - a[0]) * (level - a[1]) / (b[1] - a[1]);
         let first = hull.iter().position(|point| point[1] > level).unwrap_or(0);
         let last = hull.iter().rposition(|point| point[1] > level).unwrap_or(hull.len() - 1);

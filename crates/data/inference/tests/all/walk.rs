@@ -155,6 +155,32 @@ fn errors_alone_are_errors() {
     assert!(one.speed.value < 0.02, "{one:?}"); // steps of 0.28 are those of errors
 }
 
+/// Places at rest with errors: motion has no lower end, and the persistence no bound. Where the diffusion over the record is many errors,
+/// rest is excluded. The likelihood of rest is that of walks with a vanishing speed.
+#[test]
+fn a_walk_that_rests_has_no_lower_ends() {
+    let still = |seed: u64| {
+        let mut normal = Normal::new(seed, 8);
+        let fixes: Vec<Fix> = (0..150)
+            .map(|k| Fix { t: f64::from(k), at: [0.2 * normal.next(), 0.2 * normal.next()] })
+            .collect();
+        let one = found(&fixes);
+        let excluded = one.log_likelihood - walk_likelihood(&[fixes], 1.0, 1e-9, one.error.value);
+        assert!(one.rests || excluded > 1.9, "{excluded}: {one:?}");
+        if one.rests {
+            let ends = [one.persistence.low, one.persistence.high, one.speed.low, one.diffusion.low];
+            assert_eq!(ends, [None; 4], "{one:?}");
+        }
+        u32::from(one.rests)
+    };
+    let rests: u32 = (0..40).map(still).sum();
+    assert!(rests >= 34, "{rests} of 40");
+    for seed in 0..20 {
+        let one = found(&walk([4.0, 0.3, 0.2], (1.0, 150), 1.0, seed));
+        assert!(!one.rests && one.speed.low.is_some(), "{one:?}");
+    }
+}
+
 #[test]
 fn units_change_units_alone_and_pieces_are_not_joined() {
     let fixes = walk([3.0, 1.0, 0.2], (1.0, 200), 0.9, 9);

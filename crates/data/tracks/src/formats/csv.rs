@@ -3,10 +3,11 @@
 use super::times::Times;
 use super::{Found, stem};
 use crate::gather::{Gather, Key};
-use crate::header::{Header, names, needed, separator, unit_of};
+use crate::header::{Header, names, needed, separator};
 use crate::input::{Input, decimal, number, whole};
 use crate::scale::{Said, Scale};
 use crate::split::split;
+use crate::units::{lengths, no_time, time};
 use crate::{Error, Options, Place, Result};
 use std::borrow::Cow;
 
@@ -51,15 +52,18 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
     let finished = gather.finish(&input.place, REMEDY);
     let (mut cells, mut notes) = finished.map_err(|error| times.in_words(error))?;
     let said = table.time(times.interval());
+    let given = table.frame.is_some() && options.interval.is_some();
+    if given && (said.step.is_none() || said.unit.is_none() && times.repeats_frames()) {
+        times.forget();
+    }
     let timed = times.apply(&mut cells, &mut notes, said.unit.is_some())?;
     let time = if timed { said } else { Said::default() };
-    let scale = Scale { length: table.said([table.x, table.y]), time };
+    let scale = Scale { length: table.length(), time };
     Ok(Found { cells, notes, scale, image: None })
 }
 
 /// The columns of a table.
 struct Table {
-    names: Vec<String>,
     header: Header,
     separator: u8,
     width: usize,
@@ -67,6 +71,9 @@ struct Table {
     time: Option<usize>,
     x: usize,
     y: usize,
+    /// The units of the header.
+    lengths: Option<String>,
+    unit_of_time: Option<String>,
 }
 
 impl Table {
@@ -79,28 +86,39 @@ impl Table {
             Some(_) => header.frame,
             None => Some(needed(header.frame, "frame", &names, file)?),
         };
-        // an interval that is given goes before the times of a table with frames
-        let time = header.time.filter(|_| frame.is_none() || options.interval.is_none());
-        Ok(Self { header, separator: separator(first), width: names.len(), frame, time, x, y, names })
+        let lengths = lengths([&names[x], &names[y]], file)?;
+        let unit_of_time = header.time.map(|at| time(&names[at], file)).transpose()?.flatten();
+        header.frame.map_or(Ok(()), |at| no_time(&names[at], file))?;
+        Ok(Self {
+            time: header.time,
+            header,
+            separator: separator(first),
+            width: names.len(),
+            frame,
+            x,
+            y,
+            lengths,
+            unit_of_time,
+        })
     }
 
     fn number(&self, text: &str, what: &str, place: &Place) -> Result<f64> {
         if self.separator == b',' { number(text, what, place) } else { decimal(text, what, place) }
     }
 
-    /// The unit of these columns according to the header, if it is the same for all.
-    fn said(&self, columns: [usize; 2]) -> Said {
-        let [a, b] = columns.map(|at| unit_of(&self.names[at]));
-        match a {
-            Some(unit) if b.as_ref() == Some(&unit) => Said { step: None, unit: Some(unit), applied: true },
-            _ => Said::default(),
-        }
+    /// The unit of lengths according to the header.
+    fn length(&self) -> Said {
+        self.lengths.clone().map_or_else(Said::default, |unit| Said {
+            step: None,
+            unit: Some(unit),
+            applied: true,
+        })
     }
 
     /// The statement of the table about times: their interval where they stand for frames, and their unit,
     /// which is that of the options where the header has none.
     fn time(&self, step: Option<f64>) -> Said {
-        Said { step, unit: self.time.and_then(|at| unit_of(&self.names[at])), applied: self.time.is_some() }
+        Said { step, unit: self.unit_of_time.clone(), applied: self.time.is_some() }
     }
 }
 

@@ -65,10 +65,28 @@ impl Times {
         Ok(key)
     }
 
-    /// The interval of the times where these stand for frames.
+    /// The interval of the times: where these stand for frames, and beside a column of frames the median time per frame.
     pub(super) fn interval(&self) -> Option<f64> {
         let values: Vec<f64> = self.values.values().copied().collect();
-        median_difference(&values).filter(|_| !self.framed)
+        if !self.framed {
+            return median_difference(&values);
+        }
+        let both: Vec<[f64; 2]> =
+            self.times.iter().filter_map(|(key, time)| Some([*self.values.get(key)?, *time])).collect();
+        let mut steps: Vec<f64> =
+            both.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])).collect();
+        steps.sort_by(f64::total_cmp);
+        steps.get(steps.len() / 2).copied()
+    }
+
+    /// Returns `true` if a column of times beside one of frames only repeats these.
+    pub(super) fn repeats_frames(&self) -> bool {
+        self.framed && self.times.iter().all(|(key, time)| self.values.get(key) == Some(time))
+    }
+
+    /// Leaves out the times beside a column of frames.
+    pub(super) fn forget(&mut self) {
+        self.times.clear();
     }
 
     /// The same error with the frame instead of its key.

@@ -143,3 +143,44 @@ fn names_in_latin_1_are_read() {
     assert_eq!((found.cells[0].name.as_str(), found.length_unit.as_str()), ("Zürich", "um"));
     assert_eq!(found.cells[0].frames, plain().cells[0].frames);
 }
+
+/// A column of times beside one of frames, and an interval: they agree, or the file is refused; times that only repeat the frames are none.
+#[test]
+fn times_beside_frames_agree_with_the_interval() {
+    let both = |header: &str, per_frame: f64| {
+        table(header, ',', |x| x.to_string(), |k| format!("{},{}", k + 3, per_frame * k as f64))
+    };
+    let with = |text: String, interval: f64| {
+        read_with(text, &Options { interval: Some(interval), ..Options::default() })
+    };
+    let minutes = "cell,frame,time [min],x,y";
+    let found = with(both(minutes, 0.5), 30.0).expect("half a minute");
+    assert_eq!((found.time_unit.as_str(), times(&found)[5]), ("min", 2.5));
+    let error = with(both(minutes, 0.5), 10.0).expect_err("contradiction").to_string();
+    assert!(error.contains("frame interval = 0.5 min") && error.contains("interval says 10 s"), "{error}");
+    // without a unit the times are in that of the option
+    assert!(with(both("cell,frame,t,x,y", 2.0), 2.0).is_ok_and(|found| times(&found)[5] == 10.0));
+    assert!(with(both("cell,frame,t,x,y", 2.0), 3.0).is_err());
+    let repeated = table("cell,frame,t,x,y", ',', |x| x.to_string(), |k| format!("{k},{k}"));
+    assert_eq!(times(&with(repeated, 4.0).expect("counts"))[5], 20.0);
+}
+
+#[test]
+fn units_of_a_header_that_are_not_known_or_differ_are_refused() {
+    let seen = |header: &str| table(header, ',', |x| x.to_string(), |k| k.to_string());
+    for (header, found) in [
+        ("cell,frame,x [um],y [mm]", "different units, um and mm"),
+        ("cell,frame,x [um],y [px]", "different units, um and pixel"),
+        ("cell,frame,x [um],y", "different units, um and none"),
+        ("cell,frame,x [\u{c5}],y [\u{c5}]", "the unit \"\u{c5}\" of the column"),
+        ("cell,time [fortnights],x,y", "the unit \"fortnights\" of the column"),
+        ("cell,time [um],x,y", "is not one of ms, s, min, h, d"),
+        ("cell,frame [s],x,y", "a unit of time, s"),
+    ] {
+        let error = refusal(seen(header));
+        assert!(error.contains(found) && error.contains("; "), "{header}: {error}");
+    }
+    let days = read(seen("cell,time [days],x [cm],y (cm)")).expect("days");
+    assert_eq!((days.time_unit.as_str(), days.length_unit.as_str()), ("d", "cm"));
+    assert!(read(seen("cell,frame [frames],x [],y")).is_ok());
+}

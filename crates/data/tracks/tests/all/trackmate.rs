@@ -51,7 +51,7 @@ fn links_are_followed_and_cut_at_splits() {
     assert_eq!(tracks.cells[1].frames[1].t, 7.5);
     let notes = notes(&tracks);
     assert!(
-        notes.contains("track 0 splits into 2 after frame 1") && notes.contains("1 outlines in no track"),
+        notes.contains("track 0 splits into 2 after frame 1") && notes.contains("1 outline in no track"),
         "{notes}"
     );
 }
@@ -98,7 +98,7 @@ fn tracks_that_the_file_filtered_out_are_left_out() {
         .replace("</AllTracks>", "</AllTracks><FilteredTracks><TrackID TRACK_ID=\"1\"/></FilteredTracks>");
     let tracks = read(text).unwrap();
     assert_eq!(tracks.cells.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(), ["1"]);
-    assert!(notes(&tracks).contains("1 tracks that the file has filtered out"));
+    assert!(notes(&tracks).contains("1 track that the file has filtered out"));
 }
 
 #[test]

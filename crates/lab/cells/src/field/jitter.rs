@@ -59,7 +59,8 @@ impl Jitter {
     /// jitter that is white in time. The displacements e of highest posterior density minimise sum (H - A e)^2 sum 1/v + sum e^2/sigma^2, A
     /// the stencil (conjugate gradients). Of two stencils the one that leaves less of the cells' own motion is taken.
     ///
-    /// The test shifts each cell in time at random, and asks how often sum H^2 sum 1/v is as large.
+    /// The test shifts each cell in time at random, and asks how often sum H^2 sum 1/v is as large. The shifts belong to the cells in the
+    /// order of their residuals, whatever their order in the file.
     pub(super) fn of(grid: &Grid) -> Option<Self> {
         let own = |residuals: &Residuals| residuals.noise() / residuals.gain();
         let best = STENCILS.into_iter().filter_map(|stencil| Residuals::of(grid, stencil));
@@ -80,6 +81,11 @@ impl Jitter {
         }
         Some(found)
     }
+}
+
+/// Sum of the squares of the residuals of a cell.
+fn size(own: &[Option<[f64; 2]>]) -> f64 {
+    own.iter().flatten().map(|h| h[0] * h[0] + h[1] * h[1]).sum()
 }
 
 /// The common part of a frame, and the inverse of its variance by the cells' own motion.
@@ -113,7 +119,9 @@ impl Residuals {
             }
             all
         };
-        let own: Vec<_> = grid.places.iter().map(of_cell).collect();
+        let mut own: Vec<_> = grid.places.iter().map(of_cell).collect();
+        // in an order of their own, so that the random shifts do not depend on that of the file
+        own.sort_by(|a, b| size(a).total_cmp(&size(b)));
         let mut found = Self { stencil, weights: vec![1.0; own.len()], own, common: Vec::new() };
         found.common = found.together(&|_, k| Some(k));
         found.weights = found.inverse_variances();

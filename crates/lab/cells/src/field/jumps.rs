@@ -17,10 +17,34 @@ pub struct StageJump {
     pub frame: i64,
     /// The displacement.
     pub displacement: [f64; 2],
-    /// Its standard error in each coordinate; `None` of one cell alone.
+    /// Its standard error in each coordinate, by the scatter over cells and by the jitter of the images; `None` of one cell alone.
     pub error: Option<f64>,
     /// Cells that show it.
     pub cells: usize,
+    /// Variance of the displacement by a jitter of unit variance, in each coordinate: frames next to the jump are in it.
+    #[serde(skip)]
+    of_jitter: f64,
+}
+
+impl StageJump {
+    /// Adds the jitter of this standard deviation to the error.
+    pub(super) fn add_jitter(&mut self, deviation: f64) {
+        let variance = self.of_jitter * deviation * deviation;
+        self.error = self.error.map(|error| (error * error + variance).sqrt());
+    }
+}
+
+/// Variance of the displacement of these cells by a jitter of unit variance, which all share: that of the mean of their sums over four
+/// frames, the jump between the second and the third; of each cell it is known whether the displacements before and after are subtracted.
+fn jitter_variance(beside: &[[bool; 2]]) -> f64 {
+    let mut sum = [0.0; 4];
+    for [before, after] in beside {
+        let share = 1.0 / f64::from(u8::from(*before) + u8::from(*after)).max(1.0);
+        let [a, b] = [before, after].map(|known| if *known { share } else { 0.0 });
+        let own = [a, -1.0 - a, 1.0 + b, -b];
+        sum = [0, 1, 2, 3].map(|i| sum[i] + own[i]);
+    }
+    sum.iter().map(|x| x * x).sum::<f64>() / (beside.len() * beside.len()) as f64
 }
 
 /// The jumps, in the order of their frames.
@@ -50,16 +74,16 @@ pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Vec<StageJump> {
 
 /// The excess of the displacements to this frame over those before and after, over the cells that are seen.
 fn excess(grid: &Grid, k: usize, stands_out: &dyn Fn(usize) -> bool) -> Option<StageJump> {
-    let found: Vec<[f64; 2]> = (0..grid.cells())
+    let (found, beside): (Vec<[f64; 2]>, Vec<[bool; 2]>) = (0..grid.cells())
         .filter_map(|cell| {
             let here = grid.displacement(cell, k)?;
             let beside =
                 [k - 1, k + 1].map(|j| (!stands_out(j)).then(|| grid.displacement(cell, j)).flatten());
             let known: Vec<[f64; 2]> = beside.into_iter().flatten().collect();
             let mean = |i: usize| known.iter().map(|d| d[i]).sum::<f64>() / known.len().max(1) as f64;
-            Some([0, 1].map(|i| here[i] - mean(i)))
+            Some(([0, 1].map(|i| here[i] - mean(i)), beside.map(|one| one.is_some())))
         })
-        .collect();
+        .unzip();
     let n = found.len() as f64;
     if found.is_empty() {
         return None;
@@ -68,7 +92,8 @@ fn excess(grid: &Grid, k: usize, stands_out: &dyn Fn(usize) -> bool) -> Option<S
     let squares: f64 =
         found.iter().map(|d| (0..2).map(|i| (d[i] - mean[i]) * (d[i] - mean[i])).sum::<f64>()).sum();
     let error = (found.len() > 1).then(|| (0.5 * squares / (n * (n - 1.0))).sqrt());
-    Some(StageJump { frame: grid.frame(k), displacement: mean, error, cells: found.len() })
+    let of_jitter = jitter_variance(&beside);
+    Some(StageJump { frame: grid.frame(k), displacement: mean, error, cells: found.len(), of_jitter })
 }
 
 fn mean_displacement(grid: &Grid, k: usize) -> Option<[f64; 2]> {

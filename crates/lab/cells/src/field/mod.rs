@@ -50,9 +50,12 @@ impl FieldOfView {
         // of masks whose size is known outlines lie on edges and middles of pixels
         let pixel = pixels::pitch(tracks).map(|pitch| tracks.image.map_or(pitch, |image| image.pixel));
         let Some(mut grid) = Grid::of(cells) else { return Self { pixel, ..Self::default() } };
-        let jumps = jumps::find(&grid, cells);
+        let mut jumps = jumps::find(&grid, cells);
         grid.subtract_jumps(&jumps);
         let (jitter, drift) = (Jitter::of(&grid), CommonDrift::of(&grid));
+        if let Some(jitter) = jitter.as_ref().filter(|jitter| jitter.is_seen()) {
+            jumps.iter_mut().for_each(|jump| jump.add_jitter(jitter.deviation));
+        }
         Self { cells: grid.cells(), jumps, jitter, drift, pixel, corrected: Vec::new() }
     }
 

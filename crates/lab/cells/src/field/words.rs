@@ -46,8 +46,14 @@ impl FieldOfView {
                     "outlines of a frame move together; the correction 'jitter' subtracts it".to_owned()
                 }
             };
-            let size = four_digits(jitter.deviation);
-            rows.push(("jitter", format!("{size} {}, {}: {verdict}", units.length, PValue(jitter.p_value))));
+            // p is that of displacements in common; where their size is 0 there are none, whatever it is
+            let size = match jitter.deviation {
+                0.0 => format!("0 {}, as of cells that move independently", units.length),
+                deviation => {
+                    format!("{} {}, {}", four_digits(deviation), units.length, PValue(jitter.p_value))
+                }
+            };
+            rows.push(("jitter", format!("{size}: {verdict}")));
         }
         if let Some(pixel) = self.pixel {
             let words = format!("outlines follow pixels of {} {}", four_digits(pixel), units.length);
@@ -58,7 +64,9 @@ impl FieldOfView {
 
     fn jumps_in_words(&self, units: &Units) -> String {
         let one = |jump: &super::StageJump| {
-            let [x, y] = jump.displacement.map(four_digits);
+            let error = jump.error.filter(|error| *error > 0.0);
+            let [x, y] =
+                jump.displacement.map(|x| error.map_or_else(|| four_digits(x), |error| with_error(x, error)));
             format!("({x}, {y}) {} at frame {}", units.length, jump.frame)
         };
         let mut words = self.jumps.iter().take(MOST_JUMPS).map(one).collect::<Vec<_>>().join(", ");

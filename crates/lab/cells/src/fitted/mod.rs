@@ -2,9 +2,11 @@
 
 mod doubts;
 mod make;
+mod noise;
 mod study;
 
 pub(crate) use make::{Members, fitted};
+pub(crate) use noise::noise_json;
 
 use crate::Checks;
 use crate::regime::FittedRegime;

@@ -9,11 +9,13 @@ mod places;
 mod population;
 mod rows;
 mod steps;
+mod walk;
 
 pub use forms::{FormNumber, Forms};
 pub use population::{PopulationNumber, PopulationNumbers, Withheld, population_numbers};
 pub use rows::{Row, number_columns};
 pub use steps::Steps;
+pub use walk::{OfWalk, StatedWalk, WalkTests};
 
 use crate::{AtLag, CellTrack};
 use motiform_analysis::series_mean;
@@ -37,8 +39,12 @@ pub struct Numbers {
     pub steps: Option<Steps>,
     /// Mean-square displacement; errors of the places are in it (4 sigma^2).
     pub displacement: Vec<AtLag>,
-    /// The persistent random walk of highest likelihood; `None` with fewer than twelve displacements.
+    /// The persistent random walk of highest likelihood, whether or not it describes the path; `None` with fewer than twelve displacements.
+    #[serde(skip)]
     pub walk: Option<PersistentWalk>,
+    /// The numbers of the walk that are stated, and why the others are not.
+    #[serde(rename = "walk")]
+    pub stated_walk: StatedWalk,
     /// Area, perimeter, and form.
     pub forms: Forms,
     #[serde(skip)]
@@ -54,6 +60,7 @@ pub fn numbers(cell: &CellTrack) -> Numbers {
     let walk = persistent_walk(&places.pieces);
     let error = walk.as_ref().filter(|walk| walk.describes()).map(|walk| walk.error.value);
     let seen = places.pieces.iter().map(Vec::len).sum();
+    let without = if seen < 2 { rows::without_steps(seen) } else { walk::TOO_FEW.to_owned() };
     let (first, last) = (places.pieces.first(), places.pieces.last());
     let ends = first.and_then(|piece| piece.first()).zip(last.and_then(|piece| piece.last()));
     Numbers {
@@ -62,6 +69,7 @@ pub fn numbers(cell: &CellTrack) -> Numbers {
         pieces: places.pieces.len(),
         steps: Steps::of(&places, error),
         displacement: displacement::of_cell(&places),
+        stated_walk: StatedWalk::of(walk.as_ref(), &without),
         walk,
         forms: Forms::of(&cell.modes),
         places,

@@ -174,8 +174,14 @@ fn why_biased(of_cells: &[Bounded]) -> Option<String> {
     let spans: Vec<f64> = of_cells.iter().filter_map(|one| Some(one.high? / one.low?)).collect();
     let (cells, open) = (of_cells.len(), of_cells.len() - spans.len());
     if open as f64 > MOST_OPEN * cells as f64 {
+        if cells == 1 {
+            return Some(
+                "the only cell whose path is a persistent random walk bounds it, without a value".to_owned(),
+            );
+        }
+        let bound = if open == 1 { "bounds" } else { "bound" };
         return Some(format!(
-            "of {cells} cells whose path is a persistent random walk, {open} only bound it, those that keep their direction \
+            "of {cells} cells whose path is a persistent random walk, {open} only {bound} it, those that keep their direction \
              longest or shortest; a mean over the others would leave them out"
         ));
     }

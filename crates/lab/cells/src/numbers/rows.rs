@@ -1,15 +1,12 @@
 //! The numbers of a cell, one by one: text, page, table and population show the same ones.
 
+use super::walk::{OfWalk, TOO_FEW};
 use super::{FormNumber, Numbers};
 use crate::Observation;
-use motiform_inference::{Bounded, PersistentWalk};
 use motiform_statistics::{Answer, Measured, four_digits};
 use motiform_store::columns::{Column, Values};
 use motiform_study::Quantity;
 use motiform_study::quantity::cell;
-
-/// Why there is no walk.
-const TOO_FEW: &str = "fewer than 12 displacements, or none at all";
 
 /// A number of a cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +15,40 @@ pub struct Row {
     pub quantity: &'static Quantity,
     /// The value, or why there is none.
     pub value: Answer,
+    /// The lower and the upper bound that the record sets to a number without a value.
+    pub bounds: [Option<f64>; 2],
+}
+
+impl Row {
+    fn new(quantity: &'static Quantity, value: Answer) -> Self {
+        Self { quantity, value, bounds: [None; 2] }
+    }
+
+    /// A number of the walk.
+    fn of_walk(quantity: &'static Quantity, found: &OfWalk) -> Self {
+        match (found.value, &found.reason) {
+            (Some(value), _) => {
+                let interval = found.low.zip(found.high).map(<[f64; 2]>::from);
+                Self::new(quantity, Answer::Known(Measured { value, interval }))
+            }
+            (None, reason) => {
+                let value = Answer::unknown(reason.clone().unwrap_or_default());
+                Self { bounds: [found.low, found.high], ..Self::new(quantity, value) }
+            }
+        }
+    }
+
+    /// The reason why there is no value, after the bound that is known; `None` where there is a value.
+    #[must_use]
+    pub fn reason(&self, unit: &str) -> Option<String> {
+        let reason = self.value.reason()?;
+        let bound = match self.bounds {
+            [Some(low), None] => format!("above {} {unit}", four_digits(low)),
+            [None, Some(high)] => format!("below {} {unit}", four_digits(high)),
+            _ => return Some(reason.to_owned()),
+        };
+        Some(format!("{}: {reason}", bound.trim_end()))
+    }
 }
 
 impl Numbers {
@@ -33,7 +64,7 @@ impl Numbers {
         let form = |number: Option<FormNumber>| {
             number.map_or_else(|| Answer::unknown("no frame is seen"), |number| Answer::Known(number.mean))
         };
-        let row = |quantity, value| Row { quantity, value };
+        let row = Row::new;
         let mut rows = vec![
             row(&cell::SPEED, of_steps(steps.map(|s| s.speed))),
             row(&cell::RMS_SPEED, self.rms_speed()),
@@ -42,9 +73,9 @@ impl Numbers {
             row(&cell::DIRECTIONALITY, bare(steps.and_then(|s| s.directionality))),
             row(&cell::TURNING_COSINE, of_steps(steps.map(|s| s.turning_cosine))),
             row(&cell::TURNING_RATE, of_steps(steps.map(|s| s.turning_rate))),
-            row(&cell::PERSISTENCE, self.of_walk(|walk| walk.persistence, "persistence time")),
-            row(&cell::DIFFUSION, self.of_walk(|walk| walk.diffusion, "diffusion coefficient")),
-            row(&cell::POSITION_ERROR, self.of_walk(|walk| walk.error, "error")),
+            Row::of_walk(&cell::PERSISTENCE, &self.stated_walk.persistence),
+            Row::of_walk(&cell::DIFFUSION, &self.stated_walk.diffusion),
+            Row::of_walk(&cell::POSITION_ERROR, &self.stated_walk.error),
         ];
         rows.extend([
             row(&cell::AREA, form(self.forms.area)),
@@ -58,57 +89,31 @@ impl Numbers {
 
     /// The speed without errors, or why these are not known.
     fn rms_speed(&self) -> Answer {
-        match (self.steps.as_ref().and_then(|steps| steps.rms_speed), &self.walk) {
+        match (self.steps.as_ref().and_then(|steps| steps.rms_speed), &self.stated_walk.reason) {
             (Some(speed), _) => Answer::Known(speed),
-            (None, Some(walk)) if !walk.describes() => {
-                Answer::unknown(format!("the errors of the places are not known: {}", undescribed(walk)))
+            (None, Some(reason)) if self.walk.is_some() => {
+                Answer::unknown(format!("the errors of the places are not known: {reason}"))
             }
-            (None, None) if self.seen > 1 => Answer::unknown(TOO_FEW),
+            (None, Some(_)) if self.seen > 1 => Answer::unknown(TOO_FEW),
             (None, _) => Answer::unknown(self.without_steps()),
         }
     }
 
     fn without_steps(&self) -> String {
-        match self.seen {
-            0 => "no frame is seen".to_owned(),
-            1 => "one frame is seen".to_owned(),
-            seen => format!("no such frames in a row among the {seen} that are seen"),
-        }
-    }
-
-    /// A number of the walk. There is none where no walk describes the path, and where the record sets no bound to one side.
-    fn of_walk(&self, number: impl Fn(&PersistentWalk) -> Bounded, name: &str) -> Answer {
-        let Some(walk) = &self.walk else {
-            return Answer::unknown(match self.seen {
-                0 | 1 => self.without_steps(),
-                _ => TOO_FEW.to_owned(),
-            });
-        };
-        if !walk.describes() {
-            return Answer::unknown(undescribed(walk));
-        }
-        let Bounded { value, low, high } = number(walk);
-        match (low, high) {
-            (Some(low), Some(high)) => {
-                Answer::Known(Measured { value, interval: Some([low.min(value), high.max(value)]) })
-            }
-            (None, Some(high)) => Answer::unknown(format!(
-                "below {}: the frames do not resolve a shorter {name}",
-                four_digits(high)
-            )),
-            (Some(low), None) => Answer::unknown(format!(
-                "above {}: the record sets no upper bound to the {name}",
-                four_digits(low)
-            )),
-            (None, None) => Answer::unknown(format!("the record sets no bound to the {name}")),
+        match &self.steps {
+            Some(steps) if steps.path == 0.0 => "every displacement is 0".to_owned(),
+            _ => without_steps(self.seen),
         }
     }
 }
 
-/// The reason why a walk does not describe a path.
-fn undescribed(walk: &PersistentWalk) -> String {
-    let why = walk.misfit().map_or_else(String::new, |misfit| format!(": {misfit}"));
-    format!("no persistent random walk describes the path{why}")
+/// The reason why there is no displacement among so many frames.
+pub(super) fn without_steps(seen: usize) -> String {
+    match seen {
+        0 => "no frame is seen".to_owned(),
+        1 => "one frame is seen".to_owned(),
+        seen => format!("no such frames in a row among the {seen} that are seen"),
+    }
 }
 
 /// Numbers of all cells as a table: the value and the ends of its interval; empty where there is none.

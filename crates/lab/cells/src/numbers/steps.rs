@@ -45,11 +45,11 @@ impl Steps {
         let net = ends.sum();
         let rate = |pair: &[Fix]| length(step(&pair[0], &pair[1])) / (pair[1].t - pair[0].t);
         let rates: Vec<f64> = pairs().filter(whole).map(rate).collect();
-        let squares = error.map(|error| {
+        let squares: Vec<f64> = rates.iter().map(|rate| rate * rate).collect();
+        let own = |error: f64| {
             let noise = 4.0 * error * error / (places.interval * places.interval);
-            rates.iter().map(|rate| rate * rate - noise).collect::<Vec<f64>>()
-        });
-        let root = |mean: Measured| mean.map(|square| square.max(0.0).sqrt());
+            Some(reaching_up(averaged(&squares)?).map(|square| (square - noise).max(0.0).sqrt()))
+        };
         let angles = angles(places);
         let cosines: Vec<f64> = angles.iter().map(|angle| libm::cos(*angle)).collect();
         let turning: Vec<f64> = angles.iter().map(|angle| angle / places.interval).collect();
@@ -60,8 +60,8 @@ impl Steps {
         }
         Some(Self {
             count: rates.len(),
-            speed: averaged(&rates),
-            rms_speed: squares.and_then(|squares| averaged(&squares)).map(root),
+            speed: averaged(&rates).map(reaching_up),
+            rms_speed: error.and_then(own),
             path,
             net,
             directionality: (path > 0.0).then(|| net / path),
@@ -70,6 +70,20 @@ impl Steps {
             turning_angles: counts,
         })
     }
+}
+
+/// The mean of speeds, or of their squares, with an upper end for an error that grows with the speed, as that of a speed does: where the
+/// true mean is m (1 + r), the error of the estimate m is as much larger. The upper end is `m/(1 - r)`, r the relative error; no interval
+/// where that has no end. With the same error to both sides means of few independent samples are too low more often than they should.
+fn reaching_up(mean: Measured) -> Measured {
+    let upper = |[low, high]: [f64; 2]| {
+        if high <= mean.value {
+            return Some([low, high]);
+        }
+        let left = 1.0 - (high - mean.value) / mean.value;
+        (left > 0.0).then(|| [low, mean.value / left])
+    };
+    Measured { interval: mean.interval.and_then(upper), ..mean }
 }
 
 fn step(from: &Fix, to: &Fix) -> [f64; 2] {

@@ -45,11 +45,11 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
         ("factor of the stated errors".to_owned(), estimate(&noise.s)),
         (
             "noise of the velocity".to_owned(),
-            format!("{} {}/√{}", estimate(&noise.eta_v), units.unit(Dimension::SPEED), units.time),
+            fitted.noise_of_velocity(&format!("{}/√{}", units.unit(Dimension::SPEED), units.time)),
         ),
         (
             "noise of the shape".to_owned(),
-            format!("{} {}/√{}", estimate(&noise.eta_shape), units.length, units.time),
+            fitted.noise_of_shape(&format!("{}/√{}", units.length, units.time)),
         ),
         ("noise of the centre, beside the contour's".to_owned(), centre(fitted, units)),
         ("velocity of the stage, subtracted".to_owned(), stage(fitted, units)),

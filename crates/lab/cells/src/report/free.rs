@@ -9,7 +9,7 @@ use motiform_figures::palette::INK;
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{Curve, Panel, SeriesFigure};
 use motiform_statistics::Answer;
-use motiform_study::quantity::{cell, frame};
+use motiform_study::quantity::frame;
 use motiform_study::{Error, Quantity};
 use motiform_tracks::modes::{Flag, FrameModes};
 
@@ -50,7 +50,8 @@ pub(crate) fn over_time(case: &Case<'_>, setting: &Setting<'_>) -> Result<Option
 fn table(numbers: &Numbers, units: &Units) -> Table {
     let row = |row: Row| {
         let unit = units.unit(row.quantity.dimension);
-        vec![Cell::text(row.quantity.symbol), Cell::text(answer(&row.value, &unit))]
+        let words = row.reason(&unit).unwrap_or_else(|| answer(&row.value, &unit));
+        vec![Cell::text(row.quantity.symbol), Cell::text(words)]
     };
     Table {
         caption: "Path, persistence and form.".to_owned(),
@@ -62,23 +63,12 @@ fn table(numbers: &Numbers, units: &Units) -> Table {
 /// A number of a cell as it stands in a table; its bound where the record sets but one, empty where there is none.
 pub(crate) fn value(numbers: &Numbers, quantity: &Quantity) -> String {
     let found = numbers.rows().into_iter().find(|row| row.quantity == quantity);
-    let known = found.and_then(|row| match row.value {
-        Answer::Known(found) => Some(plain(found.value)),
-        Answer::Unknown { .. } => bound(numbers, quantity),
-    });
-    known.unwrap_or_default()
-}
-
-/// The one end of the interval of a number of the walk that the record sets.
-fn bound(numbers: &Numbers, quantity: &Quantity) -> Option<String> {
-    let walk = numbers.walk.as_ref().filter(|walk| walk.describes())?;
-    let known = [(&cell::PERSISTENCE, walk.persistence), (&cell::DIFFUSION, walk.diffusion)];
-    let (_, found) = known.into_iter().find(|known| known.0 == quantity)?;
-    match (found.low, found.high) {
-        (Some(low), None) => Some(format!("> {}", plain(low))),
-        (None, Some(high)) => Some(format!("< {}", plain(high))),
-        _ => None,
-    }
+    found.map_or_else(String::new, |row| match (row.value, row.bounds) {
+        (Answer::Known(found), _) => plain(found.value),
+        (_, [Some(low), None]) => format!("> {}", plain(low)),
+        (_, [None, Some(high)]) => format!("< {}", plain(high)),
+        _ => String::new(),
+    })
 }
 
 /// Speed to the next frame, area and aspect ratio, `None` where the outline is not seen or frames are missing.

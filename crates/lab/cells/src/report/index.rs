@@ -24,7 +24,7 @@ pub(crate) fn report(
     let units = &setting.units;
     let mut sections = vec![Section {
         title: "Cells".to_owned(),
-        tables: vec![table(cases, names, units)],
+        tables: tables(cases, names, units),
         ..Section::default()
     }];
     if let Some(fit) = together {
@@ -77,36 +77,38 @@ pub(crate) fn fitted_regime(case: &Case<'_>) -> Option<Regime> {
     fitted_of(case)?.regime.as_ref()?.regime
 }
 
-fn table(cases: &[Case<'_>], names: &[String], units: &Units) -> Table {
-    let fits = cases.iter().any(|case| case.fit.is_some());
-    let name = |regime: Option<Regime>| Cell::text(regime.map_or("undecided", |regime| regime.name()));
+/// The cells, and in a table of its own, so that both are as wide as the page, what their fits say.
+fn tables(cases: &[Case<'_>], names: &[String], units: &Units) -> Vec<Table> {
+    let link = |case: &Case<'_>, file: &String| Cell::link(literal(&case.cell.name), page_name(file));
     let row = |(case, file): (&Case<'_>, &String)| {
         let free = |quantity| Cell::number(free::value(&case.observation.numbers, quantity));
-        let mut row = vec![
-            Cell::link(literal(&case.cell.name), page_name(file)),
-            Cell::number(case.cell.frames().to_string()),
-        ];
+        let mut row = vec![link(case, file), Cell::number(case.cell.frames().to_string())];
         row.extend(FREE.map(free));
-        row.push(name(case.observation.motion.regime));
-        if fits {
-            row.push(Cell::text(fitted_of(case).map_or("undecided", Fitted::motion_name)));
-            row.push(Cell::text(fitted_of(case).map_or("", |fitted| fitted.symmetry().name())));
-            row.push(Cell::text(fitted_of(case).map_or_else(String::new, place_words)));
-            row.push(Cell::text(agreement(case)));
-        }
+        row.push(Cell::text(case.observation.motion.regime.map_or("undecided", |regime| regime.name())));
         row
     };
     let mut head = vec!["cell".to_owned(), "frames that count".to_owned()];
     head.extend(FREE.map(|quantity| units.axis(quantity)));
     head.push("observed motion".to_owned());
-    if fits {
-        head.extend(["motion of the fit", "symmetry", "place", "simulated cells"].map(str::to_owned));
-    }
-    Table {
-        caption: "Every cell has a page of its own.".to_owned(),
-        head,
-        rows: cases.iter().zip(names).map(row).collect(),
-    }
+    let caption = "Every cell has a page of its own.".to_owned();
+    let cells = Table { caption, head, rows: cases.iter().zip(names).map(row).collect() };
+    let fitted = |(case, file): (&Case<'_>, &String)| {
+        vec![
+            link(case, file),
+            Cell::text(fitted_of(case).map_or("undecided", Fitted::motion_name)),
+            Cell::text(fitted_of(case).map_or("", |fitted| fitted.symmetry().name())),
+            Cell::text(fitted_of(case).map_or_else(String::new, place_words)),
+            Cell::text(agreement(case)),
+        ]
+    };
+    let fits = Table {
+        caption: "The fit of each cell.".to_owned(),
+        head: ["cell", "motion of the fit", "symmetry", "place", "simulated cells"]
+            .map(str::to_owned)
+            .to_vec(),
+        rows: cases.iter().zip(names).map(fitted).collect(),
+    };
+    if cases.iter().any(|case| case.fit.is_some()) { vec![cells, fits] } else { vec![cells] }
 }
 
 fn placed(fitted: &Fitted, plane: usize) -> Option<&Place> {

@@ -5,7 +5,9 @@
 use super::bodies::{RADIUS, cell_of, preset};
 use super::recordings::{Seen, Shape, Walker, tracks};
 use motiform_analysis::regime::Regime;
-use motiform_cells::{CellTrack, FitOptions, PERSISTENT_WALK, Sample, fit_cell, fit_together, observe};
+use motiform_cells::{
+    CellTrack, FitOptions, FittedRegime, PERSISTENT_WALK, Sample, fit_cell, fit_together, observe,
+};
 use motiform_inference::{Placement, Symmetry};
 use motiform_tracks::centroid;
 use motiform_tracks::modes::ModeOptions;
@@ -173,4 +175,38 @@ fn a_random_walker_is_not_motionless() {
         assert_ne!(observe(&sample.cells[0]).motion.regime, Some(Regime::Motionless));
     }
     assert!(named > 0, "none is named");
+}
+
+/// Models of which 90 % agree, and no name: the reason is the one that holds.
+#[test]
+fn a_missing_name_has_its_reason() {
+    use Regime::{BlowUp, Chaotic, Undetermined, Zigzag};
+    let found = |best: Regime, counts: &[(Regime, usize)]| {
+        let draws = counts.iter().map(|one| one.1).sum();
+        let lost = counts.iter().find(|one| one.0 == BlowUp).map_or(0, |one| one.1);
+        let share = counts[0].1 as f64 / (draws - lost) as f64;
+        FittedRegime {
+            regime: None,
+            best,
+            share,
+            counts: counts.to_vec(),
+            draws,
+            start: Vec::new(),
+            carried: false,
+            slow: false,
+            coarse: false,
+            driven: None,
+        }
+    };
+    for (found, reason) in [
+        (found(Undetermined, &[(Chaotic, 22), (BlowUp, 1)]), "the best model itself has no motion"),
+        (found(Zigzag, &[(Chaotic, 22), (BlowUp, 1)]), "the best model itself is zigzag"),
+        (found(Chaotic, &[(Chaotic, 30), (BlowUp, 10)]), "more than a tenth of them blow up"),
+        (found(Chaotic, &[(Chaotic, 30), (Zigzag, 10)]), "75 % of those that do not blow up agree"),
+    ] {
+        let why = found.why_unnamed().unwrap();
+        assert!(why.contains(reason), "{why}");
+    }
+    let named = FittedRegime { regime: Some(Chaotic), ..found(Chaotic, &[(Chaotic, 23)]) };
+    assert_eq!(named.why_unnamed(), None);
 }

@@ -29,6 +29,10 @@ fn steady_motions_are_named() {
     assert_eq!(straight.motion.regime, Some(Regime::Straight), "{}", straight.motion.why);
     let circular = observed(&full(0.5, 0.5, 0.005, (0.5, 600)));
     assert_eq!(circular.motion.regime, Some(Regime::Circular), "{}", circular.motion.why);
+    let units = &cell(&full(1.5, 0.9, 0.005, (0.5, 60)), 0.01).cells[0].units;
+    for found in [&straight, &circular] {
+        assert!(found.motion.why.contains(&format!("rad/{}", units.time)), "{}", found.motion.why);
+    }
     let text = "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.equations]\nz1 = \"-z1\"\nz2 = \"-z2\"";
     let mut rest = Study::parse(text, "rest", "rest").unwrap();
     sampled(&mut rest, 0.0, (0.5, 200));

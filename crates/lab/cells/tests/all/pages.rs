@@ -131,6 +131,9 @@ fn a_fitted_cell_has_its_motion_place_and_simulations_and_what_is_missing_is_sai
     check(&pages);
     let page = |k: usize| std::str::from_utf8(&pages[k].1).unwrap();
     assert!(page(0).contains("speed (µm/s)") && page(0).contains("aspect ratio"));
+    // wider tables run off a page of 1200 pixels
+    let columns = page(0).split("<table").skip(1).map(|table| table.matches("scope=\"col\"").count());
+    assert!(columns.max().unwrap() <= 7);
     for words in [
         "Cell a*_1: chaotic",
         "plane of Fig. 4",
