@@ -23,12 +23,12 @@ impl Said {
         let info = study.info()?;
         let values = study.values()?.into_iter().zip(start.study.values()?);
         let set = info.parameters().iter().zip(values).filter(|(_, (now, then))| now != then);
-        let few = study.initial.len() <= MOST_COORDINATES;
+        let told = study.initial.len() <= MOST_COORDINATES && study.initial != start.study.initial;
         let (now, then) = (&study.run, &start.study.run);
         let same = now.noise == then.noise && now.noise_velocity == then.noise_velocity;
         Ok(Self {
             set: set.map(|(spec, (now, _))| (spec.name.to_owned(), now)).collect(),
-            initial: if few { study.initial.clone() } else { Vec::new() },
+            initial: if told { study.initial.clone() } else { Vec::new() },
             t_end: now.t_end,
             noise: (!same).then_some(now.noise),
             noise_velocity: now.noise_velocity.filter(|_| !same),

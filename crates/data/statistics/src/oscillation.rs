@@ -37,8 +37,8 @@ pub struct Oscillation {
 ///
 /// Intervals: by leaving out groups and fitting again, on logarithms. No frequency is known better than to a
 /// hundredth of a radian over these lags. Unknown are both where the damped cosine deviates by more than 10 %, and the decay where the
-/// amplitude does not fall to 1/e within these lags. Both are unknown for the reason `coarse`, if given: what is forgotten between samples is not seen,
-/// and without it the rest is another one.
+/// amplitude does not fall to 1/e within these lags. Both are unknown for the reason `coarse`, if given: what is forgotten between samples
+/// is not seen, and without it the rest is another one.
 ///
 /// # Checked by  tests/all/oscillation.rs: chiral active Brownian motion, circle, exponential; coverage in crate measure
 pub(crate) fn oscillation(curves: &Curves, last: usize, coarse: Option<String>) -> Option<Oscillation> {

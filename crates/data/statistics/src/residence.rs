@@ -30,8 +30,8 @@ pub struct Residence {
 /// Times for which the size of a quantity stays above and below a threshold (its median, if none is given).
 ///
 /// A stay begins with a crossing of the threshold, located by linear interpolation, so the first one of a
-/// unit (and after a gap) is left out; the last one is censored ([`mean_time`]). A quantity that does not vary has none. Under noise, stays shorter
-/// than the time between samples are not seen, and the mean time depends on that time.
+/// unit (and after a gap) is left out; the last one is censored ([`mean_time`]). A quantity that does not vary has none. Under noise, stays
+/// shorter than the time between samples are not seen, and the mean time depends on that time.
 ///
 /// # Checked by  tests/all/passage.rs: a sine, whose stays are known
 #[must_use]

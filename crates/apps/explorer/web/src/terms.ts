@@ -2,7 +2,7 @@
 
 import { byId, make, setText } from "./dom";
 
-const MULTIPLIER = "factor by which a small deviation from a periodic orbit grows in one period; stable if all are below 1 in size";
+const MULTIPLIER = "factor by which a small deviation from a periodic orbit grows in one period, or in half of it for a motion that is then its own mirror image; stable if all are below 1 in size";
 
 /** As in docs/glossary.md. */
 const MEANINGS: Record<string, string> = {

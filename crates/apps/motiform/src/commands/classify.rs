@@ -27,7 +27,7 @@ pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
     watch.finish();
     let Some(verdict) = verdict? else { return Ok(End::Interrupted) };
     say(&Classified::new(&plan, &verdict), options.motion.json)?;
-    advise(&plan, budget, &[verdict.clone()])?;
+    advise(&plan, budget, std::slice::from_ref(&verdict))?;
     Ok(if verdict.regime == Regime::Undetermined { End::NotAsAsked } else { End::Done })
 }
 

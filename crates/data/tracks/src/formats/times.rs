@@ -2,6 +2,7 @@
 
 use crate::numbering::{median_difference, numbers};
 use crate::{Cell, Error, Note, Place, Result};
+use motiform_dynamics::sample::median;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Frames and times of the rows of a table.
@@ -73,10 +74,7 @@ impl Times {
         }
         let both: Vec<[f64; 2]> =
             self.times.iter().filter_map(|(key, time)| Some([*self.values.get(key)?, *time])).collect();
-        let mut steps: Vec<f64> =
-            both.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])).collect();
-        steps.sort_by(f64::total_cmp);
-        steps.get(steps.len() / 2).copied()
+        median(both.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])))
     }
 
     /// Returns `true` if a column of times beside one of frames only repeats these.

@@ -44,8 +44,8 @@ impl<T: Scalar> VectorField<T> for Ledge {
 }
 plain!(Ledge, 3);
 
-/// A fold of cycles: `r' = -r ((r^2 - 1/2)^2 + gap)`, turning at rate 1.15. Without a gap the two cycles are one, with one there is none; with
-/// a negative one the outer cycle has the exponent `-4 r^2 sqrt(-gap)`.
+/// A fold of cycles: `r' = -r ((r^2 - 1/2)^2 + gap)`, turning at rate 1.15. Without a gap the two cycles are one, with one there is
+/// none; with a negative one the outer cycle has the exponent `-4 r^2 sqrt(-gap)`.
 struct Fold {
     gap: f64,
 }
@@ -130,8 +130,8 @@ fn a_torus_has_returns_on_a_curve() {
     assert_eq!(seen.attractor, Attractor::Unknown, "{}", seen.why);
 }
 
-/// Beyond a fold of cycles orbits all but close, with residuals below every tolerance: there is no stable cycle, however small the gap. Before
-/// it there is one, with its exact exponent.
+/// Beyond a fold of cycles orbits all but close, with residuals below every tolerance: there is no stable cycle, however small the gap.
+/// Before it there is one, with its exact exponent.
 #[test]
 fn beyond_a_fold_there_is_no_cycle() {
     for gap in [1e-9, 1e-10, 1e-11, 0.0] {

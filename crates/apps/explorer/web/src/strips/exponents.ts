@@ -59,7 +59,7 @@ export class ExponentStrip {
     if (this.time.length > POINTS) for (const list of [this.time, ...this.curves]) thin(list);
     showKeys(byId("exponent-keys"), exponents.slice(0, MOST).map((_, i) => `*λ*_${i + 1}`));
     const first = exponents[0];
-    if (first) setText(byId("exponent-values"), `\u03bb\u2081 = ${valueText(first.value, first.error)}${first.error === null ? "" : ` \u00b1 ${pretty(first.error, 2)}`}${done ? "" : "\u2026"}`);
+    if (first) setText(byId("exponent-values"), `\u03bb\u2081 = ${valueText(first.value, first.error)}${first.error === null ? "" : ` \u00b1 ${pretty(first.error, 2)}`}${done ? "" : " so far"}`);
     this.dirty = true;
   }
 

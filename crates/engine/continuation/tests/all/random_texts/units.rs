@@ -83,7 +83,7 @@ pub(super) fn points(text: &Text, u: &[f64], p: f64, larger: Larger) -> Vec<Vec<
     out
 }
 
-fn read(point: &motiform_continuation::Point, larger: Larger) -> Option<Found> {
+fn read(point: &Point, larger: Larger) -> Option<Found> {
     let special = point.special?;
     let period = match special {
         Special::Hopf(hopf) => hopf.period(),
