@@ -8,7 +8,7 @@ use motiform_analysis::Lyapunov;
 use motiform_dynamics::Direction;
 use motiform_lab::answers::{Motions, OfOrbit};
 use motiform_lab::samples::{self, Basins, Escapes, Samples};
-use motiform_study::{Error, Random, RunPlan};
+use motiform_study::{Error, RunPlan};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -59,7 +59,7 @@ pub(crate) fn motions(
 ) -> PyResult<String> {
     let (used, verdicts, basins, escapes) = answer(Caller::here(py, progress, |watch| {
         let mut study = Study(study.0.perturbed()?.0);
-        let random = Random::of(study.0.random, samples as u64, study.0.info()?);
+        let random = study.0.starts(samples as u64)?;
         study.0.random = Some(random); // the first of many is drawn like the others
         let given = study.0.initial.iter().any(|(name, _)| !["x", "y"].contains(&name.as_str()));
         let (plan, samples) =

@@ -4,7 +4,7 @@ use crate::errors::{of_json, python};
 use crate::study::{Study, plan};
 use crate::watch::Caller;
 use motiform_lab::ensemble::{Member, Track, random_members, tracks};
-use motiform_study::{Error, Random};
+use motiform_study::Error;
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 #[pyfunction]
 pub(crate) fn random_starts(study: &Study, count: usize) -> PyResult<Vec<Vec<f64>>> {
     let starts = || -> Result<Vec<Vec<f64>>, Error> {
-        let random = Random::of(study.0.random, count as u64, study.0.info()?);
+        let random = study.0.starts(count as u64)?;
         let members = random_members(&plan(study)?, count, random)?;
         Ok(members.into_iter().map(|member| member.start).collect())
     };

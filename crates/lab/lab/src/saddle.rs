@@ -6,6 +6,7 @@ use motiform_analysis::{
     Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, escape_rate, lyapunov, survival,
 };
 use motiform_dynamics::Outcome;
+use motiform_dynamics::distributions::student_quantile;
 use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::{Error, Plan, Random};
 use serde::Serialize;
@@ -119,6 +120,6 @@ fn ratio(stretches: &[(f64, f64)]) -> Option<Estimate> {
     let value = used.iter().map(|stretch| stretch.0).sum::<f64>() / time;
     let squares: f64 = used.iter().map(|(g, d)| (g - value * d) * (g - value * d)).sum();
     let n = used.len() as f64;
-    let error = 1.96 * (squares * n / (n - 1.0)).sqrt() / time;
+    let error = student_quantile(used.len().max(2) - 1) * (squares * n / (n - 1.0)).sqrt() / time;
     (used.len() >= 8 && value.is_finite()).then_some(Estimate { value, error })
 }

@@ -2,7 +2,6 @@
 
 use crate::Error;
 use crate::plan::Named;
-use crate::random::Random;
 use crate::study::Study;
 use motiform_dynamics::Model;
 use motiform_models::ModelInfo;
@@ -10,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// The complete start: if any shape value is given, the others are 0; if none is, they are drawn
-/// from the study's distribution ([`Random`]; [`Random::SMALL`] if it has none) by a counter-based generator. The position is `x = y = 0`
+/// from the study's distribution ([`Study::starts`]) by a counter-based generator. The position is `x = y = 0`
 /// unless given.
 pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
     let values = study.values()?;
@@ -27,8 +26,7 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
         }
     }
     let draw = !coordinates.iter().any(|coordinate| given(coordinate.name).is_some());
-    let random =
-        study.random.unwrap_or(Random::SMALL).coordinates(info, coordinates.len(), study.run.seed, 0);
+    let random = study.starts(1)?.coordinates(info, coordinates.len(), study.run.seed, 0);
     let mut entries: Vec<(String, f64)> = Vec::new();
     for (coordinate, drawn) in coordinates.iter().zip(random) {
         let value = if draw { drawn } else { given(coordinate.name).unwrap_or(0.0) };
@@ -42,7 +40,7 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
 
 /// A guess for Newton's method in the model's representation: each coordinate uniform in `-size..size`, from this seed and stream.
 /// (Starts of
-/// orbits are those of [`Random`].)
+/// orbits are those of [`Study::starts`].)
 pub fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec<f64> {
     let mut random = Uniform::new(seed, stream);
     let coordinates: Vec<f64> = model.coordinates().iter().map(|_| size * random.draw()).collect();

@@ -33,16 +33,10 @@ impl Random {
     /// The default distribution of a single start.
     pub const SMALL: Self = Self::Within(0.01);
 
-    /// The default distribution of several starts: from a hundredth of the model's typical size to the full size.
+    /// The default distribution of several starts: from a hundredth of the typical size of a model to the full size.
     #[must_use]
-    pub fn basins(info: &ModelInfo) -> Self {
-        Self::Sizes { min: 0.01 * info.size, max: info.size }
-    }
-
-    /// The distribution of `samples` starts, where `given` is the requested one.
-    #[must_use]
-    pub fn of(given: Option<Self>, samples: u64, info: &ModelInfo) -> Self {
-        given.unwrap_or_else(|| if samples > 1 { Self::basins(info) } else { Self::SMALL })
+    pub const fn basins(size: f64) -> Self {
+        Self::Sizes { min: size / 100.0, max: size }
     }
 
     /// Reads `0.3` ([`Random::Within`]) or `0.01:1` ([`Random::Sizes`]).
@@ -90,10 +84,11 @@ impl Random {
     /// The distribution as text: `uniform within ±0.01`, `of size 0.01 to 1, log-uniform`.
     #[must_use]
     pub fn words(&self) -> String {
-        match self {
-            Self::Within(size) => format!("uniform within ±{size}"),
-            Self::Sizes { min, max } if min == max => format!("of size {min}"),
-            Self::Sizes { min, max } => format!("of size {min} to {max}, log-uniform"),
+        let short = |x: f64| if (1e-4..1e6).contains(&x) { x.to_string() } else { format!("{x:e}") };
+        match *self {
+            Self::Within(size) => format!("uniform within ±{}", short(size)),
+            Self::Sizes { min, max } if min == max => format!("of size {}", short(min)),
+            Self::Sizes { min, max } => format!("of size {} to {}, log-uniform", short(min), short(max)),
         }
     }
 

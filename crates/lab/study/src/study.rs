@@ -6,9 +6,11 @@ pub use crate::follow_settings::FollowSettings;
 use crate::input;
 use crate::random::Random;
 pub use crate::run_settings::RunSettings;
+use crate::run_settings::unit;
 use crate::scan::Axis;
 pub use crate::study_reader::schema;
 use crate::{Error, Ties, presets};
+use motiform_analysis::equilibrium::balance;
 use motiform_dynamics::Model;
 use motiform_models::registry::Display;
 use motiform_models::spelling::canonical;
@@ -191,6 +193,24 @@ impl Study {
         Ok(self.model.info()?)
     }
 
+    /// The distribution of so many random starts: the given one; otherwise one start is small ([`Random::SMALL`]), and several sample
+    /// basins ([`Random::basins`]). Of equations given as text in other units than 1 the size is twice that at which their terms
+    /// balance.
+    ///
+    /// # Errors
+    /// Values that the model rejects.
+    pub fn starts(&self, samples: u64) -> Result<Random, Error> {
+        if let Some(random) = self.random {
+            return Ok(random);
+        }
+        let (several, unit) = (samples > 1, unit(self)?);
+        if unit == 1.0 {
+            return Ok(if several { Random::basins(self.info()?.size) } else { Random::SMALL });
+        }
+        let size = one_digit(2.0 * balance(&[self.info()?.build(&self.values()?)?.as_ref()]));
+        Ok(if several { Random::basins(size) } else { Random::Within(0.01 * size) })
+    }
+
     /// All parameter values, in registry order.
     ///
     /// # Errors
@@ -288,6 +308,11 @@ impl Study {
         replace(&mut self.initial, (name, value), &order);
         Ok(())
     }
+}
+
+/// A positive number to one digit.
+fn one_digit(x: f64) -> f64 {
+    format!("{x:.0e}").parse().unwrap_or(x)
 }
 
 /// Inserts a value at the position that `order` gives its name, independent of the order of typing.

@@ -17,13 +17,37 @@ use super::svg::Svg;
 const BEYOND: f64 = 2.0;
 const SQUEEZED: f64 = 4.0;
 
+/// The stability of a part of a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stability {
+    /// Some deviation grows.
+    Unstable,
+    /// Nothing grows, and a growth rate is 0 within its error.
+    Neutral,
+    /// All deviations decay.
+    Stable,
+}
+
+impl Stability {
+    /// In the order in which they are drawn.
+    const ALL: [Self; 3] = [Self::Unstable, Self::Neutral, Self::Stable];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Unstable => "unstable",
+            Self::Neutral => "neutral",
+            Self::Stable => "stable",
+        }
+    }
+}
+
 /// A part of a branch over which neither motion nor stability changes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BranchPart {
     /// The regime, for its colour.
     pub regime: String,
-    /// `true` if it is stable.
-    pub stable: bool,
+    /// Its stability.
+    pub stability: Stability,
     /// Points in data units.
     pub points: Vec<Point>,
 }
@@ -50,7 +74,7 @@ pub struct BranchMark {
     pub at: Point,
 }
 
-/// Branches against a parameter: thick where stable, thin and dashed where not, with markers at special points.
+/// Branches against a parameter: thick where stable, thin where neutral, thin and dashed where unstable, with markers at special points.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BranchDiagram {
     /// Range of the parameter; what lies outside is cut off.
@@ -87,8 +111,11 @@ impl Marks for BranchDiagram {
     fn draw(&self, svg: &mut Svg, plane: &Plane, _: usize) {
         self.dots.iter().for_each(|dots| dots.draw(svg, plane));
         // stable parts on top of unstable ones
-        for stable in [false, true] {
-            self.parts.iter().filter(|part| part.stable == stable).for_each(|part| part.draw(svg, plane));
+        for stability in Stability::ALL {
+            self.parts
+                .iter()
+                .filter(|part| part.stability == stability)
+                .for_each(|part| part.draw(svg, plane));
         }
         for mark in &self.marks {
             if let Some(at) = plane.within(mark.at) {
@@ -100,11 +127,12 @@ impl Marks for BranchDiagram {
     fn keys(&self, _: usize) -> Vec<Entry> {
         let has = |regime: &str| self.parts.iter().any(|part| regime_mark(&part.regime).name == regime);
         let regimes = REGIMES.iter().filter(|mark| has(mark.name));
-        let mut entries: Vec<Entry> =
-            regimes.map(|mark| Entry::new(Mark::Line(paint(mark.colour, true)), mark.name)).collect();
-        for (stable, word) in [(true, "stable"), (false, "unstable")] {
-            if self.parts.iter().any(|part| part.stable == stable) {
-                entries.push(Entry::new(Mark::Line(paint(INK, stable)), word));
+        let mut entries: Vec<Entry> = regimes
+            .map(|mark| Entry::new(Mark::Line(paint(mark.colour, Stability::Stable)), mark.name))
+            .collect();
+        for stability in Stability::ALL.into_iter().rev() {
+            if self.parts.iter().any(|part| part.stability == stability) {
+                entries.push(Entry::new(Mark::Line(paint(INK, stability)), stability.name()));
             }
         }
         entries.extend(
@@ -132,7 +160,8 @@ impl Marks for BranchDiagram {
         };
         let mut rows = Vec::new();
         for (number, part) in self.parts.iter().enumerate() {
-            let (number, stable) = (number.to_string(), if part.stable { "1" } else { "0" });
+            let (number, stable) =
+                (number.to_string(), if part.stability == Stability::Stable { "1" } else { "0" });
             rows.extend(part.points.iter().map(|at| row([&number, &part.regime, stable, ""], at)));
         }
         rows.extend(self.marks.iter().map(|mark| row(["", "", "", &mark.label], &mark.at)));
@@ -144,9 +173,13 @@ impl Marks for BranchDiagram {
 }
 
 impl BranchDiagram {
-    /// The places of values within the range of the parameter: of stable motions, marks and samples, or of everything.
+    /// The places of values within the range of the parameter: of motions that are not unstable, marks and samples, or of everything.
     fn places(&self, kind: AxisKind, seen: bool) -> Option<Range> {
-        let parts = self.parts.iter().filter(|part| part.stable || !seen).flat_map(|part| &part.points);
+        let parts = self
+            .parts
+            .iter()
+            .filter(|part| part.stability != Stability::Unstable || !seen)
+            .flat_map(|part| &part.points);
         let points = parts.chain(self.dots.iter().flat_map(|dots| &dots.points));
         let points = points.chain(self.marks.iter().filter(|_| seen).map(|mark| &mark.at));
         let shown = points.filter(|p| self.x[0] <= p[0] && p[0] <= self.x[1]);
@@ -175,17 +208,21 @@ impl BranchDiagram {
 /// Dashes and gaps of unstable motions, and the sum of both.
 const DASHES: (&str, f64) = ("4 2.5", 6.5);
 
-fn paint(colour: Colour, stable: bool) -> Paint {
-    if stable { Paint::stroke(colour, 3.0) } else { Paint::stroke(colour, 1.3).dashed(DASHES.0) }
+fn paint(colour: Colour, stability: Stability) -> Paint {
+    match stability {
+        Stability::Stable => Paint::stroke(colour, 3.0),
+        Stability::Neutral => Paint::stroke(colour, 1.3),
+        Stability::Unstable => Paint::stroke(colour, 1.3).dashed(DASHES.0),
+    }
 }
 
 impl BranchPart {
     fn draw(&self, svg: &mut Svg, plane: &Plane) {
         let places: Vec<Point> = self.points.iter().filter_map(|point| plane.at(*point)).collect();
         for mut piece in clip(&places, plane.scale.frame) {
-            let mut paint = paint(regime_mark(&self.regime).colour, self.stable);
+            let mut paint = paint(regime_mark(&self.regime).colour, self.stability);
             // dashes of unstable motions that lie on each other coincide: those at rest would fill each other's gaps, and look stable
-            if !self.stable {
+            if self.stability == Stability::Unstable {
                 if piece.first().map(|from| from[0]) > piece.last().map(|to| to[0]) {
                     piece.reverse();
                 }

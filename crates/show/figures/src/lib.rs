@@ -75,7 +75,7 @@ mod track_panels;
 
 pub use animation::{Animation, Camera, Frame};
 pub use bands::{BandCurve, BandPoint};
-pub use branches::{BranchDiagram, BranchDots, BranchMark, BranchPart};
+pub use branches::{BranchDiagram, BranchDots, BranchMark, BranchPart, Stability};
 pub use chart::Chart;
 pub use curve_map::{CurveMap, CurveStyle, MapCurve, MapEnd, MapMark};
 pub use embedded::{embedded, font_rules};

@@ -12,7 +12,7 @@ use motiform_lab::live::{Record, Stretch, start};
 use motiform_lab::pool::{all_cores, on_threads};
 use motiform_lab::scan::Row;
 use motiform_study::plan::check;
-use motiform_study::{Error, Random, RunPlan};
+use motiform_study::{Error, RunPlan};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -229,7 +229,8 @@ fn begins(wish: Swarm, k: u16, setting: &Setting, state: &[f64]) -> Result<Vec<f
         SwarmStart::Starts => {
             let mut study = setting.study().clone();
             study.initial.clear();
-            study.random = Some(Random::basins(study.info()?));
+            study.random = None;
+            study.random = Some(study.starts(2)?);
             study.run.transient = 0.0;
             study.run.seed = u64::from(k) + 1;
             let random = start(&RunPlan::new(&study)?, setting.model());

@@ -126,7 +126,8 @@ fn rates(threads: usize) -> anyhow::Result<Option<[f64; 2]>> {
     let watch = Progress::new(2.0 * STARTS as f64, "motions");
     let mut rates = [0.0; 2];
     for (rate, threads) in rates.iter_mut().zip([1, threads]) {
-        let samples = Samples { count: STARTS, random: Random::basins(plan.info()?), given: false, threads };
+        let samples =
+            Samples { count: STARTS, random: Random::basins(plan.info()?.size), given: false, threads };
         let began = Instant::now();
         if samples::classify(&plan, samples, 0.0, &watch)?.is_none() {
             return Ok(None);

@@ -11,7 +11,7 @@ use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::{Axis, ScanComputation};
 use motiform_store::{Folder, Kind};
 use motiform_study::quantity::statistic::LIFE;
-use motiform_study::{Error, Random, ScanPlan, Shown, counted};
+use motiform_study::{Error, ScanPlan, Shown, counted};
 use serde::Serialize;
 use std::fmt::{Display, Formatter};
 use std::path::Path;
@@ -107,7 +107,8 @@ fn plan(options: &LifetimesOptions) -> Result<(ScanPlan, Shown), Error> {
     study.scan.samples = options.samples;
     study.scan.budget = options.until.unwrap_or(0.0);
     study.initial.clear();
-    study.random = Some(options.random.or(study.random).unwrap_or(Random::basins(study.info()?)));
+    study.random = options.random.or(study.random);
+    study.random = Some(study.starts(2)?); // those that sample basins, also of one start
     options.run.apply(&mut study.run)?;
     ties(&study, &of_scan(&study))?;
     Ok((ScanPlan::new(&study)?, options.units.of(Some(&study))?))

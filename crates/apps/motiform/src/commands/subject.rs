@@ -21,7 +21,7 @@ pub(crate) fn motion(options: &MotionOptions) -> Result<Study, Error> {
 
 /// The plan of a study for the analysis of one motion, and the samples if there are several.
 pub(crate) fn plan(mut study: Study, many: &SamplesOptions) -> Result<(RunPlan, Option<Samples>), Error> {
-    let random = Random::of(study.random, many.samples.map_or(1, u64::from), study.info()?);
+    let random = study.starts(many.samples.map_or(1, u64::from))?;
     study.random = Some(random); // the first of many is drawn like the others
     let plan = RunPlan::new(&study)?;
     let samples = samples(many, &study, random);

@@ -239,6 +239,26 @@ fn many_starts_sample_basins() {
     assert!(said.contains("of 8 starts of size 0.01 to 1, log-uniform: "), "{said}");
 }
 
+/// `r' = r (mu + r^2/L^2 - r^4/L^4)` with mu = -1/5 has rest and a cycle of radius .85 L: both are found at every unit of length L.
+#[test]
+fn random_starts_have_the_unit_of_the_equations() {
+    let folder = Folder::new();
+    for unit in ["1e-5", "1", "1e5"] {
+        let text = format!(
+            "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.parameters]\nmu = -0.2\nL = {unit}\n\
+             [model.amplitudes.equations]\nz1 = \"(mu + i)*z1 + |z1|^2*z1/L^2 - |z1|^4*z1/L^4\"\n"
+        );
+        folder.write("unit.toml", &text);
+        let found = folder.run("classify unit.toml --samples 24 --seed 3 --json").expect(0).json();
+        let names: Vec<&str> =
+            found["shares"].as_array().unwrap().iter().filter_map(|one| one["regime"].as_str()).collect();
+        assert!(
+            names.contains(&"circular") && names.contains(&"motionless") && names.len() == 2,
+            "{unit}: {names:?}"
+        );
+    }
+}
+
 /// Chaos that ends: some of a dozen starts blow up, and the answer says how many, by when, and at what rate.
 #[test]
 fn escapes_of_many_starts_are_told() {

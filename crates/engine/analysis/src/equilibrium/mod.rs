@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 pub use silent::modes;
 pub use spectrum::rounding;
 pub use uncertainty::Uncertainty;
-pub use units::{Units, prefix};
+pub use units::{Units, balance, prefix};
 
 /// A solution of `f(u) = omega G u`, with `G` the infinitesimal rotation: at rest or straight (`omega = 0`), or
 /// circular.

@@ -35,12 +35,9 @@ impl Units {
     /// it.
     #[must_use]
     pub fn among(bodies: &[&dyn Equivariant]) -> Self {
-        let rays: Vec<Vec<Vec<f64>>> = bodies.iter().map(|body| rays(*body)).collect();
-        let of_each = || bodies.iter().zip(&rays);
-        let mut sizes: Vec<f64> = of_each().flat_map(|(body, rays)| balances(*body, rays)).collect();
-        ascending(&mut sizes);
-        let length = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
-        let rates = of_each().flat_map(|(body, rays)| rays.iter().map(|ray| rate(*body, ray, length)));
+        let length = balance(bodies);
+        let rates =
+            bodies.iter().flat_map(|body| rays(*body).into_iter().map(|ray| rate(*body, &ray, length)));
         Self { length: prefix(length), rate: prefix(rates.fold(0.0, f64::max)) }
     }
 
@@ -70,6 +67,15 @@ impl Units {
     pub fn size(self, shape: f64) -> f64 {
         if shape > NOTHING * self.length { shape } else { self.length }
     }
+}
+
+/// The median of the sizes at which terms of some fields balance, along rays on which modes decay with the third power of their number;
+/// 1 where none do.
+#[must_use]
+pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
+    let mut sizes: Vec<f64> = bodies.iter().flat_map(|body| balances(*body, &rays(*body))).collect();
+    ascending(&mut sizes);
+    sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
 }
 
 /// The power of 1000 closest to a number; 1 for what is none.

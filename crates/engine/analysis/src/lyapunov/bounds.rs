@@ -1,4 +1,4 @@
-//! What the scatter of growth rates does not say of an exponent's error.
+//! The part of the error of an exponent that the scatter of growth rates does not show.
 
 use super::separation::GROWN;
 use super::{Lyapunov, means};

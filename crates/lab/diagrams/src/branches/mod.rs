@@ -37,6 +37,7 @@ pub use origin::Origin;
 pub use path::path;
 pub use reading::Reading;
 pub use result::{Branches, Followed, Leg, Link, Sample};
+pub(crate) use stretches::stability;
 pub use stretches::{is_stable, motion_between, neutral_stretches, stretches};
 pub use summary::{SpecialEntry, summary};
 pub use table::columns;

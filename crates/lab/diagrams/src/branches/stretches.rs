@@ -3,6 +3,7 @@
 use super::origin::Origin;
 use super::result::{Branches, Followed, Leg, Sample};
 use motiform_analysis::regime::Regime;
+use motiform_figures::Stability;
 
 /// Ranges of the parameter over which a branch is stable, in its order, each from the smaller to the larger value. They end at special
 /// points, or where the branch does.
@@ -94,9 +95,23 @@ pub fn motion_between(a: &Sample, b: &Sample) -> Regime {
 /// Returns `true` if a stretch between neighbours is stable: a special point itself is neither.
 #[must_use]
 pub fn is_stable(a: &Sample, b: &Sample) -> bool {
+    nothing_grows(a, b) && !is_neutral(a, b)
+}
+
+/// The stability of a stretch between neighbours, as it is drawn.
+#[must_use]
+pub(crate) fn stability(a: &Sample, b: &Sample) -> Stability {
+    match (nothing_grows(a, b), is_neutral(a, b)) {
+        (false, _) => Stability::Unstable,
+        (true, true) => Stability::Neutral,
+        (true, false) => Stability::Stable,
+    }
+}
+
+fn nothing_grows(a: &Sample, b: &Sample) -> bool {
     let known = |sample: &Sample| sample.point.special.is_none().then_some(sample.point.unstable == 0);
-    let (a_known, b_known) = (known(a), known(b));
-    a_known.or(b_known).unwrap_or(false) && b_known.or(a_known).unwrap_or(false) && !is_neutral(a, b)
+    let (a, b) = (known(a), known(b));
+    a.or(b).unwrap_or(false) && b.or(a).unwrap_or(false)
 }
 
 /// Returns `true` if a growth rate is 0 within its error on a stretch between neighbours: at both, or at the one that is no special point.

@@ -9,6 +9,7 @@ pub use escapes::{EscapeLimits, Escapes};
 use motiform_analysis::regime::{Course, Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
 use motiform_dynamics::Watch;
+use motiform_dynamics::distributions::NORMAL_95;
 use motiform_dynamics::{Outcome, StopOnly};
 use motiform_kernels::{Kernel, Row, classify_rows, exponents_of_body, has_exponents};
 use motiform_study::plan::check;
@@ -162,7 +163,7 @@ fn mean(estimates: &[Estimate]) -> Estimate {
     let own = estimates.iter().map(|estimate| estimate.error * estimate.error).sum::<f64>().sqrt() / n;
     let squares: f64 =
         estimates.iter().map(|estimate| (estimate.value - value) * (estimate.value - value)).sum();
-    let spread = if estimates.len() > 1 { 1.96 * (squares / (n - 1.0) / n).sqrt() } else { 0.0 };
+    let spread = if estimates.len() > 1 { NORMAL_95 * (squares / (n - 1.0) / n).sqrt() } else { 0.0 };
     Estimate { value, error: own.max(spread) }
 }
 
@@ -268,7 +269,7 @@ mod tests {
         let one = mean(&[estimate(1.0, 0.3), estimate(1.2, 0.4)]);
         assert!((one.value - 1.1).abs() < 1e-15 && (one.error - 0.25).abs() < 1e-15);
         let spread = mean(&[estimate(0.0, 1e-3), estimate(1.0, 1e-3)]);
-        assert!((spread.error - 1.96 * 0.5).abs() < 1e-12);
+        assert!((spread.error - NORMAL_95 * 0.5).abs() < 1e-12);
         let orbit = |value| Lyapunov {
             exponents: vec![estimate(value, 0.01)],
             widened: false,

@@ -3,7 +3,6 @@
 use super::{Control, Named, NoiseSettings, Plan, Question};
 use crate::checks::{check, check_figure, check_stability, check_start, check_steps};
 use crate::error::nearest_of;
-use crate::random::Random;
 use crate::run_settings::unit;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
@@ -126,7 +125,7 @@ impl RunPlan {
             run.escape_norm_in(1.0) > 0.0,
             "give a number above 0",
         )?;
-        study.random.unwrap_or(Random::SMALL).check()?;
+        study.starts(1)?.check()?;
         if run.max_steps == 0 {
             return Err(Error::Setting { key: "max_steps", value: "0".into(), remedy: "give at least 1" });
         }

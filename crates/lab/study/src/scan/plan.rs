@@ -129,7 +129,7 @@ impl ScanPlan {
             axes: scan.axes.clone(),
             samples: usize::try_from(scan.samples).unwrap_or(usize::MAX),
             seed: run.seed,
-            random: Random::of(study.random, scan.samples, info),
+            random: study.starts(scan.samples)?,
             initial: Named(initial),
             stepper: method.name().to_owned(),
             control: control(study, method)?,
@@ -244,7 +244,7 @@ impl ScanPlan {
 fn check_settings(study: &Study) -> Result<(), Error> {
     let (run, scan) = (&study.run, &study.scan);
     check("escape_norm", run.escape_norm_in(1.0), run.escape_norm_in(1.0) > 0.0, "give a number above 0")?;
-    study.random.unwrap_or(Random::SMALL).check()?;
+    study.starts(1)?.check()?;
     let budget = scan.budget >= 0.0 && scan.budget <= LONGEST;
     check("budget", scan.budget, budget, "give a model time above 0, at most 1e9, or 0 for the default")?;
     let counts = [("samples", scan.samples, MOST.1), ("max_steps", run.max_steps, u64::MAX)];

@@ -5,6 +5,7 @@ use super::super::context::Context;
 use super::super::fig4::figure;
 use super::chaos;
 use motiform_analysis::Estimate;
+use motiform_dynamics::distributions::student_quantile;
 use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Chart, Drawn, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
 use motiform_study::{Dataset, Error, Study};
@@ -75,7 +76,7 @@ fn mean(values: &[f64]) -> Estimate {
     let n = values.len() as f64;
     let value = values.iter().sum::<f64>() / n;
     let square = values.iter().map(|x| (x - value) * (x - value)).sum::<f64>();
-    Estimate { value, error: 1.96 * (square / (n - 1.0) / n).sqrt() }
+    Estimate { value, error: student_quantile(values.len().max(2) - 1) * (square / (n - 1.0) / n).sqrt() }
 }
 
 /// ln of the distance at a row, of all pairs that last as long.

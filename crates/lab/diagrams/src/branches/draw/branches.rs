@@ -2,8 +2,9 @@
 
 use crate::branches::family::Bodies;
 use crate::branches::result::Leg;
+use crate::branches::stability;
 use crate::branches::sweep::{SweepPoint, Sweeps};
-use crate::{Branches, Followed, Origin, Sample, is_stable, motion_between};
+use crate::{Branches, Followed, Origin, Sample, motion_between};
 use motiform_continuation::{End, Special};
 use motiform_figures::axes::AxisKind;
 use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Chart, Glyph};
@@ -268,10 +269,10 @@ fn parts(followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
             open = false;
             continue;
         };
-        let (regime, stable) = (motion_between(pair[0], pair[1]).name(), is_stable(pair[0], pair[1]));
-        match all.last_mut().filter(|last| open && last.regime == regime && last.stable == stable) {
+        let (regime, stability) = (motion_between(pair[0], pair[1]).name(), stability(pair[0], pair[1]));
+        match all.last_mut().filter(|last| open && last.regime == regime && last.stability == stability) {
             Some(last) => last.points.push(to),
-            None => all.push(BranchPart { regime: regime.to_owned(), stable, points: vec![from, to] }),
+            None => all.push(BranchPart { regime: regime.to_owned(), stability, points: vec![from, to] }),
         }
         open = true;
     }

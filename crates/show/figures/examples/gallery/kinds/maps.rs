@@ -3,7 +3,7 @@
 use super::{axis, ellipse, noise, words};
 use motiform_figures::{
     BranchDiagram, BranchDots, BranchMark, BranchPart, Cell, Chart, CurveMap, CurveStyle, ExpectedLine,
-    Glyph, LineStyle, MapCurve, MapEnd, MapInset, MapMark, MapPlace, PhaseDiagram, PlaceMap,
+    Glyph, LineStyle, MapCurve, MapEnd, MapInset, MapMark, MapPlace, PhaseDiagram, PlaceMap, Stability,
 };
 
 /// Regimes in wavy regions, two motions where they overlap.
@@ -58,7 +58,7 @@ pub(crate) fn strip(columns: usize) -> PhaseDiagram {
 pub(super) fn branches(logarithmic: bool) -> Chart {
     let part = |regime: &str, stable, from: f64, to: f64, f: fn(f64) -> f64| BranchPart {
         regime: regime.into(),
-        stable,
+        stability: if stable { Stability::Stable } else { Stability::Unstable },
         points: axis(from, to, 60).into_iter().map(|x| [x, f(x)]).collect(),
     };
     let mark = |label: &str, glyph, at| BranchMark { label: label.into(), glyph, at };
