@@ -1,5 +1,6 @@
 //! The notes on files that could be read.
 
+use motiform_store::counted;
 use serde::Serialize;
 use std::fmt;
 
@@ -154,11 +155,6 @@ impl fmt::Display for Note {
             }
         }
     }
-}
-
-/// `1 frame`, `2 frames`.
-fn counted(count: usize, one: &str) -> String {
-    if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
 }
 
 /// `frame 3`, `frames 3, 4, 5 and 20 more`.

@@ -1,6 +1,7 @@
 //! Outlines of cells over time.
 
 use crate::Note;
+use motiform_store::counted;
 use serde::Serialize;
 
 /// The unit of lengths of unknown scale.
@@ -72,7 +73,6 @@ impl Tracks {
     /// Number of cells and outlines, in words: `1 cell, 400 outlines`.
     #[must_use]
     pub fn size(&self) -> String {
-        let of = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-        format!("{}, {}", of(self.cells.len(), "cell"), of(self.outlines(), "outline"))
+        format!("{}, {}", counted(self.cells.len(), "cell"), counted(self.outlines(), "outline"))
     }
 }

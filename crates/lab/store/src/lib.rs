@@ -13,6 +13,7 @@
 #[cfg(not(feature = "formats"))]
 mod absent;
 mod audit;
+mod counted;
 mod digest;
 pub mod disk;
 mod draft;
@@ -39,6 +40,7 @@ mod target;
 #[cfg(not(feature = "formats"))]
 pub use absent::{Absent, read_fields, write_fields};
 pub use audit::Audit;
+pub use counted::counted;
 pub use digest::{sha256_file, sha256_hex};
 pub use earlier::kind_of;
 pub use error::{Error, advice};

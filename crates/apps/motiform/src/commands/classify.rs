@@ -54,7 +54,7 @@ fn advise(plan: &Plan, budget: f64, verdicts: &[Verdict]) -> anyhow::Result<()> 
     let is_spent = |verdict: &Verdict| verdict.regime == Regime::Undetermined && verdict.time >= budget;
     if verdicts.iter().any(is_spent) {
         warn(&format!(
-            "the budget of {budget:?} was spent without a name: a longer one may decide, such as --budget {:?}",
+            "the budget of {budget} was spent without a name: a longer one may decide, such as --budget {}",
             5.0 * budget
         ));
     }

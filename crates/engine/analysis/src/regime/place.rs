@@ -20,11 +20,6 @@ const FARTHEST: f64 = 0.01;
 /// Shapes that differ by less than this part of their size are one.
 const THERE: f64 = 1e-9;
 
-/// No limit to what is integrated.
-pub(super) const fn unlimited() -> f64 {
-    f64::INFINITY
-}
-
 /// The orbit that Newton's method finds from a guess, with errors of its multipliers that hold what its place adds; it integrates no more
 /// than `effort` of model time, and takes what it integrated from it.
 ///

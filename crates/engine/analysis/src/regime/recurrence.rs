@@ -3,7 +3,7 @@
 use super::family::within_family;
 use super::heteroclinic::attracting_saddle;
 use super::look::{Extreme, Look, Rest};
-use super::place::{find_placed, unlimited};
+use super::place::find_placed;
 use super::settings::Settings;
 use super::shortest::shortest;
 use crate::isotropy::Isotropy;
@@ -202,7 +202,8 @@ fn unmirrored(
     // M u = R(-axis) u, so R(angle) M u = R(angle - axis) u
     let angle = wrap(orbit.angle - axis);
     let guess = PeriodicGuess { shape: &orbit.shape, time: orbit.time, angle, mirrored: false };
-    match find_placed(body, &guess, &settings.flow(), &mut unlimited(), watch) {
+    let mut effort = f64::INFINITY;
+    match find_placed(body, &guess, &settings.flow(), &mut effort, watch) {
         Some(found) => (found, Recurrence { mirrored: false, angle, ..recurrence }),
         None => (orbit, recurrence),
     }

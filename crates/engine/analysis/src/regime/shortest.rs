@@ -1,7 +1,7 @@
 //! The shortest period of an orbit that came back after some multiple of it.
 
 use super::look::Look;
-use super::place::{find_placed, unlimited};
+use super::place::find_placed;
 use super::recurrence::Recurrence;
 use super::settings::Settings;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
@@ -60,7 +60,8 @@ fn of_fewer_returns(
                 let shorter = time < 0.75 * orbit.time || mirrored && !orbit.mirrored;
                 if near.distance < NEAR * diameter && shorter {
                     let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
-                    let found = find_placed(body, &guess, &settings.flow(), &mut unlimited(), watch)?;
+                    let mut effort = f64::INFINITY;
+                    let found = find_placed(body, &guess, &settings.flow(), &mut effort, watch)?;
                     let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
                     return found.is_stable().then_some((found, recurrence));
                 }
@@ -96,7 +97,8 @@ fn divided(
             }
             let time = orbit.time / *parts as f64;
             let guess = PeriodicGuess { shape: &orbit.shape, time, angle: near.angle, mirrored };
-            let found = find_placed(body, &guess, &settings.flow(), &mut unlimited(), watch);
+            let mut effort = f64::INFINITY;
+            let found = find_placed(body, &guess, &settings.flow(), &mut effort, watch);
             if let Some(found) = found.filter(PeriodicOrbit::is_stable) {
                 return Some((found, *parts));
             }

@@ -5,8 +5,8 @@
 use crate::common;
 
 use common::{ORDINARY, named};
-use motiform_analysis::{Attractor, Verdict};
-use motiform_dynamics::{Equivariant, Scalar, VectorField};
+use motiform_analysis::{Attractor, Settings, Verdict};
+use motiform_dynamics::{Equivariant, Scalar, StepControl, VectorField};
 use motiform_models::plain;
 use motiform_models::zoo::{Hopf, Torus};
 use std::f64::consts::TAU;
@@ -131,18 +131,23 @@ fn a_torus_has_returns_on_a_curve() {
 }
 
 /// Beyond a fold of cycles orbits all but close, with residuals below every tolerance: there is no stable cycle, however small the gap.
-/// Before it there is one, with its exact exponent.
+/// Before it there is one, with its exact exponent. Both at every tolerance, and from starts in any direction.
 #[test]
 fn beyond_a_fold_there_is_no_cycle() {
-    for gap in [1e-9, 1e-10, 1e-11, 0.0] {
-        let seen = verdict(&Fold { gap }, &[1.0, 0.0]);
-        assert_ne!(seen.attractor, Attractor::Periodic, "{gap}: {}", seen.why);
-    }
-    for gap in [-1e-4, -1e-6] {
-        let seen = verdict(&Fold { gap }, &[1.0, 0.0]);
-        assert_eq!(seen.attractor, Attractor::Periodic, "{gap}: {}", seen.why);
-        let exact = -4.0 * (0.5 + (-gap).sqrt()) * (-gap).sqrt();
-        let found = seen.exponents[1];
-        assert!((found.value - exact).abs() <= found.error.max(1e-9), "{gap}: {found:?} {exact}");
+    for (rtol, angle) in [(1e-9, 0.0), (1e-9, 2.1), (1e-7, 0.7), (1e-11, 4.0)] {
+        let control = StepControl::Adaptive { rtol, atol: 1e-3 * rtol };
+        let settings = Settings { control, ..ORDINARY };
+        let seen = |gap| named(&Fold { gap }, &[f64::cos(angle), f64::sin(angle)], &settings);
+        for gap in [1e-9, 1e-10, 1e-11, 0.0] {
+            let seen = seen(gap);
+            assert_ne!(seen.attractor, Attractor::Periodic, "{gap} {rtol}: {}", seen.why);
+        }
+        for gap in [-1e-4, -1e-6] {
+            let seen = seen(gap);
+            assert_eq!(seen.attractor, Attractor::Periodic, "{gap} {rtol}: {}", seen.why);
+            let exact = -4.0 * (0.5 + (-gap).sqrt()) * (-gap).sqrt();
+            let found = seen.exponents[1];
+            assert!((found.value - exact).abs() <= found.error.max(1e-9), "{gap} {rtol}: {found:?} {exact}");
+        }
     }
 }
