@@ -242,13 +242,13 @@ fn number(value: f64) -> Number {
     (value.signum(), value.abs().ln())
 }
 
-/// Slopes below so many times the accuracy of the solutions may be noise: towards a connection the parameter converges and the branch goes
-/// on.
+/// Slopes of orbits below so many times the accuracy of the solutions may be noise: towards a connection the parameter converges and the
+/// branch goes on.
 const LEVEL: f64 = 10.0;
 
-/// Returns `true` if the parameter hardly changes over a step.
+/// Returns `true` if the parameter of orbits hardly changes over a step.
 fn is_level<P: Problem>(problem: &P, step: &Step<'_, P::Local>) -> bool {
     let slope = step.old.slope().abs().max(step.new.slope().abs());
     let width = problem.weights(&step.old.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
-    slope < LEVEL * problem.accuracy() * width
+    problem.time().is_some() && slope < LEVEL * problem.accuracy() * width
 }

@@ -146,9 +146,9 @@ impl Problem for Equilibria<'_> {
         TIGHT * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
     }
 
-    fn unclear(&self, _levels: &[Vec<Level>], tolerance: f64) -> f64 {
+    fn unclear(&self, _levels: &[Vec<Level>], _tolerance: f64) -> f64 {
         // slow rates change by the unit of rates over the size of a shape; fast modes, whose rates are millions of it, have no part in them
-        tolerance.max(TIGHT) * self.units.rate
+        TIGHT * self.units.rate
     }
 
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special {
@@ -305,8 +305,10 @@ impl Equilibria<'_> {
         let Some(direction) = scaled(direction, &weights) else { return false };
         let row = normal(&direction, &weights);
         let last = x.len() - 1;
+        // close to nothing a part of the shape is too short to see the parameter change
+        let longer = (FAMILY[0] * self.units.length / norm(&direction[..self.dim])).max(1.0);
         FAMILY.iter().all(|distance| {
-            let guess = x.iter().zip(&direction).map(|(x, d)| x + distance * d).collect();
+            let guess = x.iter().zip(&direction).map(|(x, d)| x + distance * longer * d).collect();
             let found = correct(&free, guess, &row, TOLERANCE, &());
             found.is_ok_and(|found| (found.x[last] - x[last]).abs() < SAME_PARAMETER * self.widths[0])
         })

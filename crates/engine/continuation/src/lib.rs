@@ -30,6 +30,7 @@ mod classes;
 mod copies;
 mod correct;
 mod critical;
+mod crossings;
 mod curve;
 mod curve_steps;
 mod curve_symmetry;
@@ -73,6 +74,7 @@ mod tracer;
 mod vanishing;
 mod variation;
 mod whole_curve;
+mod zero;
 
 pub use allowance::Allowance;
 pub use branch::Branch;

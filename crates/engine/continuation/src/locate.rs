@@ -1,20 +1,18 @@
 //! Special points between two points of a branch.
 
-use super::between::{APART, Step, between};
+use super::between::{Step, between};
 use super::brackets::{BESIDE, Bracket, Test, brackets};
-use super::branch_point::branch_point;
 use super::certificate::{Certificate, Passing, TestFunction};
-use super::correct::{TIGHT, crossing, product, scaled, seen};
+use super::correct::{TIGHT, product};
+use super::crossings::{at_crossing, crosses, is_alone, keep_course, nearly_crosses, solved};
 use super::levels::Level;
 use super::normal_form::{NormalForm, asked};
 use super::place::Place;
-use super::point::Obstruction;
 use super::problem::{Failure, Problem};
 use super::special::Special;
+use super::tracer::neutral;
+use super::zero::solve;
 use motiform_dynamics::Watch;
-
-/// Most solutions on the way to a special point.
-const TRIES: usize = 60;
 
 /// The changes on a step.
 pub(super) struct Changes<L> {
@@ -50,7 +48,7 @@ pub(super) fn locate<P: Problem>(
             break;
         }
     }
-    without_folds(&mut changes.found);
+    without_folds(problem, &mut changes.found);
     name_folds(problem, &mut changes.found);
     Ok(changes)
 }
@@ -74,14 +72,20 @@ fn add<P: Problem>(
             return Ok(());
         }
     };
-    let crossing =
-        nearly_crosses(problem, &at, bracket.test).then(|| at_crossing(problem, step, &at, watch)).flatten();
+    let crossing = nearly_crosses(problem, step, &at, bracket.test)
+        .then(|| at_crossing(problem, step, (&at, bracket.test), watch))
+        .flatten();
     let at = crossing.unwrap_or(at);
     let special = kind(problem, step, &at, bracket.test);
+    // where orbits form a family for one value of the parameter a level is 0 all along, and the slope that of round-off
+    let family = problem.time().is_some() && [step.old, step.new].iter().all(|end| neutral(problem, end) > 0);
+    if family && special == Special::Fold {
+        return Ok(());
+    }
     let crosses = special == Special::BranchPoint && !is_alone(problem, &at);
     let mut at = if crosses { solved(problem, step, at, watch) } else { at };
-    if crosses && !matches!(bracket.test, Test::Slope) {
-        keep_course(problem, step, &mut at);
+    if crosses {
+        keep_course(problem, step, (bracket.test, &mut at), watch);
     }
     let certificate = certified(problem, step, bracket.test, &at, watch)
         .map(|certificate| Certificate { normal_form: normal_form(problem, &at.x, special), ..certificate });
@@ -92,51 +96,12 @@ fn add<P: Problem>(
     Ok(())
 }
 
-/// Gives a point where branches cross the tangent of this one, which the equations there do not tell from that of the other: the mean of
-/// those at both ends of the step.
-fn keep_course<P: Problem>(problem: &P, step: &Step<'_, P::Local>, at: &mut Place<P::Local>) {
-    let part = (at.arclength - step.old.arclength) / step.length;
-    let mean = step.old.tangent.iter().zip(&step.new.tangent).map(|(a, b)| a + part * (b - a)).collect();
-    if let Some(tangent) = scaled(mean, &problem.weights(&at.x)) {
-        at.tangent = tangent;
+/// The value of a test, of a level that of the critical one.
+pub(super) fn value<L>(step: &Step<'_, L>, at: &Place<L>, test: Test) -> f64 {
+    match test {
+        Test::Slope => test.of(at),
+        Test::Level(class, rank) => critical(step, at, (class, rank)).map_or(f64::NAN, |level| level.growth),
     }
-}
-
-/// Part of the step by which the equations of a branch point may move it.
-const MOVED: f64 = 0.1;
-
-/// The place where branches cross, solved for; as it is, where that fails. (For orbits the second derivatives would cost more than they
-/// bring.)
-fn solved<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    at: Place<P::Local>,
-    watch: &dyn Watch,
-) -> Place<P::Local> {
-    if problem.time().is_some() {
-        return at;
-    }
-    let weights = problem.weights(&at.x);
-    let better = || {
-        let x = branch_point(problem, &at.x, watch)?;
-        let between = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f64>>();
-        let (moved, chord) = (between(&x, &at.x), between(&step.new.x, &step.old.x));
-        let part = product(&weights, &chord, &moved) / product(&weights, &chord, &chord);
-        let arclength = at.arclength + part * step.length;
-        let local = problem.local(&x, watch).ok()?;
-        let levels = problem.levels(&x, &local)?;
-        let inside = (step.old.arclength..=step.new.arclength).contains(&arclength);
-        let near = product(&weights, &moved, &moved).sqrt() < MOVED * step.length;
-        (inside && near).then(|| Place {
-            x,
-            local,
-            levels,
-            arclength,
-            tangent: at.tangent.clone(),
-            certificate: None,
-        })
-    };
-    better().unwrap_or(at)
 }
 
 /// The evidence that a test vanishes at a place.
@@ -150,14 +115,11 @@ fn certified<P: Problem>(
     let s = at.arclength - step.old.arclength;
     let apart = if s < 0.5 * step.length { BESIDE } else { -BESIDE };
     let near = between(problem, step, s + apart * step.length, watch).ok()?;
-    let value = |place: &Place<P::Local>| match test {
-        Test::Slope => test.of(place),
-        Test::Level(class, rank) => {
-            critical(step, place, (class, rank)).map_or(f64::NAN, |level| level.growth)
-        }
+    let passing = |place: &Place<P::Local>| Passing {
+        s: place.arclength,
+        value: value(step, place, test),
+        slope: place.slope(),
     };
-    let passing =
-        |place: &Place<P::Local>| Passing { s: place.arclength, value: value(place), slope: place.slope() };
     let here = match test {
         // where branches cross the equations do not tell the tangent of this one: its slope is the mean of those on both sides
         Test::Slope if crosses(problem, at) => {
@@ -172,7 +134,10 @@ fn certified<P: Problem>(
         Test::Level(..) => (TestFunction::Growth, problem.noise(&at.levels)),
     };
     let width = problem.weights(&at.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
-    Some(Certificate::of(kind, here, passing(&near), noise, problem.accuracy().max(TIGHT) * width))
+    let found = Certificate::of(kind, here, passing(&near), noise, problem.accuracy().max(TIGHT) * width);
+    // the test changes its sign between the ends of the step
+    let far = [step.old, step.new].map(|end| (end.parameter() - at.parameter()).abs());
+    Some(Certificate { error: found.error.min(far[0].max(far[1])), ..found })
 }
 
 /// The leading coefficient of the normal form at a special point.
@@ -180,13 +145,15 @@ fn normal_form<P: Problem>(problem: &P, x: &[f64], special: Special) -> Option<N
     asked(special).map(|(order, doubled)| problem.normal_form(x, order, doubled))
 }
 
-/// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point. (Where a
-/// branch is stiff the two tests place one point at lengths that differ by far more than the solutions' accuracy.)
-fn without_folds<L>(found: &mut Vec<(Place<L>, Special)>) {
+/// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point, unless branches
+/// do cross there. (Where a branch is stiff the two tests place one point at lengths that differ by far more than the solutions' accuracy.)
+fn without_folds<P: Problem>(problem: &P, found: &mut Vec<(Place<P::Local>, Special)>) {
     let folds: Vec<f64> =
         found.iter().filter(|one| one.1 == Special::Fold).map(|one| one.0.arclength).collect();
     for fold in folds {
-        let points = found.iter().enumerate().filter(|(_, one)| one.1 == Special::BranchPoint);
+        let seems =
+            |one: &(Place<P::Local>, Special)| one.1 == Special::BranchPoint && !crosses(problem, &one.0);
+        let points = found.iter().enumerate().filter(|(_, one)| seems(one));
         let distance = |place: usize| (found[place].0.arclength - fold).abs();
         let nearest = points.map(|one| one.0).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
         if let Some(nearest) = nearest {
@@ -216,7 +183,12 @@ fn critical<L>(step: &Step<'_, L>, at: &Place<L>, (class, rank): (usize, usize))
     levels.iter().copied().min_by(|a, b| a.growth.abs().total_cmp(&b.growth.abs()))
 }
 
-fn kind<P: Problem>(problem: &P, step: &Step<'_, P::Local>, at: &Place<P::Local>, test: Test) -> Special {
+pub(super) fn kind<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    at: &Place<P::Local>,
+    test: Test,
+) -> Special {
     match test {
         // where two branches cross there are two directions; the one that turns back is not at a fold
         Test::Slope if crosses(problem, at) => Special::BranchPoint,
@@ -228,58 +200,8 @@ fn kind<P: Problem>(problem: &P, step: &Step<'_, P::Local>, at: &Place<P::Local>
     }
 }
 
-/// Returns `true` if the equations leave two directions to first order.
-fn crosses<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
-    !crossing(problem.linear(&at.local), &problem.weights(&at.x)).is_empty()
-}
-
-/// The second smallest part of the equations, and the next one: at a crossing the former vanishes, at a fold it does not.
-fn second<P: Problem>(problem: &P, at: &Place<P::Local>) -> Option<(f64, f64)> {
-    let all = seen(problem.linear(&at.local), &problem.weights(&at.x));
-    Some((all.get(1)?.0, all.get(2)?.0))
-}
-
-/// Where the second part is smaller than this part of the next one, two branches may cross nearby.
-const NEARLY: f64 = 1e-3;
-
-/// Below this part of the largest one a part of the equations is 0: where several directions are critical at once, the next one is no
-/// scale.
-const NOTHING: f64 = 1e-12;
-
-/// Returns `true` if the equations leave one direction only, and clearly so: no other branch crosses here.
-fn is_alone<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
-    let all = seen(problem.linear(&at.local), &problem.weights(&at.x));
-    let largest = all.last().map_or(0.0, |part| part.0);
-    second(problem, at).is_some_and(|(second, next)| second > NEARLY * next && second > NOTHING * largest)
-}
-
-/// Returns `true` if the place where a branch turns back may be beside a crossing. Solutions are exact to about the tolerance of the
-/// equations, but next to a crossing, at a distance s, the slope is known up to the tolerance divided by s: the place where it vanishes is
-/// off by the root of the tolerance.
-fn nearly_crosses<P: Problem>(problem: &P, at: &Place<P::Local>, test: Test) -> bool {
-    let nearly = |(second, next): (f64, f64)| second < NEARLY * next;
-    matches!(test, Test::Slope) && !crosses(problem, at) && second(problem, at).is_some_and(nearly)
-}
-
-/// The crossing near a place: there the second part of the equations vanishes, in proportion to the distance on both sides, and exactly so.
-fn at_crossing<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    near: &Place<P::Local>,
-    watch: &dyn Watch,
-) -> Option<Place<P::Local>> {
-    let mut s = near.arclength - step.old.arclength;
-    for part in [1e-2, 1e-3, 1e-5] {
-        let (from, to) = (s - part * step.length, s + part * step.length);
-        let size = |s: f64| second(problem, &between(problem, step, s, watch).ok()?).map(|pair| pair.0);
-        let (a, b) = (size(from)?, size(to)?);
-        s = from + (to - from) * a / (a + b);
-    }
-    between(problem, step, s, watch).ok().filter(|at| crosses(problem, at))
-}
-
 /// Part of a step within which points of one kind are one.
-const ONE: f64 = 1e-4;
+pub(super) const ONE: f64 = 1e-4;
 
 /// Returns `true` if another test has led to the same point. (The length at which a point lies that was solved for is that of the place
 /// from which it was.)
@@ -296,58 +218,4 @@ fn is_known<P: Problem>(
         let apart = product(&weights, &between, &between).sqrt();
         apart.min((other.arclength - at.arclength).abs()) < ONE * length
     })
-}
-
-/// Least part of the values at both ends of a bracket that is not 0.
-const VANISHING: f64 = 0.1;
-
-/// Returns `true` if a test is small on both sides of `s`. Over a gap between two branches it changes its sign without passing 0. (Next to
-/// a crossing the slope is that of round-off: then the sides tell.)
-fn vanishes_beside<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    (test, s, scale): (Test, f64, f64),
-    watch: &dyn Watch,
-) -> bool {
-    let small = |side: f64| {
-        let at = between(problem, step, s + side * APART * step.length, watch);
-        at.is_ok_and(|at| test.of(&at).abs() <= VANISHING * scale)
-    };
-    small(-1.0) && small(1.0)
-}
-
-/// The solution at which the test vanishes, by false position (the Illinois variant): every iterate is a solution of the equations.
-fn solve<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    &Bracket { test, mut low, mut high }: &Bracket,
-    watch: &dyn Watch,
-) -> Result<Place<P::Local>, Failure> {
-    let scale = low.1.abs().max(high.1.abs());
-    let (mut kept_high, mut last) = (None, f64::INFINITY);
-    for count in 1..=TRIES {
-        let false_position = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-        let s = if count % 12 == 0 { 0.5 * (low.0 + high.0) } else { false_position };
-        let at = between(problem, step, s, watch)?;
-        let value = test.of(&at);
-        if value.abs() <= 1e-12 * scale {
-            return Ok(at);
-        }
-        if (s - last).abs() <= 1e-10 * step.length {
-            let vanishes =
-                value.abs() <= VANISHING * scale || vanishes_beside(problem, step, (test, s, scale), watch);
-            return if vanishes { Ok(at) } else { Err(Failure::Obstructed(Obstruction::Newton)) };
-        }
-        last = s;
-        if value * low.1 > 0.0 {
-            low = (s, value);
-            high.1 *= if kept_high == Some(true) { 0.5 } else { 1.0 };
-            kept_high = Some(true);
-        } else {
-            high = (s, value);
-            low.1 *= if kept_high == Some(false) { 0.5 } else { 1.0 };
-            kept_high = Some(false);
-        }
-    }
-    Err(Failure::Obstructed(Obstruction::Newton))
 }

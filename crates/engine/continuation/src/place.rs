@@ -2,6 +2,7 @@
 
 use super::certificate::Certificate;
 use super::correct::{Corrected, scaled};
+use super::elimination::newton_step;
 use super::levels::Level;
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
@@ -44,8 +45,13 @@ pub(super) fn place<P: Problem>(
     row: &[f64],
     arclength: f64,
 ) -> Result<Place<P::Local>, Failure> {
-    let Corrected { x, local, direction, .. } = found;
+    let Corrected { x, mut local, mut direction, .. } = found;
     let broken = || Failure::Obstructed(Obstruction::Singular);
+    if problem.time().is_none() {
+        // close to a crossing a step that is shorter than the tolerance turns the direction
+        local = problem.local(&x, &())?;
+        direction = newton_step(problem.linear(&local), row).map_or(direction, |(_, there)| there);
+    }
     let mut tangent = scaled(direction, &problem.weights(&x)).ok_or_else(broken)?;
     if dot(row, &tangent) < 0.0 {
         tangent.iter_mut().for_each(|t| *t = -*t);

@@ -205,7 +205,11 @@ impl std::fmt::Display for Obstruction {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Newton => write!(f, "Newton's method does not converge"),
-            Self::Singular => write!(f, "the equations are singular"),
+            Self::Singular => write!(
+                f,
+                "the equations are singular in more than one direction, as where a family of motions exists for one value (has the model a \
+                 symmetry that it does not state?)"
+            ),
             Self::Flow(outcome) => write!(f, "the flow {outcome}"),
             Self::NoBody { why } => write!(f, "{why}"),
         }

@@ -5,7 +5,7 @@ use super::levels::Level;
 use super::place::{Before, Place, place};
 use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
-use super::tracer::Tracer;
+use super::tracer::{Tracer, neutral};
 use motiform_dynamics::Watch;
 use motiform_dynamics::sample::ascending;
 
@@ -53,6 +53,7 @@ impl<P: Problem> Tracer<P> {
             };
             self.step = SHORTER * length;
             if self.step < self.settings.smallest_step {
+                let why = if neutral(&self.problem, &self.place) > 0 { Obstruction::Singular } else { why };
                 return Err(End::StepUnderflow { step: length, why });
             }
         }
@@ -85,7 +86,7 @@ impl<P: Problem> Tracer<P> {
     /// Gives growths within their error the signs that they have at the present place: they change where they are clear again. (Towards a
     /// motion of more symmetry growths vanish as powers of the distance, and have the same signs beyond.)
     fn keep_unclear_signs(&self, new: &mut Place<P::Local>) {
-        // levels are those of the last but one solution of Newton's method
+        // those of orbits are levels of the last but one solution of Newton's method
         let noise = self.problem.unclear(&new.levels, self.settings.tolerance);
         for (levels, old) in new.levels.iter_mut().zip(&self.place.levels) {
             if levels.len() == old.len() {

@@ -1,10 +1,10 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
-use super::between::Step;
+use super::between::{Step, between};
 use super::certificate::TestFunction;
 use super::correct::{correct, directions, normal, scaled};
 use super::levels::{CLEAR, unstable};
-use super::locate::{Changes, locate};
+use super::locate::{Changes, ONE, locate};
 use super::periods::Periods;
 use super::place::{Before, Place, place};
 use super::point::{End, Motion, Obstruction, Point};
@@ -26,11 +26,23 @@ const RESIDUALS: f64 = 3.0;
 /// Where a step leads, its length, and what changes on it.
 type Examined<L> = (Place<L>, f64, Changes<L>);
 
-/// Where a branch began.
+/// The place at which a closed branch is seen to come back: its start, or one of its first points. (Close to where the parameter turns
+/// back, a step may pass it on both sides of the turn.)
 pub(super) struct First {
     pub(super) parameter: f64,
     pub(super) slope: f64,
     pub(super) motion: Motion,
+}
+
+/// One of so many first points takes the place of the start, if the parameter changes so many times as fast there.
+const EARLY: usize = 8;
+const STEEPER: f64 = 10.0;
+
+impl First {
+    fn of<P: Problem>(problem: &P, place: &Place<P::Local>) -> Self {
+        let motion = problem.motion(&place.x, &place.local, &place.levels);
+        Self { parameter: place.parameter(), slope: place.slope(), motion }
+    }
 }
 
 /// A branch being followed.
@@ -45,6 +57,12 @@ pub(super) struct Tracer<P: Problem> {
     pub(super) count: usize,
     end: Option<End>,
     pub(super) periods: Periods,
+}
+
+/// Number of levels that are 0 within their error.
+pub(super) fn neutral<P: Problem>(problem: &P, place: &Place<P::Local>) -> usize {
+    let error = NEUTRAL * problem.noise(&place.levels);
+    place.levels.iter().flatten().filter(|level| level.growth.abs() < error).count()
 }
 
 impl<P: Problem> Tracer<P> {
@@ -90,9 +108,8 @@ impl<P: Problem> Tracer<P> {
     }
 
     fn at(problem: P, place: Place<P::Local>, settings: &Settings) -> Self {
-        let motion = problem.motion(&place.x, &place.local, &place.levels);
         let mut tracer = Self {
-            first: First { parameter: place.parameter(), slope: place.slope(), motion },
+            first: First::of(&problem, &place),
             problem,
             settings: *settings,
             place,
@@ -180,13 +197,16 @@ impl<P: Problem> Tracer<P> {
         self.check(&new)?;
         let (new, length, mut changes) = self.examine(new, length, &mut last, watch)?;
         if let Some(end) = self.meets(length, &mut changes) {
-            self.hand_out_special(changes.found);
+            self.hand_out_special(changes.found, (&new, length), watch);
             return Err(end);
         }
         if let Some(end) = self.shrinks(&new, &changes.found) {
             return Err(end);
         }
-        self.hand_out(&new, changes);
+        self.hand_out((&new, length), changes, watch);
+        if self.count <= EARLY && new.slope().abs() > STEEPER * self.first.slope.abs() {
+            self.first = First::of(&self.problem, &new);
+        }
         let old = std::mem::replace(&mut self.place, new);
         self.before = Some(Before { x: old.x, tangent: old.tangent, levels: old.levels, length });
         last.map_or_else(|| self.ends(), Err)
@@ -217,17 +237,35 @@ impl<P: Problem> Tracer<P> {
         Ok((new, length, found))
     }
 
-    /// The special points of a step.
-    fn hand_out_special(&mut self, found: Vec<(Place<P::Local>, Special)>) {
+    /// The special points of a step to `new`, and between two of them a point that is none: it says how many deviations grow there.
+    fn hand_out_special(
+        &mut self,
+        found: Vec<(Place<P::Local>, Special)>,
+        (new, length): (&Place<P::Local>, f64),
+        watch: &dyn Watch,
+    ) {
+        let mut last = None;
         for (at, special) in found {
-            let point = self.point(&at, Some(special));
-            self.queue.push_back(point);
+            let step = Step { old: &self.place, new, before: self.before.as_ref(), length };
+            let middle = last
+                .filter(|last| at.arclength - last > ONE * length)
+                .map(|last: f64| 0.5 * (last + at.arclength) - self.place.arclength)
+                .and_then(|s| between(&self.problem, &step, s, watch).ok());
+            last = Some(at.arclength);
+            let points =
+                [middle.map(|middle| self.point(&middle, None)), Some(self.point(&at, Some(special)))];
+            self.queue.extend(points.into_iter().flatten());
         }
     }
 
     /// The points of a step.
-    fn hand_out(&mut self, new: &Place<P::Local>, changes: Changes<P::Local>) {
-        self.hand_out_special(changes.found);
+    fn hand_out(
+        &mut self,
+        (new, length): (&Place<P::Local>, f64),
+        changes: Changes<P::Local>,
+        watch: &dyn Watch,
+    ) {
+        self.hand_out_special(changes.found, (new, length), watch);
         let (from, to) = (self.place.parameter(), new.parameter());
         for seen in changes.missed {
             let point = self.point(new, Some(Special::Unresolved { seen, from, to }));
@@ -267,12 +305,6 @@ impl<P: Problem> Tracer<P> {
         place.levels.iter().flatten().filter(|level| level.growth > critical).count()
     }
 
-    /// Number of levels that are 0 within their error.
-    fn neutral(&self, place: &Place<P::Local>) -> usize {
-        let error = NEUTRAL * self.problem.noise(&place.levels);
-        place.levels.iter().flatten().filter(|level| level.growth.abs() < error).count()
-    }
-
     fn point(&self, place: &Place<P::Local>, special: Option<Special>) -> Point {
         let located = special.is_some_and(|special| !matches!(special, Special::Unresolved { .. }));
         Point {
@@ -280,7 +312,7 @@ impl<P: Problem> Tracer<P> {
             arclength: place.arclength,
             motion: self.problem.motion(&place.x, &place.local, &place.levels),
             unstable: if located { self.beside_critical(place) } else { unstable(&place.levels) },
-            neutral: if special.is_some() { 0 } else { self.neutral(place) },
+            neutral: if special.is_some() { 0 } else { neutral(&self.problem, place) },
             slope: place.slope(),
             special,
             certificate: special.and(place.certificate),

@@ -13,6 +13,9 @@ const ASIDE: [f64; 3] = [2e-3, 2e-4, 2e-5];
 /// Largest change of a shape, or of the time of an orbit, as a part of it, for which the motion beside the point is the same one.
 const SAME: f64 = 0.2;
 
+/// Two orbits are one if they agree up to this part: well above what Newton's method leaves.
+const ONE: f64 = 1e-6;
+
 /// The same motion at a value of the parameter beside that of a special point.
 ///
 /// At the point itself a critical level is 0, so that neither side of a branch that begins there shows a change: the point would be missing
@@ -53,9 +56,22 @@ fn moved(
             let wanted = (old.time, old.mirrored);
             let new = PeriodicOrbit::near(body.as_ref(), &old.shape, wanted, &settings.flow, watch)?;
             let lasts = (new.time - old.time).abs() <= SAME * old.time && new.mirrored == old.mirrored;
-            (lasts && is_near(&old.shape, &new.shape)).then_some(Start::Orbit(new))
+            let same =
+                lasts && is_near(&old.shape, &new.shape) && !is_twice(body.as_ref(), &new, settings, watch);
+            same.then_some(Start::Orbit(new))
         }
     }
+}
+
+/// Returns `true` for an orbit of half the time that is passed twice: where a period doubling is close, Newton's method may lead to it.
+fn is_twice(body: &dyn Equivariant, orbit: &PeriodicOrbit, settings: &Settings, watch: &dyn Watch) -> bool {
+    let half = (0.5 * orbit.time, orbit.mirrored);
+    let found = PeriodicOrbit::near(body, &orbit.shape, half, &settings.flow, watch);
+    found.is_some_and(|found| {
+        let mut apart = found.shape.clone();
+        add(&mut apart, -1.0, &orbit.shape);
+        norm(&apart) <= ONE * norm(&orbit.shape) && (found.time - half.0).abs() <= ONE * half.0
+    })
 }
 
 /// Returns `true` for two shapes of the same symmetry that are close to each other.

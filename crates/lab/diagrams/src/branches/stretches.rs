@@ -9,18 +9,27 @@ use motiform_figures::Stability;
 /// points, or where the branch does.
 #[must_use]
 pub fn stretches(found: &Branches, followed: &Followed) -> Vec<[f64; 2]> {
-    let Some(birth) = birth(found, followed) else {
-        let samples: Vec<&Sample> = followed.samples().collect();
-        let mut all = along(&samples);
-        if let [back, .., ahead] | [back @ ahead] = &followed.legs[..] {
-            let backwards: Vec<&Sample> = samples.iter().rev().copied().collect();
-            if followed.legs.len() > 1 {
-                to_end(&backwards, back, all.first_mut());
-            }
-            to_end(&samples, ahead, all.last_mut());
+    let samples: Vec<&Sample> = followed.samples().collect();
+    let all =
+        birth(found, followed).map_or_else(|| through(followed, &samples), |birth| from(birth, followed));
+    if followed.is_closed() { joined(&samples, all) } else { all }
+}
+
+/// Those of a branch that goes through its start.
+fn through(followed: &Followed, samples: &[&Sample]) -> Vec<[f64; 2]> {
+    let mut all = along(samples);
+    if let [back, .., ahead] | [back @ ahead] = &followed.legs[..] {
+        let backwards: Vec<&Sample> = samples.iter().rev().copied().collect();
+        if followed.legs.len() > 1 {
+            to_end(&backwards, back, all.first_mut());
         }
-        return if followed.is_closed() { joined(&samples, all) } else { all };
-    };
+        to_end(samples, ahead, all.last_mut());
+    }
+    all
+}
+
+/// Those of a branch that begins at the special point `birth`.
+fn from(birth: f64, followed: &Followed) -> Vec<[f64; 2]> {
     let leg = |leg: &Leg| {
         let samples: Vec<&Sample> = leg.samples.iter().collect();
         let mut all = along(&samples);

@@ -217,6 +217,9 @@ fn coefficient(point: &Point) -> Option<(&'static str, Coefficient)> {
     Some((name, form.coefficient()?))
 }
 
+/// Said of folds and crossings whose leading coefficient is 0 within its error.
+const VANISHES: &str = "the terms of second order vanish within their error: those of higher order decide";
+
 /// The criticality by the sign of the coefficient, or `undecided` and why. Where there is no coefficient the one branch that begins may say
 /// it, by the side to which it goes.
 fn judged(point: &Point, next: impl Fn() -> Option<&'static str>) -> (Option<&'static str>, Option<String>) {
@@ -227,7 +230,8 @@ fn judged(point: &Point, next: impl Fn() -> Option<&'static str>) -> (Option<&'s
         _ => false,
     };
     if silent {
-        return (None, None);
+        let vanishes = matches!(form, Some(NormalForm::Coefficient(found)) if found.is_negative().is_none());
+        return (vanishes.then_some("undecided"), vanishes.then(|| VANISHES.to_owned()));
     }
     let known = match form {
         Some(NormalForm::Coefficient(found) | NormalForm::Cubic(found)) => match found.is_negative() {

@@ -3,9 +3,10 @@
 use super::super::claims::claim;
 use super::super::context::Context;
 use super::fields::{C, Monomial, Z, apart, parameters, rates, state, turned};
-use super::least_squares::least_squares;
+use motiform_analysis::linear;
 use motiform_figures::report::Claim;
 use motiform_models::tensor::TensorParameters;
+use motiform_study::Error;
 use motiform_study::initial::Uniform;
 
 /// Random states of a fit, and sets of random coefficients.
@@ -15,12 +16,16 @@ const SETS: u64 = 3;
 /// The size of an absent coefficient due to round-off: the condition of the fit is about 1e3.
 const NOTHING: f64 = 1e-9;
 
-pub(super) fn claims(context: &Context<'_>) -> Vec<Claim> {
-    let fits: Vec<Fit> = (0..SETS).map(|seed| Fit::new(context, seed)).collect();
-    vec![possible(&fits), reduced(&fits), table(&fits)]
+pub(super) fn claims(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
+    let mut fits =
+        context.kept.once("fits of all monomials", || Ok((0..SETS).map(Fit::new).collect::<Vec<_>>()))?;
+    let coefficients = fits.iter_mut().flat_map(|fit| fit.coefficients.iter_mut().flatten());
+    coefficients.for_each(|c| c.re = context.number(c.re));
+    Ok(vec![possible(&fits), reduced(&fits), table(&fits)])
 }
 
 /// The rates of z1, z2, z3, computed with indices, as sums of all monomials of degree 1 to 3.
+#[derive(Clone)]
 struct Fit {
     parameters: TensorParameters,
     monomials: Vec<Monomial>,
@@ -31,7 +36,7 @@ struct Fit {
 }
 
 impl Fit {
-    fn new(context: &Context<'_>, seed: u64) -> Self {
+    fn new(seed: u64) -> Self {
         let (parameters, monomials) = (parameters(seed), Monomial::all());
         let mut random = Uniform::new(seed, 0);
         let states: Vec<Z> = (0..STATES).map(|_| state(&mut random)).collect();
@@ -45,10 +50,16 @@ impl Fit {
         let mut left: f64 = 0.0;
         let coefficients = std::array::from_fn(|n| {
             let right: Vec<f64> = states.iter().flat_map(|z| both(rates(&parameters, *z)[n])).collect();
-            let (x, rest) = least_squares(&columns, &right);
-            left = left.max(rest);
+            let x = linear::least_squares(&columns, &right).unwrap_or_else(|| vec![f64::NAN; columns.len()]);
+            let explained =
+                |row: usize| columns.iter().zip(&x).map(|(column, x)| column[row] * x).sum::<f64>();
+            left = right
+                .iter()
+                .enumerate()
+                .map(|(row, rate)| (rate - explained(row)).abs())
+                .fold(left, f64::max);
             let (real, imaginary) = x.split_at(monomials.len());
-            real.iter().zip(imaginary).map(|(re, im)| C::new(context.number(*re), *im)).collect()
+            real.iter().zip(imaginary).map(|(re, im)| C::new(*re, *im)).collect()
         });
         Self { parameters, monomials, coefficients, left }
     }

@@ -4,7 +4,6 @@ mod active;
 mod couplings;
 mod fields;
 mod gradient;
-mod least_squares;
 mod long_waves;
 mod minimal;
 mod outlines;
@@ -26,7 +25,7 @@ without it are named by the classifier.";
 
 pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
     let mut claims = outlines::claims(context);
-    claims.extend(couplings::claims(context));
+    claims.extend(couplings::claims(context)?);
     claims.extend(rotation::claims(context));
     claims.extend(tensor_motion::claims(context)?);
     context.watch.progress(0.3);
