@@ -134,6 +134,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["handed_robust_p_value"] = json!(fitted.handedness.robust_p_value);
     object["coefficients"] = coefficients(fitted);
     let name = |c: &Coefficient| format!("{}{}", if c.imaginary { "i " } else { "" }, c.name);
+    object["no_weak_form"] = json!(fitted.checks.no_weak());
     object["covariance"] = json!({
         "coefficients": model.coefficients.iter().map(name).collect::<Vec<_>>(),
         "matrix": model.covariance_of_coefficients(),

@@ -215,6 +215,9 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
     if let Some(reason) = fitted.no_intervals() {
         writeln!(text, "no intervals   {reason}")?;
     }
+    for reason in fitted.checks.no_weak() {
+        writeln!(text, "no weak form   {reason}")?;
+    }
     text += &sets(fitted)?;
     text += &ladder(fitted)?;
     let noise = &model.noise;
