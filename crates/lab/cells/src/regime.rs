@@ -140,7 +140,7 @@ pub fn regime_of(
     (count, seed): (usize, u64),
     watch: &dyn Watch,
 ) -> Result<FittedRegime> {
-    let start = start::observed(tracks, &selection.fit.scales, !whole.handed).unwrap_or_default();
+    let start = start::observed(tracks, &selection.fit.scales, !selection.fit.handed).unwrap_or_default();
     let left = time_left(tracks, &selection.fit);
     let sets = sets(tracks, whole, selection, watch)?;
     let own = Drawn { fit: &sets[0].0, values: sets[0].0.natural.coefficients.clone() };

@@ -46,8 +46,8 @@ pub(crate) fn fitted(
     let model = if handed { &handedness.fit } else { &selection.fit };
     let known = identifiability(model);
     let known_of_all = identifiability(&whole);
-    let drift = stages.get("drift", watch, |watch| match options.drift && selection.fit.converged() {
-        true => Ok(Some(drift(tracks, &selection.fit, watch)?)),
+    let drift = stages.get("drift", watch, |watch| match options.drift && model.converged() {
+        true => Ok(Some(drift(tracks, model, watch)?)),
         false => Ok(None),
     })?;
     let checks = Checks::of(tracks, model);

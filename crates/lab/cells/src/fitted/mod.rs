@@ -30,9 +30,9 @@ pub struct Fitted {
     pub handedness: Handedness,
     /// The combinations that the motion determines, among the selected terms.
     pub known: Identifiability,
-    /// The combinations that the motion determines, among all terms.
+    /// The combinations that the motion determines, among all terms of the library with real coefficients.
     pub known_of_all: Identifiability,
-    /// The same terms at other sampling intervals.
+    /// The same coefficients at other sampling intervals.
     pub drift: Option<Drift>,
     /// Another estimate of the model's coefficients, and what the model leaves unexplained.
     pub checks: Checks,
@@ -77,6 +77,16 @@ impl Fitted {
     /// `true` if real coefficients are rejected: the model then has complex ones.
     fn rejects_real(&self) -> bool {
         self.handedness.symmetry == Symmetry::Handed
+    }
+
+    /// What the data determine, and of which coefficients: of all terms, or of a handed model's own, as real coefficients of all terms
+    /// are rejected.
+    #[must_use]
+    pub fn determined(&self) -> (&Identifiability, &'static str) {
+        match self.rejects_real() {
+            true => (&self.known, "of the terms of the handed model"),
+            false => (&self.known_of_all, "of all terms"),
+        }
     }
 
     /// The symmetry of the cell: not decided where the fit is doubtful.
