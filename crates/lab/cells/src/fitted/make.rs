@@ -142,7 +142,7 @@ fn unplaced(
 ) -> Vec<String> {
     let mut reasons = doubts.to_vec();
     if regime.is_some_and(FittedRegime::is_carried) {
-        reasons.push("noise carries the displacement: without it the equations rest, and the paper's planes are about \
+        reasons.push("noise carries the displacement: without it the equations rest, or nearly, and the paper's planes are about \
          motion without noise".to_owned());
     }
     // a sampling that is too coarse is a doubt already

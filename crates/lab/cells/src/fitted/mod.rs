@@ -95,7 +95,7 @@ impl Fitted {
         if self.doubts.is_empty() { self.handedness.symmetry } else { Symmetry::Undecided }
     }
 
-    /// The motion in a word: that of the equations, [`PERSISTENT_WALK`] where these rest without their noise and the cell moves, or
+    /// The motion in a word: that of the equations, [`PERSISTENT_WALK`] where noise carries a cell that moves, or
     /// `undecided`.
     #[must_use]
     pub fn motion_name(&self) -> &'static str {
@@ -105,8 +105,7 @@ impl Fitted {
         self.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name())
     }
 
-    /// `true` if noise carries all of the displacement: the models that the data allow rest without it, while the speed exceeds its errors
-    /// of observation.
+    /// `true` if noise carries the displacement ([`FittedRegime::is_carried`]), while the speed exceeds its errors of observation.
     #[must_use]
     pub fn is_walk(&self) -> bool {
         self.doubts.is_empty() && self.regime.as_ref().is_some_and(FittedRegime::is_carried)
@@ -125,7 +124,7 @@ impl Fitted {
         } else {
             format!("the shape acts on the velocity (polar shape: {})", shape.join(", "))
         };
-        let rest = "without their noise the equations rest: noise carries the displacement, a persistent random walk";
+        let rest = "without their noise the equations rest, or keep a fifth of the mean square speed at most: noise carries the displacement, a persistent random walk";
         format!("{rest}; {acts}")
     }
 
