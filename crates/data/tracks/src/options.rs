@@ -11,10 +11,10 @@ pub struct Options {
     pub pixel_size: Option<f64>,
     /// Time between frames, in `time_unit`.
     pub interval: Option<f64>,
-    /// Unit of `pixel_size`.
-    pub length_unit: String,
-    /// Unit of `interval`.
-    pub time_unit: String,
+    /// Unit of `pixel_size`, or of lengths that the file states without a unit; um where a pixel size is given without one.
+    pub length_unit: Option<String>,
+    /// Unit of `interval`, or of times that the file states without a unit; s where an interval is given without one.
+    pub time_unit: Option<String>,
     /// Names of columns, where they differ from the usual ones.
     pub columns: Columns,
     /// Bounds of memory.
@@ -67,8 +67,8 @@ impl Default for Options {
             format: None,
             pixel_size: None,
             interval: None,
-            length_unit: "um".to_owned(),
-            time_unit: "s".to_owned(),
+            length_unit: None,
+            time_unit: None,
             columns: Columns::default(),
             limits: Limits::default(),
         }
