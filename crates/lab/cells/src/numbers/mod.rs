@@ -47,6 +47,8 @@ pub struct Numbers {
     pub stated_walk: StatedWalk,
     /// Area, perimeter, and form.
     pub forms: Forms,
+    /// The reason why displacements are not those of one cell, and there is no number of a path; `None` of a sound record.
+    pub mixed: Option<String>,
     #[serde(skip)]
     places: Places,
 }
@@ -59,13 +61,14 @@ pub fn numbers(cell: &CellTrack) -> Numbers {
     let places = Places::of(&cell.modes);
     let walk = persistent_walk(&places.pieces);
     let error = walk.as_ref().filter(|walk| walk.describes()).map(|walk| walk.error.value);
-    let seen = places.pieces.iter().map(Vec::len).sum();
-    let without = if seen < 2 { rows::without_steps(seen) } else { walk::TOO_FEW.to_owned() };
-    let (first, last) = (places.pieces.first(), places.pieces.last());
-    let ends = first.and_then(|piece| piece.first()).zip(last.and_then(|piece| piece.last()));
+    let times: Vec<f64> = cell.modes.frames.iter().filter(|one| one.is_seen()).map(|one| one.t).collect();
+    let (seen, mixed) = (times.len(), cell.modes.mixed());
+    let few = || if seen < 2 { rows::without_steps(seen) } else { walk::TOO_FEW.to_owned() };
+    let without = mixed.clone().unwrap_or_else(few);
     Numbers {
         seen,
-        span: ends.map(|(first, last)| [first.t, last.t]),
+        span: times.first().zip(times.last()).map(|(first, last)| [*first, *last]),
+        mixed,
         pieces: places.pieces.len(),
         steps: Steps::of(&places, error),
         displacement: displacement::of_cell(&places),

@@ -119,6 +119,23 @@ fn a_stage_jump_changes_nothing() {
     assert!((of(&jumped, "path") / of(&still, "path") - 1.0).abs() < 0.02);
 }
 
+/// Two walkers 60 lengths apart that take turns under one name: nothing about a path is given, and each number says why. Rows of each one
+/// alone have them all.
+#[test]
+fn a_record_of_two_cells_has_no_path() {
+    let walker = |seed| Walker { shape: Shape::Round, ..WALK }.outlines(seed);
+    let [one, mut other] = [walker(3), walker(4)];
+    other.iter_mut().flat_map(|outline| &mut outline.points).for_each(|point| point[0] += 60.0);
+    let both = one.iter().zip(&other).enumerate().map(|(k, (a, b))| if k % 2 == 0 { a } else { b }.clone());
+    let found = of(tracks(vec![both.collect()]));
+    assert!(found.steps.is_none() && found.displacement.is_empty());
+    for row in found.rows().iter().take(10) {
+        let why = row.value.reason().unwrap_or_else(|| panic!("{} is given", row.quantity.name));
+        assert!(why.contains("two cells have one name"), "{}: {why}", row.quantity.name);
+    }
+    assert!(of(tracks(vec![one])).steps.is_some());
+}
+
 /// Errors of the places are told from motion: the persistence is that of the walk, and the error is reported.
 #[test]
 fn errors_of_the_places_are_told_from_motion() {
