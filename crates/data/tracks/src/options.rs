@@ -3,7 +3,7 @@
 use crate::{Error, Format, Result};
 
 /// The settings of the reader. The default finds everything in the files and assumes no scale.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Options {
     /// The format, where the content does not decide it.
     pub format: Option<Format>,
@@ -59,20 +59,6 @@ pub struct Limits {
     pub piece: u64,
     /// Bytes of a file after decompression.
     pub file: u64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            format: None,
-            pixel_size: None,
-            interval: None,
-            length_unit: None,
-            time_unit: None,
-            columns: Columns::default(),
-            limits: Limits::default(),
-        }
-    }
 }
 
 impl Default for Limits {
