@@ -67,7 +67,9 @@ pub fn drift(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Drift> {
         start = again.as_ref().map_or(start, Fit::theta);
         let estimates = again.and_then(|again| match &again.ending {
             Ending::Converged { .. } => Ok(again.coefficients.iter().map(|c| c.estimate).collect()),
-            Ending::Stopped { reason } => Err(format!("the fit did not converge: {reason}")),
+            Ending::Stopped { reason } => {
+                Err(format!("the fit did not converge, and says nothing of the sampling: {reason}"))
+            }
         });
         points.push(DriftPoint { every, interval: interval * every as f64, estimates });
     }

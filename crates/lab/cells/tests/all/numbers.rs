@@ -6,7 +6,7 @@ use motiform_dynamics::Normal;
 use motiform_statistics::{Measured, furth};
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::synthetic::Synthetic;
-use motiform_tracks::{Outline, Tracks};
+use motiform_tracks::{Outline, Tracks, centroid};
 
 const WALK: Walker = Walker { speed: 0.6, persistence: 5.0, shape: Shape::Passive, frames: 300, noise: 0.01 };
 
@@ -299,7 +299,32 @@ fn centroids_that_shapes_move_have_a_remark() {
             .iter()
             .any(|one| one.quantity.name == "persistence" && one.why.contains("changes of the shape"))
     );
-    for other in [seen(1.0, Shape::Passive), seen(0.12, Shape::Round)] {
+    // the same walk, with the centroid at its place: it is the centre that moves beside
+    let mut sample = tracks(
+        (0..12)
+            .map(|seed| {
+                Walker { speed: 0.12, persistence: 8.0, shape: Shape::Passive, frames: 200, noise: 0.005 }
+                    .outlines(60 + seed)
+            })
+            .collect(),
+    );
+    let round = tracks(
+        (0..12)
+            .map(|seed| {
+                Walker { speed: 0.12, persistence: 8.0, shape: Shape::Round, frames: 200, noise: 0.005 }
+                    .outlines(80 + seed)
+            })
+            .collect(),
+    );
+    for (cell, path) in sample.cells.iter_mut().zip(&round.cells) {
+        for (outline, at) in cell.frames.iter_mut().zip(&path.frames) {
+            let by = [0, 1].map(|k| centroid(&at.points)[k] - centroid(&outline.points)[k]);
+            outline.points.iter_mut().for_each(|point| (0..2).for_each(|k| point[k] += by[k]));
+        }
+    }
+    let sample = Sample::of_tracks(sample, &ModeOptions::default());
+    let centred = sample.cells.iter().map(observe).collect::<Vec<Observation>>();
+    for other in [seen(1.0, Shape::Passive), seen(0.12, Shape::Round), centred] {
         assert!(other.iter().all(|one| one.numbers.remark("um").is_none()));
         assert!(
             !population_numbers(&other).withheld.iter().any(|one| one.why.contains("changes of the shape"))
