@@ -124,7 +124,8 @@ impl Fitted {
         } else {
             format!("the shape acts on the velocity (polar shape: {})", shape.join(", "))
         };
-        let rest = "without their noise the equations rest, or keep a fifth of the mean square speed at most: noise carries the displacement, a persistent random walk";
+        let rest = "without their noise the equations rest, or keep a fifth of the mean square speed at most: noise carries the \
+                    displacement, a persistent random walk";
         format!("{rest}; {acts}")
     }
 

@@ -280,7 +280,7 @@ fn the_wobble_of_the_centroid_is_that_of_the_shape() {
     assert!((found.size / square.sqrt() - 1.0).abs() < 0.02 && (0.99..1.01).contains(&found.share));
 }
 
-/// Shapes that fluctuate by themselves move the centroid: of slow walkers this makes much of the changes of velocity, and no mean persistence
+/// Shapes that fluctuate by themselves move the centroid: of slow walkers this makes much of the changes of velocity, and no persistence
 /// is given; of fast ones, and of round cells, next to none.
 #[test]
 fn centroids_that_shapes_move_have_a_remark() {
