@@ -22,7 +22,8 @@ type Outlines<'py> = Vec<(f64, PyReadonlyArray2<'py, f64>)>;
 /// Outlines to Python: number of the frame, time, vertices.
 type Drawn<'py> = Vec<(i64, f64, Bound<'py, PyArray2<f64>>)>;
 /// Scale and interval, units, format, headers of columns.
-type Asked = (Option<f64>, Option<f64>, (String, String), Option<String>, Vec<(String, String)>);
+type Asked =
+    (Option<f64>, Option<f64>, (Option<String>, Option<String>), Option<String>, Vec<(String, String)>);
 /// Units, and whether y points down.
 type About = ((String, String), Option<bool>);
 /// The fits as JSON, their coefficients as CSV, the models by the names of the cells, and what a signal or the callable raised.

@@ -14,6 +14,8 @@ pub enum Note {
     UnknownScale { file: String },
     /// The interval is unknown: times are in frames.
     UnknownInterval { file: String },
+    /// The file has values in a unit that nobody states: they count in steps (of the time between frames, in frames).
+    UnknownUnit { file: String, what: &'static str, step: Option<f64>, key: &'static str },
     /// The file says 1: the default of the program that wrote it, taken as unknown.
     ScaleOne { file: String, what: String },
     /// Areas that no cell has: the unit may be wrong.
@@ -81,6 +83,13 @@ impl fmt::Display for Note {
                 write!(
                     f,
                     "{file}: no frame interval: times are in frames; give the frame interval (interval)"
+                )
+            }
+            Self::UnknownUnit { file, what, step, key } => {
+                let apart = step.map_or_else(String::new, |step| format!(", {step} from frame to frame,"));
+                write!(
+                    f,
+                    "{file}: {what}{apart} have no unit, and are taken in frames; give the unit ({key})"
                 )
             }
             Self::ScaleOne { file, what } => {

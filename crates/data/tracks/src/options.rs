@@ -3,7 +3,7 @@
 use crate::{Error, Format, Result};
 
 /// The settings of the reader. The default finds everything in the files and assumes no scale.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Options {
     /// The format, where the content does not decide it.
     pub format: Option<Format>,
@@ -11,10 +11,10 @@ pub struct Options {
     pub pixel_size: Option<f64>,
     /// Time between frames, in `time_unit`.
     pub interval: Option<f64>,
-    /// Unit of `pixel_size`.
-    pub length_unit: String,
-    /// Unit of `interval`.
-    pub time_unit: String,
+    /// Unit of `pixel_size`, or of lengths that the file states without a unit; um where a pixel size is given without one.
+    pub length_unit: Option<String>,
+    /// Unit of `interval`, or of times that the file states without a unit; s where an interval is given without one.
+    pub time_unit: Option<String>,
     /// Names of columns, where they differ from the usual ones.
     pub columns: Columns,
     /// Bounds of memory.
@@ -59,20 +59,6 @@ pub struct Limits {
     pub piece: u64,
     /// Bytes of a file after decompression.
     pub file: u64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            format: None,
-            pixel_size: None,
-            interval: None,
-            length_unit: "um".to_owned(),
-            time_unit: "s".to_owned(),
-            columns: Columns::default(),
-            limits: Limits::default(),
-        }
-    }
 }
 
 impl Default for Limits {

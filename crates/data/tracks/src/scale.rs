@@ -39,7 +39,9 @@ struct Question<'a> {
     what: &'static str,
     key: &'static str,
     option: Option<f64>,
-    option_unit: &'a str,
+    option_unit: Option<&'a str>,
+    /// The unit of an option that is given without one.
+    usual: &'static str,
     unknown: &'static str,
     file: &'a Path,
 }
@@ -56,7 +58,8 @@ pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([U
             what: "length of a pixel",
             key: "pixel_size",
             option: options.pixel_size,
-            option_unit: &options.length_unit,
+            option_unit: options.length_unit.as_deref(),
+            usual: "um",
             unknown: PIXEL,
             file,
         },
@@ -67,7 +70,8 @@ pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([U
             what: "frame interval",
             key: "interval",
             option: options.interval,
-            option_unit: &options.time_unit,
+            option_unit: options.time_unit.as_deref(),
+            usual: "s",
             unknown: FRAME,
             file,
         },
@@ -76,7 +80,11 @@ pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([U
     let size = said.length.step.or(options.pixel_size).filter(|size| *size != 1.0 && !said.length.applied);
     let unusual = |size: &f64| length.unit == "um" && !(PIXELS[0]..=PIXELS[1]).contains(size);
     notes.extend(size.filter(unusual).map(|size| Note::UnusualPixel { file: name(), size }));
-    notes.extend((time.unit == FRAME).then(|| Note::UnknownInterval { file: name() }));
+    if time.unit == FRAME && said.time.applied && said.time.unit.is_none() {
+        notes.push(Note::UnknownUnit { file: name(), what: "times", step: said.time.step, key: "time_unit" });
+    } else {
+        notes.extend((time.unit == FRAME).then(|| Note::UnknownInterval { file: name() }));
+    }
     Ok(([length, time], notes))
 }
 
@@ -103,8 +111,14 @@ fn unset(said: &mut Scale, file: &Path) -> Option<Note> {
 }
 
 fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
-    let unit = said.unit.as_deref().map_or_else(|| question.option_unit.to_owned(), unit);
+    let stated = said.unit.is_some() || question.option_unit.is_some() || question.option.is_some();
+    let unit = said.unit.as_deref().map_or_else(|| unit_of(question), unit);
     let known = said.applied || said.step.is_some();
+    if known && !stated {
+        // a unit that nobody states is none: values count in steps
+        let factor = if said.applied { said.step.map_or(1.0, f64::recip) } else { 1.0 };
+        return Ok(Use { factor, unit: question.unknown.to_owned() });
+    }
     if !known || unit == question.unknown {
         let factor = question.option.unwrap_or(1.0);
         let unit = if question.option.is_some() { unit_of(question) } else { question.unknown.to_owned() };
@@ -121,7 +135,7 @@ fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
                 what: question.what,
                 key: question.key,
                 file_says: said.step.map_or_else(|| format!("already in {unit}"), |s| format!("{s} {unit}")),
-                option_says: format!("{option} {}", question.option_unit),
+                option_says: format!("{option} {}", question.option_unit.unwrap_or(question.usual)),
             });
         }
     }
@@ -130,7 +144,7 @@ fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
 }
 
 fn unit_of(question: &Question<'_>) -> String {
-    unit(question.option_unit)
+    unit(question.option_unit.unwrap_or(question.usual))
 }
 
 /// One spelling for each unit; others stay as they are.

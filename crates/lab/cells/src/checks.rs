@@ -15,13 +15,21 @@ pub struct Checks {
 impl Checks {
     /// The checks of a model that was fitted to these tracks.
     pub(crate) fn of(tracks: &[Track], model: &Fit) -> Self {
-        let weak = if model.handed { None } else { weak(tracks, &model.library).ok() };
+        let noise = [model.noise.eta_v.value, model.noise.eta_shape.value];
+        let weak = if model.handed { None } else { weak(tracks, &model.library, noise).ok() };
         Self { weak, innovations: whiteness(model) }
     }
 
-    /// A coefficient by the weak form, by its number in the model; `None` where the windows do not determine it.
+    /// A coefficient by the weak form, by its number in the model; `None` where [`Checks::no_weak`] says why.
     #[must_use]
     pub fn weak(&self, place: usize) -> Option<f64> {
-        self.weak.as_ref()?.coefficients.as_ref()?.get(place).copied()
+        *self.weak.as_ref()?.coefficients.get(place)?
+    }
+
+    /// The reasons of the coefficients that have no estimate by the weak form.
+    #[must_use]
+    pub fn no_weak(&self) -> Vec<String> {
+        let handed = || vec!["the model is handed, and the weak form is one of real coefficients".to_owned()];
+        self.weak.as_ref().map_or_else(handed, |weak| weak.reasons.clone())
     }
 }

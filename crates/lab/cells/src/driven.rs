@@ -11,6 +11,9 @@ use serde::{Deserialize, Serialize};
 const TIME: f64 = 100.0;
 /// A speed larger than this, in natural units, has left all bounds.
 const BOUND: f64 = 30.0;
+/// Largest upper end of a share that is next to none: noise makes at least four fifths of the mean square speed. Velocities that decay as a
+/// power of time still have some per cent after [`TIME`].
+const NONE: f64 = 0.2;
 /// Fewest models for an interval.
 const LEAST_MODELS: usize = 8;
 
@@ -40,13 +43,18 @@ impl Driven {
         Some(Self { share: at(0.5)?, interval: [at(0.025)?, at(0.975)?], models: shares.len() })
     }
 
+    /// `true` if the equations make next to nothing of the motion.
+    pub(crate) fn is_none(&self) -> bool {
+        self.interval[1] <= NONE
+    }
+
     /// In words.
     #[must_use]
     pub fn in_words(&self) -> String {
         let percent = |share: f64| format!("{:.0}", 100.0 * share);
         let [low, high] = self.interval.map(percent);
         format!(
-            "{} % of the mean square speed ({low} to {high} %) is that of the equations without noise",
+            "the mean square speed of the equations without noise is {} % ({low} to {high} %) of that with it",
             percent(self.share)
         )
     }
@@ -97,4 +105,17 @@ pub(crate) fn states(
         square <= BOUND * BOUND
     });
     whole.then_some(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Driven;
+
+    #[test]
+    fn next_to_none_is_a_fifth_at_most_with_its_interval() {
+        let share = |upper: f64| Driven { share: 0.0, interval: [0.0, upper], models: 20 };
+        assert!(share(0.19).is_none() && !share(0.21).is_none());
+        let words = Driven { share: 1.02, interval: [0.95, 1.05], models: 20 }.in_words();
+        assert!(words.ends_with("without noise is 102 % (95 to 105 %) of that with it"), "{words}");
+    }
 }

@@ -102,11 +102,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
         return bare(format!("{count}; at least {LEAST_FRAMES} are needed to name a motion"));
     }
     let Some(measures) = Measures::of(&cell.path()) else {
-        let all = cell.modes.frames.len();
-        return bare(format!(
-            "the {frames} frames that count, of {all}, are not equally spaced for long enough: gaps and frames left \
-             out leave no stretch of {LEAST_FRAMES}"
-        ));
+        return bare(measures::without(&cell.path(), cell.modes.frames.len(), &cell.units.time));
     };
     let repeats = Repeats::of(&measures);
     let (regime, why) = decide(&measures, cell, repeats.as_ref());
@@ -218,7 +214,16 @@ fn decide(m: &Measures, cell: &CellTrack, repeats: Option<&Repeats>) -> (Option<
         if let Some(why) = unsteady(m) {
             return (None, format!("{turns:.1} turns at a steady rate, but {why}"));
         }
-        let why = format!("{turns:.1} turns at a steady rate, {}, and a steady speed", rate(m, units));
+        let steady = format!("{turns:.1} turns at a steady rate, {}", rate(m, units));
+        let why = match m.drift.filter(|[speed, error]| *speed > CLEAR * error) {
+            Some([speed, error]) => format!(
+                "{steady}, each of them displaced: a circle that drifts by {} {}/{}",
+                with_error(speed, error),
+                units.length,
+                units.time
+            ),
+            None => format!("{steady}, and a steady speed"),
+        };
         return (Some(Regime::Circular), why);
     }
     match repeats {

@@ -4,6 +4,7 @@ use crate::{CellFit, Fitted, Observation};
 use motiform_analysis::Share;
 use motiform_dynamics::Normal;
 use motiform_dynamics::sample::{ascending, mean, median, quantile};
+use motiform_inference::{Coefficient, Fit};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -51,7 +52,10 @@ pub struct OverCells {
 pub struct PopulationCoefficient {
     /// The term.
     pub term: String,
-    /// Its coefficient over the cells, from the fits with all terms: no cell's value is 0 because its data did not ask for the term.
+    /// `true` if this is the imaginary part of its coefficient, as handed cells have.
+    pub imaginary: bool,
+    /// Its coefficient over the cells, from the fits with all terms: no cell's value is 0 because its data did not ask for the term. Of
+    /// handed cells, whose data reject those fits, from the models that describe them, for terms that all of these have.
     #[serde(flatten)]
     pub over: OverCells,
     /// The number of cells whose fit has the term.
@@ -68,13 +72,34 @@ pub struct FittedPopulation {
     /// The motion of the cells whose coefficients count: the most frequent name of a fit that converged with bounded coefficients; cells
     /// with other motions, or none, have other laws. `None` where no cell has a name.
     pub law: Option<&'static str>,
-    /// Cells whose coefficients count: fits with all terms that converged and leave no coefficient unbounded, of this motion and of one set
-    /// of modes.
+    /// `true` if these cells are handed; mirror-symmetric ones have another law.
+    pub handed: bool,
+    /// Cells whose coefficients count: fits with all terms (of handed cells: handed models) that converged and leave no coefficient
+    /// unbounded, of this motion and of one set of modes.
     pub fitted: usize,
     /// Coefficients over these cells.
     pub coefficients: Vec<PopulationCoefficient>,
     /// Process noise of the velocity and of the shape over these cells.
     pub noise: Option<[OverCells; 2]>,
+}
+
+impl FittedPopulation {
+    /// The fits whose coefficients are compared, in words.
+    #[must_use]
+    pub fn of_which_fits(&self) -> &'static str {
+        match self.handed {
+            true => "of the handed models, terms that all of them have",
+            false => "of the fits with all terms",
+        }
+    }
+}
+
+impl PopulationCoefficient {
+    /// The coefficient in words.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{}{}", if self.imaginary { "imaginary part of " } else { "" }, self.term)
+    }
 }
 
 /// A population of observed cells.
@@ -155,30 +180,40 @@ fn most_frequent<T: Ord>(all: impl Iterator<Item = T>) -> Option<T> {
 #[must_use]
 pub fn fitted_population(fits: &[CellFit]) -> FittedPopulation {
     let name = |fit: &CellFit| fit.fitted.as_ref().map_or(UNDECIDED, |fitted| fitted.motion_name());
-    let counts = |fitted: &&Fitted| fitted.whole.converged() && fitted.whole.is_bounded();
+    let counts = |fitted: &&Fitted| compared(fitted).converged() && compared(fitted).is_bounded();
     let sound = || fits.iter().filter_map(|fit| fit.fitted.as_deref().ok()).filter(counts);
-    let law = |fitted: &Fitted| (fitted.motion_name(), fitted.whole.library.modes);
-    let frequent = most_frequent(sound().map(law).filter(|(name, _)| *name != UNDECIDED));
+    let law = |of: &Fitted| (of.motion_name(), of.model().library.modes, of.is_handed());
+    let frequent = most_frequent(sound().map(law).filter(|(name, ..)| *name != UNDECIDED));
     let usable: Vec<&Fitted> = sound().filter(|fitted| Some(law(fitted)) == frequent).collect();
-    let terms = usable.first().map(|fitted| fitted.whole.library.names()).unwrap_or_default();
-    let coefficient = |term: String| {
-        let values: Vec<f64> =
-            usable.iter().filter_map(|of| Some(of.whole.coefficient(&term)?.estimate.value)).collect();
-        let asked_for = usable.iter().filter(|of| of.selection.fit.coefficient(&term).is_some()).count();
-        Some(PopulationCoefficient { over: over_cells(&values)?, term, asked_for })
+    let coefficient = |c: &Coefficient| {
+        let same = |other: &&Coefficient| (&other.name, other.imaginary) == (&c.name, c.imaginary);
+        let has = |fit: &Fit| fit.coefficients.iter().find(same).map(|c| c.estimate.value);
+        let values: Vec<f64> = usable.iter().filter_map(|of| has(compared(of))).collect();
+        let asked_for = usable.iter().filter(|of| has(of.model()).is_some()).count();
+        let over = over_cells(&values).filter(|over| over.cells == usable.len())?;
+        Some(PopulationCoefficient { over, term: c.name.clone(), imaginary: c.imaginary, asked_for })
     };
-    let noise =
-        |of: &dyn Fn(&Fitted) -> f64| over_cells(&usable.iter().map(|one| of(one)).collect::<Vec<_>>());
-    let velocity = noise(&|one| one.whole.noise.eta_v.value);
-    let shape = noise(&|one| one.whole.noise.eta_shape.value);
+    let noise = |of: &dyn Fn(&Fit) -> f64| {
+        over_cells(&usable.iter().map(|one| of(compared(one))).collect::<Vec<_>>())
+    };
+    let velocity = noise(&|fit| fit.noise.eta_v.value);
+    let shape = noise(&|fit| fit.noise.eta_shape.value);
+    let first = usable.first().map_or(&[][..], |fitted| &compared(fitted).coefficients);
     FittedPopulation {
         cells: fits.len(),
         regimes: shares(fits.iter().map(name)),
-        law: frequent.map(|(name, _)| name),
+        law: frequent.map(|(name, ..)| name),
+        handed: frequent.is_some_and(|(.., handed)| handed),
         fitted: usable.len(),
-        coefficients: terms.into_iter().filter_map(coefficient).collect(),
+        coefficients: first.iter().filter_map(coefficient).collect(),
         noise: velocity.zip(shape).map(|(velocity, shape)| [velocity, shape]),
     }
+}
+
+/// The fit whose coefficients are compared with those of other cells: that with all terms, in which none is 0 because the data did not ask
+/// for it; of a handed cell, whose data reject it, the model that describes the cell.
+fn compared(fitted: &Fitted) -> &Fit {
+    if fitted.is_handed() { fitted.model() } else { &fitted.whole }
 }
 
 /// Results over observed cells.

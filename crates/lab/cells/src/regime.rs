@@ -46,13 +46,13 @@ pub struct FittedRegime {
     /// it moves to the right.
     #[serde(default)]
     pub start: Vec<f64>,
-    /// See [`FittedRegime::is_carried`].
+    /// `true` if noise carries the cell, see [`FittedRegime::is_carried`].
     #[serde(default)]
     pub carried: bool,
     /// `true` if a linear rate of the best model is so slow that the record holds less than three of its e-foldings.
     #[serde(default)]
     pub slow: bool,
-    /// `true` if the best model rests without noise, and frames are further apart than its fastest rate takes: between frames the
+    /// `true` if the equations rest, or nearly, without noise, and frames are further apart than its fastest rate takes: between frames the
     /// distribution of the states then has parts that the filter, which is linear in deviations, leaves out.
     #[serde(default)]
     pub coarse: bool,
@@ -92,8 +92,9 @@ impl FittedRegime {
         })
     }
 
-    /// `true` if the models rest without their noise, although the cell moves: then the displacement is that of the noise, and the motion
-    /// is no rest.
+    /// `true` if the equations make next to nothing of the motion, although the cell moves: then the displacement is that of the noise, and
+    /// the motion is no rest. They rest without their noise, or have at most a fifth of the mean square speed (upper end of [`Driven`])
+    /// while nine of ten models rest or have no name: a velocity that decays as a power of time has none.
     #[must_use]
     pub fn is_carried(&self) -> bool {
         self.carried
@@ -140,7 +141,7 @@ pub fn regime_of(
     (count, seed): (usize, u64),
     watch: &dyn Watch,
 ) -> Result<FittedRegime> {
-    let start = start::observed(tracks, &selection.fit.scales, !whole.handed).unwrap_or_default();
+    let start = start::observed(tracks, &selection.fit.scales, !selection.fit.handed).unwrap_or_default();
     let left = time_left(tracks, &selection.fit);
     let sets = sets(tracks, whole, selection, watch)?;
     let own = Drawn { fit: &sets[0].0, values: sets[0].0.natural.coefficients.clone() };
@@ -159,12 +160,15 @@ pub fn regime_of(
         driven_share(one.fit, (&one.values, &start), seed.wrapping_add(number as u64))
     };
     let shares = models.iter().enumerate().skip(1).take(MOST_SHARES).filter_map(driven).collect();
-    let (best, (share, named)) = (tally.best(), tally.agreement());
+    let (best, (share, named), quiet) = (tally.best(), tally.agreement(), tally.is_quiet());
     let draws = tally.models();
     let counts = tally.counts();
     // the speed of a cell that rests is within its errors, and its equations are not identifiable
     let moves = selection.fit.scales.signal.first().is_some_and(|signal| *signal >= 1.0);
-    let carried = named && best == Regime::Motionless && moves;
+    let driven = Driven::of(shares);
+    let nearly = quiet && driven.as_ref().is_some_and(Driven::is_none);
+    let rests = best == Regime::Motionless;
+    let carried = moves && (nearly || named && rests);
     let regime = (named && !carried).then_some(best);
     Ok(FittedRegime {
         regime,
@@ -175,8 +179,8 @@ pub fn regime_of(
         start,
         carried,
         slow: is_slow(&selection.fit, 2.0 * left),
-        coarse: best == Regime::Motionless && moves && is_coarse(tracks, &selection.fit),
-        driven: Driven::of(shares),
+        coarse: moves && (nearly || rests) && is_coarse(tracks, &selection.fit),
+        driven,
     })
 }
 

@@ -118,7 +118,8 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["why"] = fitted.why().into();
     object["identifiable"] = fitted.is_identifiable().into();
     object["unidentified"] = json!(unidentified(fitted));
-    object["determined"] = json!(fitted.known_of_all.equations.iter().map(|of| &of.text).collect::<Vec<_>>());
+    object["determined"] =
+        json!(fitted.determined().0.equations.iter().map(|of| &of.text).collect::<Vec<_>>());
     object["handed"] = match fitted.symmetry() {
         Symmetry::Handed => true.into(),
         Symmetry::Mirror => false.into(),
@@ -133,6 +134,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["handed_beside_stretch"] = json!(fitted.beside_stretch);
     object["handed_robust_p_value"] = json!(fitted.handedness.robust_p_value);
     object["coefficients"] = coefficients(fitted);
+    object["no_weak_form"] = json!(fitted.checks.no_weak());
     let name = |c: &Coefficient| format!("{}{}", if c.imaginary { "i " } else { "" }, c.name);
     object["covariance"] = json!({
         "coefficients": model.coefficients.iter().map(name).collect::<Vec<_>>(),

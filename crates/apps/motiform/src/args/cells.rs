@@ -19,12 +19,12 @@ pub(crate) struct CellsOptions {
     /// Length of a pixel, where the file does not say it; without it lengths are in pixels
     #[arg(long, value_name = "S", value_parser = number, allow_hyphen_values = true)]
     pub(crate) pixel_size: Option<f64>,
-    /// Unit of --interval, for the results
-    #[arg(long, value_name = "UNIT", default_value = "s")]
-    pub(crate) time_unit: String,
-    /// Unit of --pixel-size, for the results
-    #[arg(long, value_name = "UNIT", default_value = "um")]
-    pub(crate) length_unit: String,
+    /// Unit of --interval, s without this option, or of times in the file whose unit it does not say
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) time_unit: Option<String>,
+    /// Unit of --pixel-size, um without this option
+    #[arg(long, value_name = "UNIT")]
+    pub(crate) length_unit: Option<String>,
     /// The format, where the content does not decide it: csv, parquet, trackmate, quimp-csv, quimp-snqp, amoepy, roi, roi-zip,
     /// wkt or masks
     #[arg(long = "input-format", alias = "format", value_name = "FORMAT", value_parser = format)]

@@ -215,6 +215,9 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
     if let Some(reason) = fitted.no_intervals() {
         writeln!(text, "no intervals   {reason}")?;
     }
+    for reason in fitted.checks.no_weak() {
+        writeln!(text, "no weak form   {reason}")?;
+    }
     text += &sets(fitted)?;
     text += &ladder(fitted)?;
     let noise = &model.noise;
@@ -236,9 +239,10 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
             "stage          a velocity of ({x}, {y}) {length}/{time} that does not turn with the cell is subtracted"
         )?;
     }
-    if fitted.known_of_all.equations.iter().any(|of| of.fixed() < of.combinations.len()) {
-        for equation in &fitted.known_of_all.equations {
-            writeln!(text, "equation of z{}  {} (of all terms)", equation.equation + 1, equation.text)?;
+    let (known, of) = fitted.determined();
+    if known.equations.iter().any(|of| of.fixed() < of.combinations.len()) {
+        for equation in &known.equations {
+            writeln!(text, "equation of z{}  {} ({of})", equation.equation + 1, equation.text)?;
         }
     }
     for (name, placement) in ["plane of Fig. 4", "plane of Fig. 1"].into_iter().zip(&fitted.places) {
@@ -264,7 +268,8 @@ fn sets(fitted: &Fitted) -> Result<String, std::fmt::Error> {
     if all > 1 {
         let not_in_all = subsets.counts().into_iter().filter(|(_, count)| *count < all);
         let words: Vec<String> = not_in_all.map(|(name, count)| format!("{name} in {count}")).collect();
-        writeln!(text, "sets of terms  {all} are as good; not in all of them: {}", words.join(", "))?;
+        let real = if fitted.model().handed { " (with real coefficients)" } else { "" };
+        writeln!(text, "sets of terms  {all} are as good{real}; not in all of them: {}", words.join(", "))?;
     }
     Ok(text)
 }

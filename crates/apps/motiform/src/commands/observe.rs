@@ -147,6 +147,9 @@ fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error
     for (reason, names) in missing {
         writeln!(text, "not given      {}: {reason}", names.join(", "))?;
     }
+    if let Some(remark) = found.numbers.remark(&units.length) {
+        writeln!(text, "centroid       {remark}")?;
+    }
     Ok(text)
 }
 

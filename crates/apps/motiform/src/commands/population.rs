@@ -39,11 +39,12 @@ pub(crate) fn fitted(
     let law = population.law.unwrap_or_default();
     writeln!(
         text,
-        "               coefficients of fits with all terms, over {} ({law}):",
+        "               coefficients {}, over {} ({law}):",
+        population.of_which_fits(),
         cells(population.fitted)
     )?;
     for coefficient in &population.coefficients {
-        line(&mut text, &coefficient.term, &coefficient.over, "")?;
+        line(&mut text, &coefficient.name(), &coefficient.over, "")?;
     }
     if let Some([velocity, shape]) = &population.noise {
         let Units { length, time, .. } = units;

@@ -68,7 +68,7 @@ class Sample:
     @staticmethod
     def read(
         paths: list[str],
-        asked: tuple[float | None, float | None, tuple[str, str], str | None, list[tuple[str, str]]],
+        asked: tuple[float | None, float | None, tuple[str | None, str | None], str | None, list[tuple[str, str]]],
     ) -> Sample: ...
     @staticmethod
     def given(

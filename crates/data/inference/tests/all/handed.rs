@@ -4,7 +4,9 @@
 
 use crate::common::{Equations, Experiment, circle, full, quasi_periodic, vertex_noise};
 use motiform_dynamics::Complex;
-use motiform_inference::{Handedness, SEEN, Settings, Symmetry, fit, handedness, identifiability, select};
+use motiform_inference::{
+    Handedness, SEEN, Settings, Symmetry, drift, fit, handedness, identifiability, select,
+};
 
 fn look(experiment: &Experiment) -> Handedness {
     let tracks = [experiment.track()];
@@ -25,6 +27,26 @@ fn handed_cell() {
     assert_eq!(found.parts[0].name, "z1: z1");
     let [low, high] = found.parts[0].estimate.interval;
     assert!((low..=high).contains(&0.15), "{low} {high}");
+}
+
+/// Coefficients at other sampling intervals are those of the model that is given, complex ones of a handed cell: they are the true ones.
+#[test]
+fn fewer_frames_of_a_handed_cell_have_its_imaginary_part() {
+    let mut experiment = Experiment::new(full(0.5, 0.1), 0.02, 5);
+    (experiment.frames, experiment.interval) = (1600, 0.25);
+    experiment.equations[0].1 = Complex::new(1.0, 0.15);
+    let found = look(&experiment);
+    let drift = drift(&[experiment.track()], &found.fit, &()).unwrap();
+    let place = drift.coefficients.iter().position(|name| name == "i z1: z1").unwrap();
+    let counted: Vec<_> = drift.points.iter().filter(|point| point.estimates.is_ok()).collect();
+    assert!(!counted.is_empty(), "{:?}", drift.points);
+    for point in counted {
+        let estimate = point.estimates.as_ref().unwrap()[place];
+        println!("every {}: {} +- {}", point.every, estimate.value, estimate.error);
+        assert!((estimate.value - 0.15).abs() < 4.0 * estimate.error && estimate.error < 0.06);
+    }
+    assert_eq!(drift.changes.len(), found.fit.coefficients.len());
+    assert!(drift.names().is_empty(), "{:?}", drift.names());
 }
 
 /// 30 mirror-symmetric cells of 200 frames: more than 3 alarms at a rate of 1 % have a probability of 2e-4.

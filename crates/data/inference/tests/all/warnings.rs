@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use crate::common::{Experiment, FULL, full};
-use motiform_inference::{Library, Observation, Settings, Track, Warning, drift, fit, warnings, whiteness};
+use motiform_inference::{
+    DriftPoint, Library, Observation, Settings, Track, Warning, drift, fit, warnings, whiteness,
+};
 
 fn settings() -> Settings {
     Settings { library: Library::tensor().select(&FULL).unwrap(), ..Settings::default() }
@@ -15,7 +17,7 @@ fn none() {
     let found = fit(&tracks, &settings(), &()).unwrap();
     let drift = drift(&tracks, &found, &()).unwrap();
     println!("{:?}", drift.changes);
-    assert_eq!(drift.points.len(), 3);
+    assert_eq!(drift.points.len(), 2);
     let found = warnings(&tracks, &found, Some(&drift)).unwrap();
     assert_eq!(found, [], "{found:?}");
 }
@@ -130,4 +132,26 @@ fn unequal_noise() {
     let count = |noises| (0..20).filter(|&seed| seen(noises, seed)).count();
     let counts = [count([0.3, 0.3]), count([0.3, 0.22])];
     assert!(counts[0] == 0 && counts[1] >= 15, "{counts:?}");
+}
+
+/// Fits of fewer frames that do not count change nothing and say why: a change of 0 would read as agreement.
+#[test]
+fn what_is_not_counted_is_no_agreement() {
+    let mut experiment = Experiment::new(full(0.5, 0.1), 0.02, 31);
+    experiment.frames = 60;
+    let tracks = [experiment.track()];
+    let found = drift(&tracks, &fit(&tracks, &Settings::default(), &()).unwrap(), &()).unwrap();
+    assert_eq!(found.changes, vec![None; 22]);
+    let why: Vec<_> = found.points.iter().map(|point| point.estimates.clone().unwrap_err()).collect();
+    assert_eq!(why[0], "30 frames are left, and 22 coefficients need 66: track longer");
+    // every fourth frame is twelve natural times apart: no law is found from there
+    (experiment.frames, experiment.interval) = (400, 3.0);
+    let tracks = [experiment.track()];
+    let found = drift(&tracks, &fit(&tracks, &settings(), &()).unwrap(), &()).unwrap();
+    println!("{:?} {:?}", found.changes, found.points);
+    let counted = found.points.iter().filter(|point| point.estimates.is_ok()).count();
+    assert!(found.changes.iter().all(|change| change.is_some() == (counted > 0)));
+    let reason =
+        |point: &DriftPoint| point.estimates.as_ref().is_err_and(|why| why.contains("did not converge"));
+    assert!(counted == 2 || found.points.iter().any(reason));
 }

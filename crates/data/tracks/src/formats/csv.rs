@@ -56,7 +56,8 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
     if given && (said.step.is_none() || said.unit.is_none() && times.repeats_frames()) {
         times.forget();
     }
-    let timed = times.apply(&mut cells, &mut notes, said.unit.is_some())?;
+    let unit = said.unit.is_some() || options.time_unit.is_some() && options.interval.is_none();
+    let timed = times.apply(&mut cells, &mut notes, unit)?;
     let time = if timed { said } else { Said::default() };
     let scale = Scale { length: table.length(), time };
     Ok(Found { cells, notes, scale, image: None })
@@ -115,8 +116,7 @@ impl Table {
         })
     }
 
-    /// The statement of the table about times: their interval where they stand for frames, and their unit,
-    /// which is that of the options where the header has none.
+    /// The statement of the table about times: their interval where they stand for frames, and their unit where the header has one.
     fn time(&self, step: Option<f64>) -> Said {
         Said { step, unit: self.unit_of_time.clone(), applied: self.time.is_some() }
     }

@@ -21,6 +21,9 @@ const SHARE: f64 = 0.75;
 /// Their least number.
 const COINCIDE: usize = 8;
 
+/// Centroids move at least so many times as far as extremes while outlines stay at a border.
+const CUT: f64 = 2.0;
+
 /// A side: its name, its axis, and the sign that makes it the greatest coordinate.
 const SIDES: [(Side, usize, f64); 4] =
     [(Side::Left, 0, -1.0), (Side::Right, 0, 1.0), (Side::LeastY, 1, -1.0), (Side::GreatestY, 1, 1.0)];
@@ -49,9 +52,10 @@ impl Borders {
     /// 1. Straight runs in at least 5 frames: see [`run`].
     /// 2. Extremes that coincide: of the outlines whose extreme lies within 5 % of the radius of that of all,
     ///    75 % and at least 8 lie in a band of 1 % (evenly spread ones: 20 %; where a path turns back: 45 %), while from frame to frame
-    ///    extremes move by more than half the band (median), and the centroids of the outlines in the band
-    ///    scatter by more than its width. A cell that moves does not stop at one line by itself; where it
-    ///    turns back, or rests, its centroid stays with its extreme.
+    ///    extremes move by more than half the band (median), and while outlines stay in the band, for 5 frames
+    ///    and more, their centroids move at least twice as far from frame to frame as their extremes (median): what is cut off changes
+    ///    and the line does not. A cell that rests takes its extreme with it; so does one that turns back, and one that comes
+    ///    back to the same places (a circle of 10 frames a turn) does not stay.
     pub(super) fn find(tracks: &Tracks) -> Self {
         let edges: Vec<Edge> = SIDES.iter().map(|&(_, axis, sign)| edge(tracks, axis, sign)).collect();
         let lines = SIDES.iter().zip(&edges).filter_map(|(&side, &edge)| line(tracks, side, edge, &edges));
@@ -99,40 +103,35 @@ fn line(tracks: &Tracks, (side, axis, sign): (Side, usize, f64), edge: Edge, edg
 
 /// The lower end of the band in which extremes coincide.
 fn coincidence(tracks: &Tracks, axis: usize, sign: f64, extreme: f64) -> Option<f64> {
-    let outlines = || tracks.cells.iter().flat_map(|cell| &cell.frames);
-    let radius = median(outlines().map(|outline| (area(&outline.points).abs() / PI).sqrt()))?;
-    let mut steps = Vec::new();
-    let mut near = Vec::new();
-    for cell in &tracks.cells {
-        let reaches: Vec<(f64, f64)> = cell
-            .frames
-            .iter()
-            .filter_map(|o| Some((reach(&o.points, axis, sign)?, centroid(&o.points)[axis])))
-            .collect();
-        steps.extend(reaches.windows(2).map(|pair| (pair[1].0 - pair[0].0).abs()));
-        near.extend(reaches.iter().copied().filter(|(reach, _)| extreme - reach <= NEAR * radius));
-    }
-    if median(steps)? <= 0.5 * BAND * radius {
+    let radius = median(outlines(tracks).map(|outline| (area(&outline.points).abs() / PI).sqrt()))?;
+    // extreme and centroid of each outline, cell by cell
+    let of = |o: &Outline| Some([reach(&o.points, axis, sign)?, centroid(&o.points)[axis]]);
+    let all: Vec<Vec<[f64; 2]>> =
+        tracks.cells.iter().map(|cell| cell.frames.iter().filter_map(of).collect()).collect();
+    let pairs = || all.iter().flat_map(|cell| cell.windows(2));
+    if median(pairs().map(|pair| (pair[1][0] - pair[0][0]).abs()))? <= 0.5 * BAND * radius {
         return None; // at rest extremes coincide by themselves
     }
-    near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let within =
-        |from: f64| near.iter().filter(move |(reach, _)| (from..=from + BAND * radius).contains(reach));
-    let (count, from) =
-        near.iter().map(|&(from, _)| (within(from).count(), from)).max_by_key(|found| found.0)?;
-    let centroids: Vec<f64> = within(from).map(|entry| entry.1).collect();
-    let moves = scatter(&centroids) > BAND * radius;
-    (count >= COINCIDE && count as f64 >= SHARE * near.len() as f64 && moves).then_some(from)
+    let reaches = all.iter().flatten().map(|at| at[0]);
+    let mut near: Vec<f64> = reaches.filter(|reach| extreme - reach <= NEAR * radius).collect();
+    near.sort_by(f64::total_cmp);
+    let within = |from: f64, reach: f64| (from..=from + BAND * radius).contains(&reach);
+    let count = |from: f64| near.iter().filter(|reach| within(from, **reach)).count();
+    let (count, from) = near.iter().map(|&from| (count(from), from)).max_by_key(|found| found.0)?;
+    if count < COINCIDE || (count as f64) < SHARE * near.len() as f64 {
+        return None;
+    }
+    let stays = all.iter().flat_map(|cell| cell.chunk_by(|a, b| within(from, a[0]) == within(from, b[0])));
+    let stays = stays.filter(|stay| stay.len() >= FRAMES && within(from, stay[0][0]));
+    let moved: Vec<[f64; 2]> = stays
+        .flat_map(|stay| stay.windows(2))
+        .map(|pair| [0, 1].map(|k| (pair[1][k] - pair[0][k]).abs()))
+        .collect();
+    let [extremes, centroids] = [0, 1].map(|k| median(moved.iter().map(|step| step[k])));
+    (centroids? > CUT * extremes?).then_some(from)
 }
 
 /// Greatest signed coordinate.
 fn reach(points: &[[f64; 2]], axis: usize, sign: f64) -> Option<f64> {
     points.iter().map(|point| sign * point[axis]).max_by(f64::total_cmp)
-}
-
-/// Standard deviation.
-fn scatter(values: &[f64]) -> f64 {
-    let count = values.len().max(1) as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    (values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / count).sqrt()
 }

@@ -116,30 +116,39 @@ pub(super) fn areas(modes: &mut [FrameModes], logs: &[Option<f64>], limit: f64) 
 
 /// The reason why a record is not that of one cell in one unit, with the first frame that shows it.
 pub(super) fn reason(modes: &[FrameModes]) -> Option<String> {
-    let flagged = |test: &dyn Fn(&Flag) -> bool| {
-        modes.iter().filter(|frame| frame.flags.iter().any(test)).map(|frame| frame.frame).collect::<Vec<_>>()
-    };
-    let elsewhere = flagged(&|flag| matches!(flag, Flag::PositionJump { .. }));
-    if elsewhere.len() > 3 && elsewhere.len() as f64 > MIXED * modes.len() as f64 {
-        return Some(format!(
-            "{} of {} frames are at another place than those around them, the first of them frame {}: two \
-            cells have one name, or the frames are too far apart to follow the cell",
-            elsewhere.len(),
-            modes.len(),
-            elsewhere[0]
-        ));
+    if let Some(reason) = mixed(modes) {
+        return Some(reason);
     }
-    if let [first, ..] = flagged(&|flag| matches!(flag, Flag::AreaStep { .. }))[..] {
+    if let [first, ..] = flagged(modes, |flag| matches!(flag, Flag::AreaStep { .. }))[..] {
         return Some(format!(
             "the area steps to another level at frame {first}: another unit, or another cell under the same \
             name; give the parts names of their own"
         ));
     }
-    let steps = flagged(&|flag| matches!(flag, Flag::PositionStep { .. }));
+    let steps = flagged(modes, |flag| matches!(flag, Flag::PositionStep { .. }));
     let first = steps.first()?;
     Some(format!(
         "the cell is at another place from frame {first} on: another cell under the same name; give the parts names of their own"
     ))
+}
+
+/// The reason why displacements from frame to frame are not those of one cell.
+pub(super) fn mixed(modes: &[FrameModes]) -> Option<String> {
+    let elsewhere = flagged(modes, |flag| matches!(flag, Flag::PositionJump { .. }));
+    (elsewhere.len() > 3 && elsewhere.len() as f64 > MIXED * modes.len() as f64).then(|| {
+        format!(
+            "{} of {} frames are at another place than those around them, the first of them frame {}: two \
+            cells have one name, or the frames are too far apart to follow the cell",
+            elsewhere.len(),
+            modes.len(),
+            elsewhere[0]
+        )
+    })
+}
+
+/// The frames with such a flag.
+fn flagged(modes: &[FrameModes], test: impl Fn(&Flag) -> bool) -> Vec<i64> {
+    modes.iter().filter(|frame| frame.flags.iter().any(&test)).map(|frame| frame.frame).collect()
 }
 
 fn distance(a: &FrameModes, b: &FrameModes) -> f64 {

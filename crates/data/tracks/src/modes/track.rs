@@ -1,7 +1,7 @@
 //! The modes of all frames of all cells.
 
 use super::border::Borders;
-use super::breaks::{displacements, reason};
+use super::breaks::{displacements, mixed, reason};
 use super::flag::Flag;
 use super::frame::{FrameModes, ModeOptions, outline_modes};
 use super::quality::{gaps, jumps, repeated};
@@ -30,6 +30,12 @@ impl CellModes {
     #[must_use]
     pub fn inconsistent(&self) -> Option<String> {
         reason(&self.frames)
+    }
+
+    /// The reason why displacements from frame to frame are not those of one cell: nothing about its path follows from this record.
+    #[must_use]
+    pub fn mixed(&self) -> Option<String> {
+        mixed(&self.frames)
     }
 
     /// Frames with modes of the radius that count.

@@ -1,6 +1,7 @@
 //! Flags: each where it belongs, and nowhere else.
 
 use crate::common::{cell, normal};
+use motiform_dynamics::Normal;
 use motiform_tracks::modes::{Crossing, Flag, ModeOptions, Side, crossing, modes, outline_modes};
 use motiform_tracks::synthetic::{Synthetic, blur, pixelated};
 use motiform_tracks::{Cell, Image, Outline, Tracks, area};
@@ -206,6 +207,56 @@ fn clipped_outlines() {
     assert!(touched.len() > 30);
     assert_eq!(found, touched);
     assert!(all[0].left_out().count() >= found.len());
+}
+
+/// Whole outlines that come back to the same places, with noise of the vertices: a circle of 10 or 15 frames a turn, from any phase, and a
+/// cell that goes for 20 frames and rests for 20. There is no border.
+#[test]
+fn places_to_which_a_cell_comes_back_are_no_border() {
+    let mut normal = Normal::new(15, 0);
+    let mut outline = |centre: [f64; 2], heading: f64| {
+        let mode = |size: f64, n: f64| [size * (n * heading).cos(), -size * (n * heading).sin()];
+        let body = Synthetic { centre, r0: 8.0, z: vec![mode(0.4, 2.0), mode(0.15, 3.0)] };
+        let mut points = body.vertices(40, 0.0);
+        points.iter_mut().flatten().for_each(|x| *x += 0.03 * normal.next());
+        points
+    };
+    for (turn, phase) in
+        [10.0, 15.0].into_iter().flat_map(|turn| (0..12).map(move |k| (turn, 0.52 * f64::from(k))))
+    {
+        let at = |k: i64| phase + std::f64::consts::TAU * k as f64 / turn;
+        let frame = |k: i64| (k, outline([6.0 * at(k).sin(), -6.0 * at(k).cos()], at(k)));
+        assert_eq!(flags(&tracks((0..100).map(frame).collect())), [], "{turn} {phase}");
+    }
+    for seed in 0..8 {
+        let (mut at, mut heading, mut random) = ([0.0, 0.0], 0.0, Normal::new(seed, 1));
+        let mut stop_and_go = Vec::new();
+        for k in 0..400 {
+            heading += if k % 40 == 0 { 2.0 * random.next() } else { 0.1 * random.next() };
+            let step = if k % 40 < 20 { 0.6 } else { 0.0 };
+            at = [at[0] + step * heading.cos(), at[1] + step * heading.sin()];
+            stop_and_go.push((k, outline(at, if step > 0.0 { heading } else { heading.round() })));
+        }
+        assert_eq!(flags(&tracks(stop_and_go)), [], "{seed}");
+    }
+}
+
+/// A disc that comes to a border again and again, and half a unit beyond it: its rounded outline has no straight run that is long enough,
+/// but its extreme stays where it is while its centroid moves.
+#[test]
+fn rounded_outlines_at_a_border_are_clipped() {
+    let top = |k: i64| 22.0 + 6.5 * (0.12 * k as f64).sin();
+    let frame = |k: i64| {
+        let disc = Synthetic { centre: [0.4 * k as f64, top(k) - 8.0], r0: 8.0, z: vec![[0.0; 2]; 2] };
+        let mut points = disc.vertices(80, 0.0);
+        for point in points.iter_mut().filter(|point| point[1] > 28.0) {
+            point[1] = 28.0 + 0.2 * (1.0 - (-10.0 * (point[1] - 28.0)).exp());
+        }
+        (k, points)
+    };
+    let found = flags(&tracks((0..220).map(frame).collect()));
+    let clipped: Vec<i64> = found.iter().filter(|flag| flag.1 == "clipped").map(|flag| flag.0).collect();
+    assert!(clipped.len() > 20 && clipped.iter().all(|&k| top(k) > 28.0), "{clipped:?}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Scale and interval: from the file, from the options, never assumed.
 
-use crate::common::{Files, csv, notes, read, read_with};
+use crate::common::{Files, cell, csv, notes, read, read_with};
 use crate::formats::{amoepy, quimp_nodes};
 use crate::trackmate::xml;
 use motiform_tracks::{FRAME, Options, PIXEL, Tracks, area};
@@ -30,6 +30,41 @@ fn options_multiply() {
     for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = read_with(csv(1), &options(Some(wrong), None)).unwrap_err().to_string();
         assert!(error.contains("pixel_size") && error.contains("above 0"), "{error}");
+    }
+}
+
+/// Times whose unit nobody states are in frames, whatever their numbers, with a note that names the remedy; with a unit, from wherever,
+/// they are themselves. The cell is the same.
+#[test]
+fn a_unit_that_nobody_states_is_none() {
+    let table = |header: &str, every: i64, framed: bool| {
+        let mut text = format!("{}{header},i,x,y\n", if framed { "frame," } else { "" });
+        for (k, (i, [x, y])) in
+            (0..6).flat_map(|k| (0..).zip(cell(k).vertices(20, 0.0)).map(move |one| (k, one)))
+        {
+            let frame = if framed { format!("{k},") } else { String::new() };
+            text += &format!("{frame}{},{i},{x},{y}\n", every * k);
+        }
+        text
+    };
+    let times = |tracks: &Tracks| tracks.cells[0].frames.iter().map(|frame| frame.t).collect::<Vec<_>>();
+    let minutes = Options { time_unit: Some("min".to_owned()), ..Options::default() };
+    for framed in [false, true] {
+        let bare = read(table("t", 3, framed)).unwrap();
+        assert_eq!((bare.time_unit.as_str(), times(&bare)), (FRAME, vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0]));
+        assert!(
+            notes(&bare).contains("times, 3 from frame to frame, have no unit")
+                && notes(&bare).contains("(time_unit)")
+        );
+        let own = vec![0.0, 3.0, 6.0, 9.0, 12.0, 15.0];
+        let header = read(table("t (min)", 3, framed)).unwrap();
+        let option = read_with(table("t", 3, framed), &minutes).unwrap();
+        for told in [header, option] {
+            assert_eq!((told.time_unit.as_str(), times(&told)), ("min", own.clone()));
+            assert!(!notes(&told).contains("no unit"));
+        }
+        let both = read_with(table("t", 3, framed), &options(None, Some(3.0))).unwrap();
+        assert_eq!((both.time_unit.as_str(), times(&both)), ("s", own));
     }
 }
 
@@ -64,7 +99,7 @@ fn parameters_beside_the_nodes() {
 fn file_and_option_must_agree() {
     let said = parameters("0.25", "1.5");
     assert!(quimp(Some(&said), &options(Some(0.25), Some(1.5))).is_ok());
-    let minutes = |interval| Options { time_unit: "min".to_owned(), ..options(None, Some(interval)) };
+    let minutes = |interval| Options { time_unit: Some("min".to_owned()), ..options(None, Some(interval)) };
     assert!(quimp(Some(&said), &minutes(0.025)).is_ok_and(|tracks| tracks.cells[0].frames[2].t == 3.0));
     assert!(quimp(Some(&said), &minutes(1.5)).is_err());
     let error = quimp(Some(&said), &options(Some(0.3), None)).unwrap_err().to_string();
@@ -73,7 +108,7 @@ fn file_and_option_must_agree() {
     assert!(error.contains("1.5 s") && error.contains("interval says 90 s"), "{error}");
     let error = read_with(amoepy(3), &options(Some(0.3), None)).unwrap_err().to_string();
     assert!(error.contains("already in um"), "{error}");
-    let minutes = Options { time_unit: "min".to_owned(), ..options(None, Some(1.5)) };
+    let minutes = Options { time_unit: Some("min".to_owned()), ..options(None, Some(1.5)) };
     assert!(read_with(amoepy(3), &minutes).unwrap_err().to_string().contains("1.5 min"));
 }
 

@@ -46,8 +46,8 @@ pub(crate) fn fitted(
     let model = if handed { &handedness.fit } else { &selection.fit };
     let known = identifiability(model);
     let known_of_all = identifiability(&whole);
-    let drift = stages.get("drift", watch, |watch| match options.drift && selection.fit.converged() {
-        true => Ok(Some(drift(tracks, &selection.fit, watch)?)),
+    let drift = stages.get("drift", watch, |watch| match options.drift && model.converged() {
+        true => Ok(Some(drift(tracks, model, watch)?)),
         false => Ok(None),
     })?;
     let checks = Checks::of(tracks, model);
@@ -142,7 +142,7 @@ fn unplaced(
 ) -> Vec<String> {
     let mut reasons = doubts.to_vec();
     if regime.is_some_and(FittedRegime::is_carried) {
-        reasons.push("noise carries the displacement: without it the equations rest, and the paper's planes are about \
+        reasons.push("noise carries the displacement: without it the equations rest, or nearly, and the paper's planes are about \
          motion without noise".to_owned());
     }
     // a sampling that is too coarse is a doubt already

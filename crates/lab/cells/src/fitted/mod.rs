@@ -30,9 +30,9 @@ pub struct Fitted {
     pub handedness: Handedness,
     /// The combinations that the motion determines, among the selected terms.
     pub known: Identifiability,
-    /// The combinations that the motion determines, among all terms.
+    /// The combinations that the motion determines, among all terms of the library with real coefficients.
     pub known_of_all: Identifiability,
-    /// The same terms at other sampling intervals.
+    /// The same coefficients at other sampling intervals.
     pub drift: Option<Drift>,
     /// Another estimate of the model's coefficients, and what the model leaves unexplained.
     pub checks: Checks,
@@ -79,13 +79,23 @@ impl Fitted {
         self.handedness.symmetry == Symmetry::Handed
     }
 
+    /// What the data determine, and of which coefficients: of all terms, or of a handed model's own, as real coefficients of all terms
+    /// are rejected.
+    #[must_use]
+    pub fn determined(&self) -> (&Identifiability, &'static str) {
+        match self.rejects_real() {
+            true => (&self.known, "of the terms of the handed model"),
+            false => (&self.known_of_all, "of all terms"),
+        }
+    }
+
     /// The symmetry of the cell: not decided where the fit is doubtful.
     #[must_use]
     pub fn symmetry(&self) -> Symmetry {
         if self.doubts.is_empty() { self.handedness.symmetry } else { Symmetry::Undecided }
     }
 
-    /// The motion in a word: that of the equations, [`PERSISTENT_WALK`] where these rest without their noise and the cell moves, or
+    /// The motion in a word: that of the equations, [`PERSISTENT_WALK`] where noise carries a cell that moves, or
     /// `undecided`.
     #[must_use]
     pub fn motion_name(&self) -> &'static str {
@@ -95,8 +105,7 @@ impl Fitted {
         self.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name())
     }
 
-    /// `true` if noise carries all of the displacement: the models that the data allow rest without it, while the speed exceeds its errors
-    /// of observation.
+    /// `true` if noise carries the displacement ([`FittedRegime::is_carried`]), while the speed exceeds its errors of observation.
     #[must_use]
     pub fn is_walk(&self) -> bool {
         self.doubts.is_empty() && self.regime.as_ref().is_some_and(FittedRegime::is_carried)
@@ -115,7 +124,8 @@ impl Fitted {
         } else {
             format!("the shape acts on the velocity (polar shape: {})", shape.join(", "))
         };
-        let rest = "without their noise the equations rest: noise carries the displacement, a persistent random walk";
+        let rest = "without their noise the equations rest, or keep a fifth of the mean square speed at most: noise carries the \
+                    displacement, a persistent random walk";
         format!("{rest}; {acts}")
     }
 

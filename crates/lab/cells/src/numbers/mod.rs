@@ -10,17 +10,19 @@ mod population;
 mod rows;
 mod steps;
 mod walk;
+mod wobble;
 
 pub use forms::{FormNumber, Forms};
 pub use population::{PopulationNumber, PopulationNumbers, Withheld, population_numbers};
 pub use rows::{Row, number_columns};
 pub use steps::Steps;
 pub use walk::{OfWalk, StatedWalk, WalkTests};
+pub use wobble::Wobble;
 
 use crate::{AtLag, CellTrack};
 use motiform_analysis::series_mean;
 use motiform_inference::{PersistentWalk, persistent_walk};
-use motiform_statistics::Measured;
+use motiform_statistics::{Measured, four_digits};
 use places::Places;
 use serde::Serialize;
 
@@ -47,6 +49,10 @@ pub struct Numbers {
     pub stated_walk: StatedWalk,
     /// Area, perimeter, and form.
     pub forms: Forms,
+    /// The centroid beside the centre of the outline; `None` where few frames have both.
+    pub wobble: Option<Wobble>,
+    /// The reason why displacements are not those of one cell, and there is no number of a path; `None` of a sound record.
+    pub mixed: Option<String>,
     #[serde(skip)]
     places: Places,
 }
@@ -59,13 +65,15 @@ pub fn numbers(cell: &CellTrack) -> Numbers {
     let places = Places::of(&cell.modes);
     let walk = persistent_walk(&places.pieces);
     let error = walk.as_ref().filter(|walk| walk.describes()).map(|walk| walk.error.value);
-    let seen = places.pieces.iter().map(Vec::len).sum();
-    let without = if seen < 2 { rows::without_steps(seen) } else { walk::TOO_FEW.to_owned() };
-    let (first, last) = (places.pieces.first(), places.pieces.last());
-    let ends = first.and_then(|piece| piece.first()).zip(last.and_then(|piece| piece.last()));
+    let times: Vec<f64> = cell.modes.frames.iter().filter(|one| one.is_seen()).map(|one| one.t).collect();
+    let (seen, mixed) = (times.len(), cell.modes.mixed());
+    let few = || if seen < 2 { rows::without_steps(seen) } else { walk::TOO_FEW.to_owned() };
+    let without = mixed.clone().unwrap_or_else(few);
     Numbers {
         seen,
-        span: ends.map(|(first, last)| [first.t, last.t]),
+        span: times.first().zip(times.last()).map(|(first, last)| [*first, *last]),
+        mixed,
+        wobble: Wobble::of(&cell.modes),
         pieces: places.pieces.len(),
         steps: Steps::of(&places, error),
         displacement: displacement::of_cell(&places),
@@ -73,6 +81,20 @@ pub fn numbers(cell: &CellTrack) -> Numbers {
         walk,
         forms: Forms::of(&cell.modes),
         places,
+    }
+}
+
+impl Numbers {
+    /// That changes of the shape move the centroid, of which speed and persistence are, in a sentence; `None` where they hardly do.
+    #[must_use]
+    pub fn remark(&self, length: &str) -> Option<String> {
+        let found = self.wobble.filter(Wobble::biases)?;
+        Some(format!(
+            "changes of the shape move the centroid by {} {length} beside the centre of the outline, which makes {:.0} % of the changes \
+             of its velocity: speeds are too large and persistence is too short for the cell as a whole; `fit` uses the centre",
+            four_digits(found.size),
+            100.0 * found.share
+        ))
     }
 }
 

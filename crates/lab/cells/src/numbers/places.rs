@@ -14,7 +14,12 @@ pub(super) struct Places {
 }
 
 impl Places {
+    /// Of a record that mixes cells there are none.
     pub(super) fn of(modes: &CellModes) -> Self {
+        let interval = interval(&modes.frames);
+        if modes.mixed().is_some() {
+            return Self { interval, pieces: Vec::new() };
+        }
         let mut pieces: Vec<Vec<Fix>> = Vec::new();
         let mut new = true;
         for frame in &modes.frames {
@@ -29,7 +34,7 @@ impl Places {
             }
             new = false;
         }
-        Self { interval: interval(&modes.frames), pieces }
+        Self { interval, pieces }
     }
 
     /// The number of intervals between two times, rounded.

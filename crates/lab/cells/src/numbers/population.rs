@@ -1,8 +1,8 @@
 //! Numbers over cells.
 
-use super::Numbers;
 use super::displacement;
 use super::places::Places;
+use super::{Numbers, Wobble};
 use crate::{AtLag, Observation, OverCells, over_cells};
 use motiform_dynamics::distributions::chi_square_tail;
 use motiform_dynamics::sample::{ascending, median};
@@ -82,6 +82,7 @@ fn withheld(found: &[Observation]) -> Vec<Withheld> {
     let refused = found.iter().filter_map(|one| one.numbers.walk.as_ref()?.misfit()).count();
     let together =
         few_left(walks.len(), refused).or_else(|| turning_together(&walks)).or_else(|| elsewhere(&cells));
+    let together = together.or_else(|| wobbling(found));
     let all = |of: fn(&PersistentWalk) -> Bounded| walks.iter().map(|walk| of(walk)).collect::<Vec<_>>();
     let numbers =
         [(&cell::PERSISTENCE, all(|walk| walk.persistence)), (&cell::DIFFUSION, all(|walk| walk.diffusion))];
@@ -112,6 +113,19 @@ fn few_left(walks: usize, refused: usize) -> Option<String> {
         format!(
             "no persistent random walk describes the path of {refused} of {} cells; the others may be those in which that does not show",
             walks + refused
+        )
+    })
+}
+
+/// The sentence that the centroids of most cells are moved by changes of their shapes, if they are.
+fn wobbling(found: &[Observation]) -> Option<String> {
+    let seen: Vec<Wobble> = found.iter().filter_map(|one| one.numbers.wobble).collect();
+    let count = seen.iter().filter(|one| one.biases()).count();
+    (2 * count > seen.len()).then(|| {
+        format!(
+            "changes of the shape move the centroids of {count} of {} cells beside the centre of the outline: the walk of the centroid is \
+             less persistent than that of the cell as a whole; `fit` uses the centre",
+            seen.len()
         )
     })
 }

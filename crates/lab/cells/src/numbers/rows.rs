@@ -94,12 +94,15 @@ impl Numbers {
             (None, Some(reason)) if self.walk.is_some() => {
                 Answer::unknown(format!("the errors of the places are not known: {reason}"))
             }
-            (None, Some(_)) if self.seen > 1 => Answer::unknown(TOO_FEW),
+            (None, Some(_)) if self.seen > 1 && self.mixed.is_none() => Answer::unknown(TOO_FEW),
             (None, _) => Answer::unknown(self.without_steps()),
         }
     }
 
     fn without_steps(&self) -> String {
+        if let Some(mixed) = &self.mixed {
+            return mixed.clone();
+        }
         match &self.steps {
             Some(steps) if steps.path == 0.0 => "every displacement is 0".to_owned(),
             _ => without_steps(self.seen),

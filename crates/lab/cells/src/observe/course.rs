@@ -1,6 +1,11 @@
-//! The course of the speed over time and direction, by blocks of the record.
+//! The course of the speed over time and direction, by blocks of the record, and that of the place, by turns of the heading.
 
 use super::measures::{BLOCKS, mean, scatter};
+use motiform_inference::Observation;
+use std::f64::consts::TAU;
+
+/// Fewest full turns that show whether a circle drifts.
+const LEAST_TURNS: usize = 4;
 
 /// Standard errors beyond which a dependence is seen.
 const CLEAR: f64 = 4.0;
@@ -34,6 +39,44 @@ pub(super) fn axis(speeds: &[f64], headings: &[f64]) -> f64 {
     let amplitude = libm::hypot(mean(re.iter().copied()), mean(im.iter().copied()));
     let error = libm::hypot(scatter(&re), scatter(&im)) / (re.len() as f64 - 1.0).sqrt();
     if amplitude > CLEAR * error { amplitude / centre } else { 0.0 }
+}
+
+/// Speed of the place to which a cell comes back after each full turn of its heading, and its error: the mean of the displacements of the
+/// turns and that of their scatter. `headings` are unwrapped, each over `lag` frames; `None` with fewer than four turns.
+pub(super) fn drift(
+    frames: &[Observation],
+    headings: &[f64],
+    (lag, turning): (usize, f64),
+    dt: f64,
+) -> Option<[f64; 2]> {
+    let turned = |k: usize| turning.signum() * (headings[k] - headings[0]);
+    // where each turn is complete, between two samples, as a place along the frames
+    let mut ends = Vec::new();
+    for k in 1..headings.len() {
+        while turned(k) >= ends.len() as f64 * TAU {
+            let part = (ends.len() as f64 * TAU - turned(k - 1)) / (turned(k) - turned(k - 1));
+            ends.push((k - 1) as f64 + part.clamp(0.0, 1.0) + 0.5 * lag as f64);
+        }
+    }
+    let count = ends.len().saturating_sub(1);
+    if count < LEAST_TURNS {
+        return None;
+    }
+    let moved = |axis: usize| -> Vec<f64> {
+        ends.windows(2).map(|pair| place(frames, pair[1])[axis] - place(frames, pair[0])[axis]).collect()
+    };
+    let [x, y] = [moved(0), moved(1)];
+    let size = libm::hypot(mean(x.iter().copied()), mean(y.iter().copied()));
+    let error = libm::hypot(scatter(&x), scatter(&y)) / (count as f64 - 1.0).sqrt();
+    let turn = (ends[count] - ends[0]) * dt / count as f64;
+    Some([size / turn, error / turn])
+}
+
+/// The place between two frames, by a straight line.
+pub(super) fn place(frames: &[Observation], at: f64) -> [f64; 2] {
+    let first = (at as usize).min(frames.len() - 2);
+    let part = at - first as f64;
+    [0, 1].map(|k| frames[first].y[k] + part * (frames[first + 1].y[k] - frames[first].y[k]))
 }
 
 /// Equal blocks of a series.

@@ -5,6 +5,7 @@ use motiform_analysis::symmetry::wrap;
 use motiform_dynamics::Normal;
 use motiform_dynamics::sample;
 use motiform_inference::{Observation, Track};
+use motiform_statistics::four_digits;
 use serde::Serialize;
 
 /// Resamples of the record.
@@ -15,6 +16,11 @@ pub(super) const BLOCKS: usize = 8;
 const CLEAR: f64 = 5.0;
 /// Fewest samples of a stretch without gaps.
 const LEAST: usize = 40;
+/// Times that differ from the usual interval by at most this part are taken as evenly spaced: speeds are wrong by as much, and a steady
+/// speed may scatter by a quarter.
+const EVEN: f64 = 0.05;
+/// The same for a frame that is no gap.
+const NO_GAP: f64 = 0.5;
 
 /// Numbers of a record (times and lengths in the units of the data).
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,6 +55,9 @@ pub struct Measures {
     pub turning_error: f64,
     /// Scatter of the turning rate between blocks, relative to its mean.
     pub turning_scatter: f64,
+    /// Velocity of the place to which a turning cell comes back after each full turn (length per time), and its error from the scatter of
+    /// the turns; `None` with fewer than four of them.
+    pub drift: Option<[f64; 2]>,
     /// Share of the time in which the heading turns by less than a quarter of what it turns by on average: of all windows in which that is
     /// an eighth of half a turn. Near 0 on a circle, more than a half on a square.
     pub straight_share: f64,
@@ -86,7 +95,11 @@ impl Measures {
     /// Of the longest stretch without gaps; `None` if it is too short.
     pub(super) fn of(track: &Track) -> Option<Self> {
         let dt = track.interval();
-        let frames = longest(&track.0, dt)?;
+        let frames = longest(&track.0, dt, EVEN);
+        if frames.len() < LEAST {
+            return None;
+        }
+        let frames = frames.to_vec();
         let lag = step(&frames);
         let moves: Vec<[f64; 2]> = frames
             .windows(lag + 1)
@@ -124,6 +137,7 @@ impl Measures {
             turning,
             turning_error: spread / (blocks.len() as f64).sqrt(),
             turning_scatter: spread / turning.abs().max(f64::MIN_POSITIVE),
+            drift: course::drift(&frames, &headings, (lag, turning), dt),
             straight_share: straight_share(&headings, turning * dt),
             heading_scatter: scatter(&headings),
             shape_scatter: shape_scatter(&frames),
@@ -167,12 +181,36 @@ impl Measures {
     }
 }
 
-/// The longest run of frames at the sampling interval.
-fn longest(frames: &[Observation], dt: f64) -> Option<Vec<Observation>> {
+/// The reason why a track has no measures: gaps, or times that are not even.
+pub(super) fn without(track: &Track, frames_of_all: usize, unit: &str) -> String {
+    let (frames, dt) = (&track.0, track.interval());
+    if longest(frames, dt, NO_GAP).len() < LEAST {
+        return format!(
+            "the {} frames that count, of {frames_of_all}, are not equally spaced for long enough: gaps and frames left \
+             out leave no stretch of {LEAST}",
+            frames.len()
+        );
+    }
+    let off = |pair: &[Observation]| ((pair[1].t - pair[0].t) / dt - 1.0).abs();
+    let uneven: Vec<f64> = frames.windows(2).map(off).filter(|off| (EVEN..=NO_GAP).contains(off)).collect();
+    format!(
+        "times are uneven: {} of {} intervals differ from the usual one, {} {unit}, by more than {:.0} %, up to {:.0} %, which leaves no \
+         even stretch of {LEAST} frames; if the camera was even and the stamps are not, give frame numbers and --interval instead of \
+         times; `fit` takes uneven times",
+        uneven.len(),
+        frames.len() - 1,
+        four_digits(dt),
+        100.0 * EVEN,
+        100.0 * uneven.iter().copied().fold(0.0, f64::max)
+    )
+}
+
+/// The longest run of frames at the sampling interval, within this part of it.
+fn longest(frames: &[Observation], dt: f64, within: f64) -> &[Observation] {
     let mut best: &[Observation] = &[];
     let mut start = 0;
     for end in 1..=frames.len() {
-        let broken = end == frames.len() || (frames[end].t - frames[end - 1].t - dt).abs() > 0.01 * dt;
+        let broken = end == frames.len() || (frames[end].t - frames[end - 1].t - dt).abs() > within * dt;
         if broken {
             if end - start > best.len() {
                 best = &frames[start..end];
@@ -180,7 +218,7 @@ fn longest(frames: &[Observation], dt: f64) -> Option<Vec<Observation>> {
             start = end;
         }
     }
-    (best.len() >= LEAST).then(|| best.to_vec())
+    best
 }
 
 /// The least number of frames over which most displacements have a clear heading; at most a twentieth of the record.

@@ -77,6 +77,16 @@ impl Tally {
         (share, agree && self.can_be_named() && self.count(self.best()) == most)
     }
 
+    /// `true` if at least [`LEAST_SHARE`] of the models that do not blow up rest or are undetermined, the best one among them, and at most
+    /// [`MOST_LOST`] of all blow up.
+    pub(super) fn is_quiet(&self) -> bool {
+        let quiet = |regime: &Regime| matches!(regime, Regime::Motionless | Regime::Undetermined);
+        let (all, lost) = (self.models(), self.count(Regime::BlowUp));
+        let count: usize = self.counts.iter().filter(|one| quiet(&one.0)).map(|one| one.1).sum();
+        let most = count as f64 >= LEAST_SHARE * (all - lost) as f64 && count > 0;
+        most && lost as f64 <= MOST_LOST * all as f64 && quiet(&self.best())
+    }
+
     fn can_be_named(&self) -> bool {
         !matches!(self.best(), Regime::Undetermined | Regime::BlowUp)
     }
@@ -100,7 +110,7 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::{LOOKS, Tally, looks};
-    use motiform_analysis::regime::Regime::{self, BlowUp, Chaotic, Undetermined, Zigzag};
+    use motiform_analysis::regime::Regime::{self, BlowUp, Chaotic, Motionless, Undetermined, Zigzag};
 
     fn tally(counts: &[(Regime, usize)], best: Regime) -> Tally {
         Tally { best: Some(best), counts: counts.to_vec() }
@@ -117,6 +127,17 @@ mod tests {
         assert_eq!(agreement(&[(Chaotic, 40)], Zigzag), (1.0, false));
         assert_eq!(agreement(&[(Undetermined, 40)], Undetermined), (1.0, false));
         assert_eq!(agreement(&[], Chaotic), (0.0, false));
+    }
+
+    /// Models that rest, or have no name, are quiet; one of ten may have another motion, and the best model none.
+    #[test]
+    fn quiet_models_rest_or_have_no_name() {
+        let quiet = |counts: &[(Regime, usize)], best| tally(counts, best).is_quiet();
+        assert!(quiet(&[(Motionless, 10), (Undetermined, 13)], Undetermined));
+        assert!(quiet(&[(Motionless, 9), (Undetermined, 9), (Zigzag, 2)], Motionless));
+        assert!(!quiet(&[(Motionless, 9), (Undetermined, 8), (Zigzag, 2)], Motionless));
+        assert!(!quiet(&[(Motionless, 20)], Zigzag));
+        assert!(!quiet(&[(Motionless, 17), (BlowUp, 3)], Motionless) && !quiet(&[], Motionless));
     }
 
     #[test]

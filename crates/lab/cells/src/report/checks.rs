@@ -6,10 +6,14 @@ use crate::report::Setting;
 use crate::report::numbers::{plain, with_error};
 use crate::report::terms::typeset;
 use motiform_dynamics::distributions::NORMAL_95;
+use motiform_figures::literal;
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart};
-use motiform_inference::{Channel, Coefficient};
+use motiform_inference::{Channel, Coefficient, DriftPoint, Estimate};
 use motiform_study::Error;
+
+/// Of a fit of fewer frames that gives no coefficients.
+const NOT_COUNTED: &str = "not counted";
 
 pub(crate) fn section(fitted: &Fitted, setting: &Setting<'_>) -> Result<Section, Error> {
     let n = fitted.model().frames as f64;
@@ -18,49 +22,52 @@ pub(crate) fn section(fitted: &Fitted, setting: &Setting<'_>) -> Result<Section,
     Ok(Section {
         title: "Checks".to_owned(),
         about: "If the model describes the cell, coefficients do not depend on the sampling interval, and innovations \
-         have variance 1 and no memory. The weak form shares nothing with the likelihood but the data: under process \
-         noise it is biased by 10 to 40 %, so only its signs and orders of magnitude count.".to_owned(),
+         have variance 1 and no memory. The weak form shares nothing with the likelihood but the data: noise biases it, so \
+         only signs and orders of magnitude of its large terms count, and equations whose rates noise makes have none.".to_owned(),
         tables: vec![intervals(fitted, &setting.units), whiteness(channels)],
         small_figures: pairs.map(|pair| memory(pair, n, setting)).collect::<Result<_, _>>()?,
         ..Section::default()
     })
 }
 
-/// Coefficients at other sampling intervals and by the weak form.
+/// The coefficients of the model at other sampling intervals and by the weak form.
 fn intervals(fitted: &Fitted, units: &Units) -> Table {
-    // Those of the mirror-symmetric fit: of it the others are made.
-    let fit = &fitted.selection.fit;
-    let drift = fitted.drift.as_ref();
-    let points = drift.map_or(&[][..], |drift| drift.points.get(1..).unwrap_or_default());
+    let points = fitted.drift.as_ref().map_or(&[][..], |drift| &drift.points);
     let mut head = vec!["term".to_owned(), "coefficient".to_owned()];
-    for point in points {
-        head.push(format!("every {} frames ({} {})", point.every, plain(point.interval), units.time));
-    }
-    if drift.is_some() {
-        head.push("largest change".to_owned());
-    }
+    let every = |point: &DriftPoint| {
+        format!("every {} frames ({} {})", point.every, plain(point.interval), units.time)
+    };
+    head.extend(points.iter().map(every));
+    head.extend((!points.is_empty()).then(|| "largest change".to_owned()));
     head.push("weak form".to_owned());
     let row = |(place, c): (usize, &Coefficient)| {
-        let mut row =
-            vec![Cell::text(typeset(&c.name)), Cell::number(with_error(c.estimate.value, c.estimate.error))];
-        for point in points {
-            let text = |e: &motiform_inference::Estimate| with_error(e.value, e.error);
-            row.push(Cell::number(point.estimates.get(place).map_or_else(String::new, text)));
-        }
-        if let Some(drift) = drift {
-            let change = drift.changes.get(place).copied().unwrap_or_default();
-            row.push(Cell::number(format!("{change:.1}")));
-        }
-        let weak = fitted.checks.weak(place); // none of a handed model
-        row.push(Cell::number(weak.map_or_else(|| "-".to_owned(), plain)));
-        row
+        let part = if c.imaginary { "imaginary part of " } else { "" };
+        let estimate = |e: &Estimate| with_error(e.value, e.error);
+        let again = points.iter().map(|point| match &point.estimates {
+            Ok(all) => all.get(place).map_or_else(String::new, estimate),
+            Err(_) => NOT_COUNTED.to_owned(),
+        });
+        let change = fitted.drift.as_ref().map(|drift| {
+            drift.changes.get(place).copied().flatten().map_or(NOT_COUNTED.to_owned(), |x| format!("{x:.1}"))
+        });
+        let weak = fitted.checks.weak(place).map_or_else(|| "-".to_owned(), plain);
+        let numbers = std::iter::once(estimate(&c.estimate)).chain(again).chain(change).chain([weak]);
+        let term = Cell::text(format!("{part}{}", typeset(&c.name)));
+        std::iter::once(term).chain(numbers.map(Cell::number)).collect()
     };
-    Table {
-        caption: "The same coefficients from fewer frames and by another method; changes in standard deviations of \
-         such a change.".to_owned(),
-        head,
-        rows: fit.coefficients.iter().enumerate().map(row).collect(),
+    let mut caption =
+        "The same coefficients from fewer frames and by another method; changes in standard deviations of \
+                       such a change."
+            .to_owned();
+    for point in points {
+        if let Err(why) = &point.estimates {
+            caption += &format!(" Not counted, {}: {}.", every(point), literal(why));
+        }
     }
+    for why in fitted.checks.no_weak() {
+        caption += &format!(" No weak form, {}.", literal(&why));
+    }
+    Table { caption, head, rows: fitted.model().coefficients.iter().enumerate().map(row).collect() }
 }
 
 /// The autocorrelations of the innovations of a pair of numbers (x and y, the parts of a mode), on the band of white noise.

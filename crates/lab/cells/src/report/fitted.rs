@@ -150,9 +150,12 @@ fn sets(fitted: &Fitted) -> Option<Table> {
     };
     let rows: Vec<Vec<Cell>> =
         subsets.counts().into_iter().filter(|(_, count)| *count < all).map(row).collect();
+    let real = if fitted.model().handed { " Sets are compared with real coefficients." } else { "" };
     (!rows.is_empty()).then(|| Table {
-        caption: "Terms that some of the sets that are as good as the best have, and others do not: the data do not \
-         tell whether they are there.".to_owned(),
+        caption: format!(
+            "Terms that some of the sets that are as good as the best have, and others do not: the data do not tell \
+             whether they are there.{real}"
+        ),
         head: ["term", "sets of terms that are as good", "in the set above"].map(str::to_owned).to_vec(),
         rows,
     })
@@ -222,14 +225,15 @@ fn bifurcations(fit: &CellFit) -> Option<Table> {
 
 /// The combinations that the motion fixes, where it does not fix everything.
 fn determined(fitted: &Fitted) -> Option<Table> {
-    let equations = &fitted.known_of_all.equations;
+    let (known, of) = fitted.determined();
+    let equations = &known.equations;
     let row = |of: &EquationKnowledge| {
         vec![Cell::text(format!("*z*_{}", of.equation + 1)), Cell::text(literal(&of.text))]
     };
     let rows: Vec<Vec<Cell>> = equations.iter().map(row).collect();
     let whole = equations.iter().all(|of| of.fixed() == of.combinations.len());
     (!whole).then(|| Table {
-        caption: "What the data determine, equation by equation, among all terms.".to_owned(),
+        caption: format!("What the data determine, equation by equation: combinations {of}."),
         head: vec!["equation".to_owned(), "determined".to_owned()],
         rows,
     })

@@ -1,6 +1,6 @@
 //! Numbers without a model: a table and the displacements; speed, area and aspect ratio over time, for beside the film strip.
 
-use crate::report::motion::mean_square;
+use crate::report::motion::{capital, mean_square};
 use crate::report::numbers::{answer, plain};
 use crate::report::{Case, Setting};
 use crate::{Numbers, Row, Units};
@@ -27,6 +27,9 @@ pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section,
             " The record has {} pieces between which place or area step; no displacement is taken across.",
             numbers.pieces
         );
+    }
+    if let Some(remark) = numbers.remark(&setting.units.length) {
+        about += &format!(" {}.", capital(&remark));
     }
     Ok(Section {
         title: "Numbers without a model".to_owned(),

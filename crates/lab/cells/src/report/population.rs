@@ -5,8 +5,8 @@ use crate::report::numbers::plain;
 use crate::report::terms::{typeset, unit};
 use crate::report::{Case, Setting, motion};
 use crate::{
-    CellFit, FittedPopulation, NameShare, Observation, OverCells, PopulationNumbers, fitted_population,
-    observed_population, population_numbers, population_statistics,
+    CellFit, FittedPopulation, NameShare, Observation, OverCells, PopulationCoefficient, PopulationNumbers,
+    fitted_population, observed_population, population_numbers, population_statistics,
 };
 use motiform_figures::report::{Cell, Section, Table};
 use motiform_study::Error;
@@ -76,15 +76,16 @@ fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
 }
 
 fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Table {
-    let whole = || fits.iter().filter_map(|fit| Some(&fit.fitted.as_ref().ok()?.whole));
-    let named = |term: &str| {
-        let unit = whole().find_map(|fit| Some(unit(&fit.coefficient(term)?.term, units)));
-        format!("{} ({})", typeset(term), unit.unwrap_or_default())
+    let terms =
+        || fits.iter().filter_map(|fit| Some(&fit.fitted.as_ref().ok()?.whole.library.terms)).flatten();
+    let named = |one: &PopulationCoefficient| {
+        let unit = terms().find(|term| term.name() == one.term).map(|term| unit(term, units));
+        format!("{} ({})", typeset(&one.name()), unit.unwrap_or_default())
     };
-    let rows = found.coefficients.iter().map(|one| row(named(&one.term), &one.over));
+    let rows = found.coefficients.iter().map(|one| row(named(one), &one.over));
     let caption = format!(
-        "Coefficients over the cells whose fit is {}, from the fits with all terms. Cells with other motions have \
-         other laws, and are in no mean.",
+        "Coefficients {}, over the cells whose fit is {}. Cells with other motions have other laws, and are in no mean.",
+        found.of_which_fits(),
         found.law.unwrap_or("named")
     );
     table(&caption, rows.collect())

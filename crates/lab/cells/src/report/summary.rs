@@ -31,7 +31,7 @@ fn sentence(case: &Case<'_>) -> String {
     };
     match (observed, fitted_regime(case)) {
         _ if fitted_of(case).is_some_and(Fitted::is_walk) => {
-            "The fitted equations rest without their noise, and the cell moves: noise carries its displacement, a \
+            "The fitted equations rest without their noise, or nearly, and the cell moves: noise carries its displacement, a \
              persistent random walk. Speed, persistence and diffusion are below.".to_owned()
         }
         _ if fit.fitted.is_err() => "No equations were fitted to this cell; the reason is below.".to_owned(),

@@ -177,6 +177,24 @@ fn a_random_walker_is_not_motionless() {
     assert!(named > 0, "none is named");
 }
 
+/// Walkers whose fitted shape decays as a power of time, which is neither a rest nor any motion: noise carries them all the same.
+#[test]
+fn walkers_whose_equations_rest_slowly_are_walks() {
+    let mut slow = 0;
+    for seed in 0..14 {
+        let walker =
+            Walker { speed: 0.5, persistence: 8.0, shape: Shape::Passive, frames: 300, noise: 0.005 };
+        let sample = Sample::of_tracks(tracks(vec![walker.outlines(seed)]), &ModeOptions::default());
+        let options = FitOptions { drift: false, simulations: 0, draws: 23, ..FitOptions::default() };
+        let fitted = fit_cell(&sample.cells[0], &options, &()).unwrap().fitted.unwrap();
+        println!("{seed} {}: {}", fitted.motion_name(), fitted.why());
+        assert!(fitted.regime.as_ref().is_none_or(|found| found.regime.is_none()), "{}", fitted.why());
+        let of_slow = fitted.regime.as_ref().is_some_and(|found| found.best == Regime::Undetermined);
+        slow += usize::from(of_slow && fitted.motion_name() == PERSISTENT_WALK);
+    }
+    assert!(slow > 1, "{slow} of the best models decay slowly");
+}
+
 /// Models of which 90 % agree, and no name: the reason is the one that holds.
 #[test]
 fn a_missing_name_has_its_reason() {

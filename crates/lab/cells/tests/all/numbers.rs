@@ -2,9 +2,11 @@
 
 use super::recordings::{Seen, Shape, Walker, tracks};
 use motiform_cells::{Numbers, Observation, Sample, numbers, observations_json, observe, population_numbers};
+use motiform_dynamics::Normal;
 use motiform_statistics::{Measured, furth};
-use motiform_tracks::Tracks;
 use motiform_tracks::modes::ModeOptions;
+use motiform_tracks::synthetic::Synthetic;
+use motiform_tracks::{Outline, Tracks, centroid};
 
 const WALK: Walker = Walker { speed: 0.6, persistence: 5.0, shape: Shape::Passive, frames: 300, noise: 0.01 };
 
@@ -69,7 +71,7 @@ fn displacements_over_cells_are_those_of_the_walk() {
 #[test]
 fn means_over_cells_that_would_be_biased_are_withheld() {
     let found = |persistence: f64, frames: usize| {
-        let walker = Walker { persistence, frames, ..WALK };
+        let walker = Walker { persistence, frames, shape: Shape::Round, ..WALK };
         let cells = (0..30).map(|seed| walker.outlines(300 + seed)).collect();
         let sample = Sample::of_tracks(tracks(cells), &ModeOptions::default());
         population_numbers(&sample.cells.iter().map(observe).collect::<Vec<_>>())
@@ -117,6 +119,23 @@ fn a_stage_jump_changes_nothing() {
         assert!((of(&jumped, key) / of(&still, key) - 1.0).abs() < 0.15, "{key}");
     }
     assert!((of(&jumped, "path") / of(&still, "path") - 1.0).abs() < 0.02);
+}
+
+/// Two walkers 60 lengths apart that take turns under one name: nothing about a path is given, and each number says why. Rows of each one
+/// alone have them all.
+#[test]
+fn a_record_of_two_cells_has_no_path() {
+    let walker = |seed| Walker { shape: Shape::Round, ..WALK }.outlines(seed);
+    let [one, mut other] = [walker(3), walker(4)];
+    other.iter_mut().flat_map(|outline| &mut outline.points).for_each(|point| point[0] += 60.0);
+    let both = one.iter().zip(&other).enumerate().map(|(k, (a, b))| if k % 2 == 0 { a } else { b }.clone());
+    let found = of(tracks(vec![both.collect()]));
+    assert!(found.steps.is_none() && found.displacement.is_empty());
+    for row in found.rows().iter().take(10) {
+        let why = row.value.reason().unwrap_or_else(|| panic!("{} is given", row.quantity.name));
+        assert!(why.contains("two cells have one name"), "{}: {why}", row.quantity.name);
+    }
+    assert!(of(tracks(vec![one])).steps.is_some());
 }
 
 /// Errors of the places are told from motion: the persistence is that of the walk, and the error is reported.
@@ -233,5 +252,82 @@ fn intervals_of_speeds_hold_the_truth() {
         // standard errors 0.014, and 0.010 of each side
         assert!(all > 200.0 && (0.92..0.985).contains(&(f64::from(inside) / all)), "{counts:?}");
         assert!(f64::from(above.max(below)) < 0.06 * all, "{counts:?}");
+    }
+}
+
+/// The centroid of the area of R(theta) = R0 + 2 Re(z2 exp(2 i theta)) + 2 Re(z3 exp(3 i theta)) from its centre is
+/// int R^3 exp(i theta)/3 over the area: by quadrature the same as from the polygons.
+#[test]
+fn the_wobble_of_the_centroid_is_that_of_the_shape() {
+    let (mut normal, mut square, mut outlines) = (Normal::new(5, 2), 0.0, Vec::new());
+    let mut z = [[0.0; 2]; 2];
+    for frame in 0..200_i32 {
+        z.iter_mut().flatten().for_each(|x| *x = 0.8 * *x + 0.1 * normal.next());
+        let body = Synthetic { centre: [0.3 * f64::from(frame), 0.0], r0: 2.0, z: z.to_vec() };
+        let moment = (0..720).map(|k| std::f64::consts::TAU * f64::from(k) / 720.0).map(|theta| {
+            let part =
+                |n: f64, z: [f64; 2]| 2.0 * (z[0] * libm::cos(n * theta) - z[1] * libm::sin(n * theta));
+            let r = 2.0 + part(2.0, z[0]) + part(3.0, z[1]);
+            [r * r * r / 3.0 * libm::cos(theta), r * r * r / 3.0 * libm::sin(theta), 0.5 * r * r]
+        });
+        let [x, y, area] = moment.fold([0.0; 3], |sum, here| [0, 1, 2].map(|k| sum[k] + here[k]));
+        square += (x * x + y * y) / (area * area) / 200.0;
+        let points = body.vertices(200, 0.0);
+        outlines.push(Outline { frame: frame.into(), t: frame.into(), points, missing: 0 });
+    }
+    let found = of(tracks(vec![outlines])).wobble.expect("200 frames");
+    println!("{found:?} {}", square.sqrt());
+    assert!((found.size / square.sqrt() - 1.0).abs() < 0.02 && (0.99..1.01).contains(&found.share));
+}
+
+/// Shapes that fluctuate by themselves move the centroid: of slow walkers this makes much of the changes of velocity, and no persistence
+/// is given; of fast ones, and of round cells, next to none.
+#[test]
+fn centroids_that_shapes_move_have_a_remark() {
+    let seen = |speed: f64, shape: Shape| {
+        let walker = Walker { speed, persistence: 8.0, shape, frames: 200, noise: 0.005 };
+        let cells = (0..12).map(|seed| walker.outlines(60 + seed)).collect();
+        let sample = Sample::of_tracks(tracks(cells), &ModeOptions::default());
+        sample.cells.iter().map(observe).collect::<Vec<Observation>>()
+    };
+    let slow = seen(0.12, Shape::Passive);
+    println!("{:?}", slow.iter().map(|one| one.numbers.wobble).collect::<Vec<_>>());
+    assert!(slow.iter().all(|one| one.numbers.remark("um").is_some_and(|why| why.contains("centroid"))));
+    let withheld = population_numbers(&slow).withheld;
+    assert!(
+        withheld
+            .iter()
+            .any(|one| one.quantity.name == "persistence" && one.why.contains("changes of the shape"))
+    );
+    // the same walk, with the centroid at its place: it is the centre that moves beside
+    let mut sample = tracks(
+        (0..12)
+            .map(|seed| {
+                Walker { speed: 0.12, persistence: 8.0, shape: Shape::Passive, frames: 200, noise: 0.005 }
+                    .outlines(60 + seed)
+            })
+            .collect(),
+    );
+    let round = tracks(
+        (0..12)
+            .map(|seed| {
+                Walker { speed: 0.12, persistence: 8.0, shape: Shape::Round, frames: 200, noise: 0.005 }
+                    .outlines(80 + seed)
+            })
+            .collect(),
+    );
+    for (cell, path) in sample.cells.iter_mut().zip(&round.cells) {
+        for (outline, at) in cell.frames.iter_mut().zip(&path.frames) {
+            let by = [0, 1].map(|k| centroid(&at.points)[k] - centroid(&outline.points)[k]);
+            outline.points.iter_mut().for_each(|point| (0..2).for_each(|k| point[k] += by[k]));
+        }
+    }
+    let sample = Sample::of_tracks(sample, &ModeOptions::default());
+    let centred = sample.cells.iter().map(observe).collect::<Vec<Observation>>();
+    for other in [seen(1.0, Shape::Passive), seen(0.12, Shape::Round), centred] {
+        assert!(other.iter().all(|one| one.numbers.remark("um").is_none()));
+        assert!(
+            !population_numbers(&other).withheld.iter().any(|one| one.why.contains("changes of the shape"))
+        );
     }
 }

@@ -151,6 +151,56 @@ fn a_trochoid_is_not_quasi_periodic() {
     }
 }
 
+/// A rigid ellipse on a circle of 40 frames a turn, seen at these times, with a drift.
+fn circling(times: &[f64], drift: f64) -> Observation {
+    let at = |(k, &t): (usize, &f64)| {
+        let angle = std::f64::consts::TAU * t / 40.0;
+        let centre = [6.0 * libm::sin(angle) + drift * t, -6.0 * libm::cos(angle)];
+        let z2 = [0.8 * libm::cos(2.0 * angle), -0.8 * libm::sin(2.0 * angle)];
+        let body = Synthetic { centre, r0: 8.0, z: vec![z2, [0.0, 0.0]] };
+        let frame = i64::try_from(k).unwrap();
+        Outline { frame, t, points: body.vertices(48, 0.0), missing: 0 }
+    };
+    let frames = times.iter().enumerate().map(at).collect();
+    observe(&Sample::of_tracks(tracks(vec![frames]), &ModeOptions::default()).cells[0])
+}
+
+/// Intervals that differ by up to 5 % from the usual one are even enough for a name; beyond, the reason is that they are uneven, and by
+/// how much. Every third interval is longer, and the next one shorter by as much.
+#[test]
+fn uneven_times_are_named_as_such() {
+    let times =
+        |off: f64| (0..240).map(|k| f64::from(k) + if k % 3 == 1 { off } else { 0.0 }).collect::<Vec<_>>();
+    let found = circling(&times(0.04), 0.0);
+    assert_eq!(found.motion.regime, Some(Regime::Circular), "{}", found.motion.why);
+    assert!((found.measures.unwrap().turning * 40.0 / std::f64::consts::TAU - 1.0).abs() < 0.01);
+    let found = circling(&times(0.06), 0.0);
+    assert_eq!((found.motion.regime, found.frames), (None, 240));
+    let why =
+        "times are uneven: 160 of 239 intervals differ from the usual one, 1 s, by more than 5 %, up to 6 %";
+    assert!(
+        found.motion.why.starts_with(why) && found.motion.why.contains("--interval"),
+        "{}",
+        found.motion.why
+    );
+}
+
+/// A circle drifts where the places to which it comes back after each turn are displaced beyond their errors, at whatever speed; the true
+/// velocity is stated. Without a drift none is.
+#[test]
+fn a_circle_that_drifts_says_so() {
+    let times: Vec<f64> = (0..240).map(f64::from).collect();
+    for drift in [0.02, 0.1, 0.3] {
+        let found = circling(&times, drift);
+        assert_eq!(found.motion.regime, Some(Regime::Circular), "{}", found.motion.why);
+        assert!(found.motion.why.contains("a circle that drifts by"), "{}", found.motion.why);
+        let [speed, error] = found.measures.unwrap().drift.unwrap();
+        assert!((speed / drift - 1.0).abs() < 0.02 && error < 0.1 * drift, "{drift}: {speed} {error}");
+    }
+    let found = circling(&times, 0.0);
+    assert!(found.motion.why.ends_with("and a steady speed"), "{}", found.motion.why);
+}
+
 /// A walker whose steps are within its errors wanders all the same.
 #[test]
 fn a_slow_walker_does_not_rest() {

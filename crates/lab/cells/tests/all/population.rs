@@ -2,7 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use motiform_cells::{CellFit, fitted_population, over_cells};
+use super::bodies::{RADIUS, cell_of, preset};
+use motiform_cells::{CellFit, FitOptions, fit_cell, fitted_population, over_cells};
 use motiform_dynamics::Normal;
 
 #[test]
@@ -50,4 +51,29 @@ fn cells_without_a_fit_are_undecided_and_counted() {
     assert_eq!((found.cells, found.fitted, found.coefficients.len()), (3, 0, 0));
     assert_eq!((found.regimes[0].name, found.regimes[0].share.count), ("undecided", 3));
     assert!(found.regimes[0].share.lower < 0.5, "three cells say little");
+}
+
+/// Of handed cells everything is of the model that describes them, and not of the mirror-symmetric one that their data reject: checks, what
+/// the data determine, and the means over cells, which have the true imaginary part.
+#[test]
+fn handed_cells_have_the_numbers_of_their_own_model() {
+    let mut study = preset("chiral", 0.01, (0.5, 400));
+    study.set("omega", 0.05).unwrap();
+    study.set("kappa2", 0.5).unwrap();
+    let sample = cell_of(&study, RADIUS, 0.01);
+    let options = FitOptions { draws: 40, simulations: 0, ..FitOptions::default() };
+    let one = fit_cell(&sample.cells[0], &options, &()).unwrap();
+    let fitted = one.fitted.as_deref().unwrap();
+    let model = fitted.model();
+    assert!(fitted.is_handed() && model.handed, "{:?} {:?}", fitted.handedness.p_value, fitted.doubts);
+    let drift = fitted.drift.as_ref().unwrap();
+    assert_eq!(drift.changes.len(), model.coefficients.len());
+    assert_eq!(fitted.determined().0, &fitted.known);
+    let found = fitted_population(&[one.clone(), one.clone()]);
+    println!("{:?} {:?}", found.law, fitted.why());
+    assert!(found.handed && found.fitted == 2 && found.coefficients.len() == model.coefficients.len());
+    let imaginary = found.coefficients.iter().find(|c| c.imaginary && c.term == "z1: z1").unwrap();
+    let error = model.coefficients.iter().find(|c| c.imaginary && c.name == "z1: z1").unwrap().estimate.error;
+    println!("{} +- {error}", imaginary.over.mean);
+    assert!((imaginary.over.mean.abs() - 0.05).abs() < 4.0 * error && error < 0.03);
 }

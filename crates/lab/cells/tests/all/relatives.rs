@@ -19,14 +19,23 @@ struct Body {
 const RADIUS: f64 = 1.0;
 
 /// Outlines of a body, with vertices that have noise of this part of the radius.
-fn seen(body: impl Fn(usize) -> Body, (dt, frames): (f64, usize), noise: f64) -> Relatives {
+fn seen(body: impl Fn(usize) -> Body, times: (f64, usize), noise: f64) -> Relatives {
+    scaled(body, times, (noise, RADIUS))
+}
+
+/// The same of a body of this radius.
+fn scaled(
+    body: impl Fn(usize) -> Body,
+    (dt, frames): (f64, usize),
+    (noise, radius): (f64, f64),
+) -> Relatives {
     let mut normal = Normal::new(4, 0);
     let outline = |frame: usize| {
         let Body { place, heading, z2 } = body(frame);
         let (sin, cos) = libm::sincos(2.0 * heading);
         let z = vec![[z2[0] * cos + z2[1] * sin, z2[1] * cos - z2[0] * sin], [0.0, 0.0]];
-        let mut points = Synthetic { centre: place, r0: RADIUS, z }.vertices(48, 0.0);
-        points.iter_mut().flatten().for_each(|x| *x += noise * RADIUS * normal.next());
+        let mut points = Synthetic { centre: place, r0: radius, z }.vertices(48, 0.0);
+        points.iter_mut().flatten().for_each(|x| *x += noise * radius * normal.next());
         Outline { frame: i64::try_from(frame).unwrap(), t: frame as f64 * dt, points, missing: 0 }
     };
     let cell = Cell { name: "one".to_owned(), frames: (0..frames).map(outline).collect() };
@@ -104,6 +113,71 @@ fn stop_and_go_has_its_rests() {
     assert!(
         matches!(resting.rests, Finding::Missing { .. }) && matches!(resting.legs, Finding::Missing { .. })
     );
+}
+
+/// Legs of 9 lengths, corners of 1.2 rad to one side and the other, and ten frames of rest at each corner: rests have no heading, so legs,
+/// corners and their durations are those of the path, also in other units of length and time.
+#[test]
+fn legs_are_those_of_the_path_whatever_rests_and_units() {
+    let (go, rest, swing) = (15, 10, 1.2);
+    let mut places: Vec<([f64; 2], f64)> = vec![([0.0; 2], 0.0)];
+    for k in 0..16 * (go + rest) {
+        let (at, heading) = (places[k].0, if k / (go + rest) % 2 == 0 { 0.3 } else { 0.3 + swing });
+        let step = if k % (go + rest) < go { 0.6 } else { 0.0 };
+        places.push(([at[0] + step * libm::cos(heading), at[1] + step * libm::sin(heading)], heading));
+    }
+    let found = |length: f64, time: f64| {
+        let body = |k: usize| {
+            let ([x, y], heading) = places[k];
+            Body { place: [length * x, length * y], heading, z2: [0.05 * length, 0.0] }
+        };
+        let found = scaled(body, (time, places.len()), (0.004, length));
+        found.legs.found().unwrap().clone()
+    };
+    let legs = found(1.0, 1.0);
+    println!("{legs:?}");
+    let near = |found: Option<f64>, truth: f64| (found.unwrap() / truth - 1.0).abs() < 0.01;
+    // the first and the last leg are no extremes
+    assert_eq!(legs.corners, 13, "of 16 legs");
+    assert!(near(legs.length, 9.0) && near(legs.swing, swing) && near(legs.turn, swing), "{legs:?}");
+    assert!(near(legs.duration, 25.0), "{legs:?}");
+    let other = found(1000.0, 60.0);
+    let ratio = |k: [Option<f64>; 2]| k[1].unwrap() / k[0].unwrap();
+    for (ratio, unit) in [
+        (ratio([legs.length, other.length]), 1000.0),
+        (ratio([legs.duration, other.duration]), 60.0),
+        (ratio([legs.swing, other.swing]), 1.0),
+        (ratio([legs.turn, other.turn]), 1.0),
+    ] {
+        assert!((ratio / unit - 1.0).abs() < 1e-9, "{ratio} for {unit}");
+    }
+}
+
+/// A turn within one sample is in the middle of it: which of two samples is nearer must not be a matter of round-off.
+#[test]
+fn corners_of_a_walk_do_not_depend_on_units() {
+    let mut normal = Normal::new(8, 3);
+    let (mut at, mut heading, mut places) = ([0.0; 2], 0.0, Vec::new());
+    for _ in 0..200 {
+        places.push((at, heading));
+        heading += 0.8 * normal.next();
+        at = [at[0] + 0.5 * libm::cos(heading), at[1] + 0.5 * libm::sin(heading)];
+    }
+    let found = |length: f64, time: f64| {
+        let body = |k: usize| {
+            let ([x, y], heading) = places[k];
+            Body { place: [length * x, length * y], heading, z2: [0.05 * length, 0.0] }
+        };
+        scaled(body, (time, places.len()), (0.004, length)).legs.found().unwrap().clone()
+    };
+    let legs = found(1.0, 1.0);
+    for (length, time) in [(1000.0, 60.0), (0.1, 1.0 / 3.0), (7.3, 0.7)] {
+        let other = found(length, time);
+        assert_eq!(other.corners, legs.corners);
+        for (a, b) in [(other.length, legs.length.map(|x| length * x)), (other.turn, legs.turn)] {
+            assert!((a.unwrap() / b.unwrap() - 1.0).abs() < 1e-9, "{other:?} {legs:?}");
+        }
+    }
 }
 
 #[test]

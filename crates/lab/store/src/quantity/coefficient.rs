@@ -9,5 +9,5 @@ super::quantities! {
     ROBUST_ERROR "robust_error" MIXED "standard error from the scatter of the scores";
     LOW "low" MIXED "lower end of the 95 % interval";
     HIGH "high" MIXED "upper end of the 95 % interval";
-    WEAK_FORM "weak_form" MIXED "the coefficient by the weak form, a check of sign and order of magnitude";
+    WEAK_FORM "weak_form" MIXED "the coefficient by the weak form, a check of sign and size; none where noise makes the rates";
 }

@@ -24,8 +24,8 @@ def read(
     *,
     interval: float | None = None,
     pixel_size: float | None = None,
-    time_unit: str = "s",
-    length_unit: str = "um",
+    time_unit: str | None = None,
+    length_unit: str | None = None,
     format: str | None = None,
     columns: Mapping[str, str] | None = None,
 ) -> Cells:
@@ -39,6 +39,10 @@ def read(
         Time between frames in `time_unit`. If neither the file nor this says it, times are in frames.
     pixel_size
         Length of a pixel in `length_unit`. If neither the file nor this says it, lengths are in pixels.
+    time_unit
+        Unit of `interval`, s where none is given, or of times in the file whose unit it does not say: without it these are in frames.
+    length_unit
+        Unit of `pixel_size`, um where none is given.
     format
         ``csv``, ``parquet``, ``trackmate``, ``quimp-csv``, ``quimp-snqp``, ``amoepy``, ``roi``, ``roi-zip``, ``masks`` or ``wkt``,
         where the content fits several formats.
@@ -65,8 +69,8 @@ def read_masks(
     *,
     interval: float | None = None,
     pixel_size: float | None = None,
-    time_unit: str = "s",
-    length_unit: str = "um",
+    time_unit: str | None = None,
+    length_unit: str | None = None,
 ) -> Cells:
     """Reads label masks (TIFF or PNG): a folder, an image, a stack of images in one TIFF, or several images.
 

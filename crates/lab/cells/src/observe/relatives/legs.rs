@@ -1,26 +1,32 @@
 //! Legs and turns of a noisy path.
 
+use super::super::course::place;
 use super::super::measures::{Measures, Series};
-use super::{Finding, middles};
+use super::Finding;
+use super::rests::{displacements, fast};
 use motiform_analysis::symmetry::wrap;
 use motiform_dynamics::sample::median;
 use serde::Serialize;
 
-/// A turn is larger than this (rad), and than this many errors of the heading.
+/// A turn is larger than this (rad), and than this many errors of each heading.
 const LEAST_TURN: f64 = 0.3;
 const CLEAR: f64 = 4.0;
-/// Largest error of a heading (rad).
+/// Largest error of the heading of half a fast displacement (rad).
 const UNCLEAR: f64 = 0.3;
 
 /// The legs of a record: it bends to one side, then to the other.
 ///
 /// The unwrapped heading has extremes: it turns back by more than the least turn after each. Between two extremes is a turn; its corner
-/// is where the heading is half-way. A leg is the path between two corners; its length is that of the chord. A path that bends to one
-/// side alone has none.
+/// is where the heading first is half-way, on a straight line between two samples. A leg is the path between two corners; its length is
+/// that of the chord. A path that bends to one side alone has none. Displacements whose heading is not known, as those of rests, have
+/// none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ObservedLegs {
-    /// Smallest turn that counts (rad): 0.3, and at least four errors of the heading.
+    /// Smallest turn that counts (rad): 0.3, and at least four errors of the heading of half a fast displacement.
     pub least_turn: f64,
+    /// Time over which displacements are taken: the least over which fast ones (95 % quantile) are twice as long as headings with four
+    /// errors of 0.3 rad need; at most a twentieth of the record.
+    pub step: f64,
     /// Number of corners.
     pub corners: usize,
     /// Median length of the legs; `None` below two corners.
@@ -34,27 +40,53 @@ pub struct ObservedLegs {
 }
 
 pub(super) fn of(measures: &Measures) -> Finding<ObservedLegs> {
-    let series = &measures.series;
-    let error = measures.heading_error();
-    if error > UNCLEAR {
-        return Finding::missing(format!("headings have errors of {error:.2} rad; {UNCLEAR} is the most"));
+    let (series, error) = (&measures.series, measures.displacement_error);
+    let most = (series.frames.len() / 20).max(1);
+    // a heading over a displacement has this error over its length
+    let along = error / std::f64::consts::SQRT_2;
+    let half = |lag: usize| 0.5 * fast(&displacements(series, lag));
+    let lag = (1..=most).find(|lag| LEAST_TURN * half(*lag) >= CLEAR * along).unwrap_or(most);
+    let unclear = along / half(lag).max(f64::MIN_POSITIVE);
+    if unclear > UNCLEAR {
+        return Finding::missing(format!("headings have errors of {unclear:.2} rad; {UNCLEAR} is the most"));
     }
-    let least_turn = LEAST_TURN.max(CLEAR * error);
-    let ends = extremes(&series.headings, least_turn);
-    let corners: Vec<usize> =
-        ends.windows(2).map(|pair| halfway(&series.headings, pair[0], pair[1])).collect();
-    let swings = ends.windows(2).map(|pair| (series.headings[pair[1]] - series.headings[pair[0]]).abs());
-    let legs: Vec<[f64; 2]> = corners.windows(2).map(|pair| chord(series, pair[0], pair[1])).collect();
+    let least_turn = LEAST_TURN.max(CLEAR * unclear);
+    let known = headings(series, lag, CLEAR * along / least_turn);
+    let ends = extremes(&known.iter().map(|one| one.1).collect::<Vec<_>>(), least_turn);
+    let corners: Vec<f64> = ends.windows(2).map(|pair| halfway(&known[pair[0]..=pair[1]])).collect();
+    let swings = ends.windows(2).map(|pair| (known[pair[1]].1 - known[pair[0]].1).abs());
+    let place = |at: f64| place(&series.frames, at);
+    let chord = |pair: &[f64]| [0, 1].map(|k| place(pair[1])[k] - place(pair[0])[k]);
+    let legs: Vec<[f64; 2]> = corners.windows(2).map(chord).collect();
     let angle = |leg: &[f64; 2]| libm::atan2(leg[1], leg[0]);
     let turns = legs.windows(2).map(|pair| wrap(angle(&pair[1]) - angle(&pair[0])).abs());
+    let length = median(legs.iter().map(|leg| libm::hypot(leg[0], leg[1])));
+    if let Some(length) = length.filter(|length| *length <= CLEAR * error) {
+        return Finding::missing(format!("legs are within {:.1} of their errors", length / error));
+    }
     Finding::Found(ObservedLegs {
         least_turn,
+        step: lag as f64 * series.dt,
         corners: corners.len(),
-        length: median(legs.iter().map(|leg| libm::hypot(leg[0], leg[1]))),
-        duration: median(corners.windows(2).map(|pair| (pair[1] - pair[0]) as f64 * series.dt)),
+        length,
+        duration: median(corners.windows(2).map(|pair| (pair[1] - pair[0]) * series.dt)),
         swing: median(swings),
         turn: median(turns),
     })
+}
+
+/// Unwrapped headings of the displacements over `lag` frames that are `least` long, each at its middle, as a place along the frames.
+fn headings(series: &Series, lag: usize, least: f64) -> Vec<(f64, f64)> {
+    let mut known: Vec<(f64, f64)> = Vec::new();
+    for (k, pair) in series.frames.windows(lag + 1).enumerate() {
+        let [x, y] = [0, 1].map(|axis| pair[lag].y[axis] - pair[0].y[axis]);
+        if libm::hypot(x, y) >= least && (x, y) != (0.0, 0.0) {
+            let heading = libm::atan2(y, x);
+            let unwrapped = known.last().map_or(heading, |last| last.1 + wrap(heading - last.1));
+            known.push((k as f64 + 0.5 * lag as f64, unwrapped));
+        }
+    }
+    known
 }
 
 /// Alternating maxima and minima that lie more than `least` from each other; the first and the last sample are none.
@@ -80,16 +112,17 @@ fn extremes(values: &[f64], least: f64) -> Vec<usize> {
     found
 }
 
-/// The sample between two at which the value is nearest to the middle of theirs.
-fn halfway(values: &[f64], from: usize, to: usize) -> usize {
-    let middle = 0.5 * (values[from] + values[to]);
-    let distance = |i: &usize| (values[*i] - middle).abs();
-    (from..=to).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(from)
-}
-
-fn chord(series: &Series, from: usize, to: usize) -> [f64; 2] {
-    let frames = middles(series);
-    [0, 1].map(|k| frames[to].y[k] - frames[from].y[k])
+/// The place at which values first cross the middle between the first and the last of them. A turn within one sample is crossed half-way:
+/// neither sample is nearer, and which one is would be a matter of round-off.
+fn halfway(values: &[(f64, f64)]) -> f64 {
+    let ends = [values[0].1, values[values.len() - 1].1];
+    let middle = 0.5 * (ends[0] + ends[1]);
+    let before = |value: f64| (value - middle) * (ends[0] - middle) > 0.0;
+    let crossing = values.windows(2).find(|pair| before(pair[0].1) && !before(pair[1].1));
+    crossing.map_or(values[0].0, |pair| {
+        let part = (middle - pair[0].1) / (pair[1].1 - pair[0].1);
+        pair[0].0 + part * (pair[1].0 - pair[0].0)
+    })
 }
 
 #[cfg(test)]

@@ -70,14 +70,14 @@ fn summary(found: &Rests, speeds: &[f64], step: f64) -> ObservedRests {
 }
 
 /// Lengths of the displacements over some frames.
-fn displacements(series: &Series, lag: usize) -> Vec<f64> {
+pub(super) fn displacements(series: &Series, lag: usize) -> Vec<f64> {
     let length =
         |pair: &[Observation]| libm::hypot(pair[lag].y[0] - pair[0].y[0], pair[lag].y[1] - pair[0].y[1]);
     series.frames.windows(lag + 1).map(length).collect()
 }
 
 /// The 95 % quantile.
-fn fast(sizes: &[f64]) -> f64 {
+pub(super) fn fast(sizes: &[f64]) -> f64 {
     let mut sorted = sizes.to_vec();
     ascending(&mut sorted);
     quantile(&sorted, 0.95).unwrap_or(0.0)
