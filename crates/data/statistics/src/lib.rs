@@ -27,6 +27,7 @@ mod plateau;
 mod power;
 mod quantity;
 mod residence;
+mod resolution;
 mod statistics;
 mod survival;
 mod tracks;

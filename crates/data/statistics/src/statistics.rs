@@ -4,6 +4,7 @@ use crate::carried::carried;
 use crate::correlation::{self, Remembered, remembered};
 use crate::diffusion;
 use crate::jackknife::Sums;
+use crate::resolution::too_far_apart;
 use crate::{
     Answer, Autocorrelation, Diffusion, Errors, Histogram, MeanSquare, Measured, Passage, PowerSpectrum,
     Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, first_passages, histogram,
@@ -79,6 +80,7 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let varying = autocorrelations.iter().filter(|found| !found.lags.is_empty()).map(|found| &found.quantity);
     let spectra = varying
         .filter(|quantity| !matches!(quantity, Quantity::Heading)) // it may have gaps
+        .filter(|quantity| too_far_apart(tracks, quantity).is_none()) // its frequencies are others
         .map(|quantity| power_spectrum(tracks, quantity))
         .collect::<Result<Vec<_>>>()?;
     let lengths = || tracks.bodies().iter().map(|track| track.position.len());
@@ -102,12 +104,26 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
         exponents,
         speeds: speeds(tracks),
         turning: turning_angles(tracks),
-        passages: first_passages(tracks, &radii),
+        passages: passages(tracks, &radii, rms_speed.value),
         residence: residence(tracks, &residing, threshold),
         displacement,
         autocorrelations,
         spectra: spectra.into_iter().flatten().collect(),
     })
+}
+
+/// Smallest radius, in ways that a body goes between samples, of a disc that it is seen to leave where it turns between them.
+const STEPS: f64 = 5.0;
+
+/// First passages; of discs about as small as a way between samples that are too far apart for the velocity, the mean is not known.
+fn passages(tracks: &Tracks, radii: &[f64], speed: f64) -> Vec<Passage> {
+    let coarse = too_far_apart(tracks, &Quantity::Velocity);
+    let least = STEPS * speed * tracks.dt();
+    let held = |found: Passage| {
+        let reason = coarse.as_ref().filter(|_| found.radius < least);
+        Passage { time: found.time.unless(reason), ..found }
+    };
+    first_passages(tracks, radii).into_iter().map(held).collect()
 }
 
 /// The radii of the discs, increasing.

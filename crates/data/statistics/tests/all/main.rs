@@ -13,3 +13,4 @@ mod oscillation;
 mod passage;
 mod power;
 mod records;
+mod resolution;
