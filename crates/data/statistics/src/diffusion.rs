@@ -88,7 +88,7 @@ pub(crate) fn remembering(tracks: &Tracks, memory: usize) -> Result<Diffusion> {
 }
 
 impl Diffusion {
-    fn unknown(reason: impl Into<String>) -> Self {
+    pub(crate) fn unknown(reason: impl Into<String>) -> Self {
         let unknown = Answer::unknown(reason);
         Self {
             green_kubo: unknown.clone(),

@@ -28,6 +28,7 @@ mod power;
 mod quantity;
 mod residence;
 mod resolution;
+mod stationary;
 mod statistics;
 mod survival;
 mod tracks;

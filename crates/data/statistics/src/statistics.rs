@@ -5,6 +5,7 @@ use crate::correlation::{self, Remembered, remembered};
 use crate::diffusion;
 use crate::jackknife::Sums;
 use crate::resolution::too_far_apart;
+use crate::stationary::not_stationary;
 use crate::{
     Answer, Autocorrelation, Diffusion, Errors, Histogram, MeanSquare, Measured, Passage, PowerSpectrum,
     Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, first_passages, histogram,
@@ -35,6 +36,9 @@ pub struct Statistics {
     pub samples: [usize; 2],
     /// The units that errors refer to.
     pub errors: Errors,
+    /// Why the records are not those of a stationary motion; `None` where nothing says so. Else what is defined for stationary motion alone
+    /// is unknown: persistence, diffusion coefficients, correlation times, frequencies. All other numbers are those of the records.
+    pub not_stationary: Option<String>,
     /// Mean speed <|v|>.
     pub mean_speed: Measured,
     /// Root-mean-square speed.
@@ -92,11 +96,12 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let diffusion = diffusion.beside(kept).doubted(carried.as_deref());
     let seen =
         Seen { speed: &rms_speed, diffusion: &diffusion.displacements, time: &autocorrelations[0].time };
-    Ok(Statistics {
+    let found = Statistics {
         bodies: tracks.bodies().len(),
         dt: tracks.dt(),
         samples: [lengths().min().unwrap_or(0), lengths().max().unwrap_or(0)],
         errors: tracks.errors(),
+        not_stationary: None,
         mean_speed,
         rms_speed,
         walk: persistent_walk(&displacement).held_against(&seen).carried(carried.is_some()),
@@ -109,6 +114,10 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
         displacement,
         autocorrelations,
         spectra: spectra.into_iter().flatten().collect(),
+    };
+    Ok(match not_stationary(tracks) {
+        Some(why) => found.of_records_alone(why),
+        None => found,
     })
 }
 

@@ -14,3 +14,4 @@ mod passage;
 mod power;
 mod records;
 mod resolution;
+mod stationary;

@@ -60,3 +60,26 @@ fn stays_of_a_smooth_motion_are_those_of_finer_samples() {
     }
     assert!(stays(4.0).iter().all(|answer| answer.known().is_none()));
 }
+
+/// Stationary density of the speed: v exp(-2 (v^4/4 - v^2/2)/eta^2).
+fn mean_speed(eta: f64) -> f64 {
+    let weight = |v: f64| v * (-(0.5 * v.powi(4) - v * v) / (eta * eta) - 0.5 / (eta * eta)).exp();
+    let moment =
+        |power: i32| (1..4000).map(|k| 5e-4 * f64::from(k)).map(|v| v.powi(power) * weight(v)).sum::<f64>();
+    moment(1) / moment(0)
+}
+
+/// The preset starts near rest: its transient leaves that out; without it the record is not stationary, in any unit.
+#[test]
+fn a_start_at_rest_is_left_out_or_said() {
+    let preset = "preset = \"noisy-heading\"\n[run]\nt_end = 400\ndt_out = 0.5";
+    let found = seen(preset, 60);
+    assert_eq!(found.not_stationary, None);
+    assert!(holds(found.mean_speed, mean_speed(0.2)), "{:?} {}", found.mean_speed, mean_speed(0.2));
+    let from_rest = seen(&format!("{preset}\ntransient = 0"), 60);
+    assert!(from_rest.not_stationary.unwrap().contains("(transient)"));
+    let small = "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.equations]\nz1 = \"-0.02*z1\"\n\
+                 [model.amplitudes.noise]\nz1 = \"1e-6\"\n[run]\nt_end = 10000\ndt_out = 5";
+    assert!(seen(small, 20).not_stationary.is_some());
+    assert_eq!(seen(&format!("{small}\ntransient = 1000"), 20).not_stationary, None);
+}
