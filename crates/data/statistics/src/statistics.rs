@@ -143,7 +143,7 @@ fn discs(settings: &Settings, displacement: &MeanSquare) -> Result<Vec<f64>> {
     let mut given = settings.radii.clone();
     given.sort_unstable_by(f64::total_cmp);
     match given.iter().find(|radius| !(**radius > 0.0 && radius.is_finite())) {
-        Some(&value) => Err(crate::Error::Setting { key: "radius", value, remedy: "give a radius above 0" }),
+        Some(&value) => Err(crate::Error::Setting { key: "disc", value, remedy: "give a radius above 0" }),
         None => Ok(given),
     }
 }

@@ -123,7 +123,7 @@ fn study(options: &StatisticsOptions) -> Result<Study, Error> {
     let mut study = subject::study(&subject)?;
     subject::apply(&options.method, &mut study)?;
     let own = study.run.clone();
-    options.run.apply(&mut study.run)?;
+    options.run.record(&mut study.run)?;
     if options.run.get("t_end").is_some() && options.run.get("dt_out").is_none() {
         study.run.dt_out = samples_apart(&own, study.run.t_end, options.bodies.unwrap_or(BODIES));
         coarser_than_own(&own, study.run.dt_out).iter().for_each(|note| warn(note));
