@@ -32,7 +32,7 @@ pub struct Measurement {
 
 /// The names of the first four modes of the shape: pairs of coordinates after the velocity.
 ///
-/// `s11, s12` is `s`; `c2, s2` is `mode2`; any other pair is joined: `a_b`.
+/// `s11, s12` is `s`; `c2, s2` is `mode2`; `z2_re, z2_im` is `z2`; any other pair is joined: `a_b`.
 #[must_use]
 pub fn mode_names(model: &dyn Model) -> Vec<String> {
     let names: Vec<&str> = model.coordinates()[model.velocities()..].iter().map(|c| c.name).collect();
@@ -47,7 +47,10 @@ fn mode_name(one: &str, other: &str) -> String {
     match (split(one), split(other)) {
         ((a, _), (b, _)) if a == b && !a.is_empty() => a,
         ((_, a), (_, b)) if a == b && !a.is_empty() => format!("mode{a}"),
-        _ => format!("{one}_{other}"),
+        _ => match (one.strip_suffix("_re"), other.strip_suffix("_im")) {
+            (Some(a), Some(b)) if a == b => a.to_owned(),
+            _ => format!("{one}_{other}"),
+        },
     }
 }
 
@@ -151,5 +154,6 @@ mod tests {
         assert_eq!(mode_name("s11", "s12"), "s");
         assert_eq!(mode_name("c2", "s2"), "mode2");
         assert_eq!(mode_name("p", "q"), "p_q");
+        assert_eq!(mode_name("z2_re", "z2_im"), "z2");
     }
 }
