@@ -1,6 +1,6 @@
 //! Residence times above and below a threshold.
 
-use crate::resolution::too_far_apart;
+use crate::resolution::{is_smooth, too_far_apart};
 use crate::survival::{Duration, MeanTime, mean_time};
 use crate::{Quantity, Track, Tracks};
 use motiform_dynamics::sample::{mean, median};
@@ -31,9 +31,9 @@ pub struct Residence {
 /// Times for which the size of a quantity stays above and below a threshold (its median, if none is given).
 ///
 /// A stay begins with a crossing of the threshold, so the first one of a unit (and after a gap) is left out; the last one is censored
-/// ([`mean_time`]). Between samples the quantity is a cubic where its rates are known ([`Track::rates`]), else a line. A quantity that does
-/// not vary has none, and one that is sampled too coarsely has no mean times. Under noise, stays shorter than the time between samples are
-/// not seen, and the mean time depends on that time.
+/// ([`mean_time`]). Between samples the quantity is a cubic where its rates are known ([`Track::rates`]) and give its changes, else a line.
+/// A quantity that does not vary has none, and one that is sampled too coarsely has no mean times. Under noise, stays shorter than the
+/// time between samples are not seen, and the mean time depends on that time.
 ///
 /// # Checked by  tests/all/passage.rs: a sine, whose stays are known, seen 4 to 600 times a period
 #[must_use]
@@ -52,8 +52,12 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
         return Residence { quantity, threshold, above: side(is_above), below: side(!is_above) };
     }
     let (mut above, mut below) = (Vec::new(), Vec::new());
+    let is_smooth = is_smooth(tracks, quantity);
     for (unit, track) in tracks.units().iter().enumerate() {
-        let (series, between) = between_samples(track, quantity, tracks.dt());
+        let (series, between) = match is_smooth {
+            true => (cubics(track, quantity, tracks.dt()), tracks.dt() / POINTS as f64),
+            false => (quantity.size(track), tracks.dt()),
+        };
         for (is_above, steps, ended) in stays(&series, threshold) {
             let duration = Duration { time: steps * between, ended, group: tracks.group(unit) };
             if is_above { above.push(duration) } else { below.push(duration) }
@@ -72,11 +76,10 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
 /// Points of a cubic between two samples.
 const POINTS: usize = 8;
 
-/// The size of a quantity, and the time from point to point: those of the cubics that have its rates at the samples, where they are known.
-fn between_samples(track: &Track, quantity: &Quantity, dt: f64) -> (Vec<f64>, f64) {
+/// The size of a quantity at samples and between them, by the cubics that have its rates at the samples.
+fn cubics(track: &Track, quantity: &Quantity, dt: f64) -> Vec<f64> {
     let sizes = quantity.size(track);
     let (pairs, rates) = match quantity {
-        _ if track.rates.is_empty() => return (sizes, dt),
         Quantity::Mode(number, _) => (&track.modes[*number], &track.rates[number + 1]),
         _ => (&track.velocity, &track.rates[0]),
     };
@@ -91,7 +94,7 @@ fn between_samples(track: &Track, quantity: &Quantity, dt: f64) -> (Vec<f64>, f6
         (0..POINTS).map(|point| sizes[k] + at(point as f64 / POINTS as f64)).collect::<Vec<_>>()
     };
     let last = sizes.len().saturating_sub(1);
-    (((0..last).flat_map(cubic)).chain(sizes.get(last).copied()).collect(), dt / POINTS as f64)
+    (0..last).flat_map(cubic).chain(sizes.get(last).copied()).collect()
 }
 
 /// Stays after the first crossing of each stretch without gaps: the side, the length in samples, and whether its end was seen.

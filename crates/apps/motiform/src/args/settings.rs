@@ -124,7 +124,7 @@ impl<K: Keys> SettingOptions<K> {
 }
 
 impl SettingOptions<Recording> {
-    /// [`SettingOptions::apply`] for states that are recorded: a time between them of 0, which in a study stands for the default, is refused.
+    /// [`SettingOptions::apply`] for states that are recorded: a time of 0 between them, the default of a study, is refused.
     pub(crate) fn record(&self, settings: &mut RunSettings) -> Result<(), Error> {
         if self.get("dt_out").is_some_and(|value| value.as_f64() == Some(0.0)) {
             return Err(Error::Setting { key: "dt_out", value: "0".into(), remedy: "give a time above 0" });

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{agrees, along, holds, known, many};
+use crate::common::{agrees, along, holds, known, many, ornstein_uhlenbeck};
 use motiform_dynamics::Normal;
 use motiform_statistics::{Duration, Quantity, Track, Tracks, first_passages, mean_time, residence};
 
@@ -141,4 +141,19 @@ fn stays_do_not_depend_on_the_time_between_samples() {
             "{dt}"
         );
     }
+}
+
+/// Under noise rates do not give the changes between samples: stays are those of lines, with and without rates.
+#[test]
+fn noise_is_no_cubic() {
+    let body = |k: u64| {
+        let mut track = ornstein_uhlenbeck(0.5, 1.0, 0.1, 2000, &mut Normal::new(9, k));
+        track.rates = vec![track.velocity.iter().map(|v| v.map(|x| -0.5 * x)).collect()];
+        track
+    };
+    let bodies: Vec<Track> = (0..9).map(body).collect();
+    let plain = bodies.iter().map(|track| Track { rates: Vec::new(), ..track.clone() }).collect();
+    let [with, without] = [bodies, plain]
+        .map(|bodies| residence(&Tracks::new(0.1, vec![], bodies).unwrap(), &Quantity::Speed, Some(1.2)));
+    assert!(with.above.time.is_some() && with == without);
 }

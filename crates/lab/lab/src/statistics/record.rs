@@ -121,7 +121,7 @@ mod tests {
     use crate::statistics::datasets::track;
     use motiform_study::{RunPlan, Study};
 
-    /// Rates of velocity and modes are the derivatives of their series, for an unknown velocity, one read off the shape, and equations in text.
+    /// Rates of velocity and modes are the derivatives of their series: of an unknown velocity, of one read off the shape, of text.
     #[test]
     fn rates_are_derivatives_of_the_series() {
         let equations = "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.equations]\nz1 = \"(1 - |z1|^2)*z1 + conj(z1)*z2\"\n\

@@ -170,7 +170,8 @@ pub(super) fn spectra(measurement: &Measurement, units: &Shown) -> Result<Option
     };
     let method = found.first().map_or(String::new(), |first| {
         format!(
-            "Welch's method: {} half-overlapping segments of {} samples, Hann window; bands: chi-square, 95 % at each frequency. Drawn down to 10^{{-10}} of the largest power of each.",
+            "Welch's method: {} half-overlapping segments of {} samples, Hann window; bands: chi-square, 95 % at each frequency. \
+             Drawn down to 10^{{-10}} of the largest power of each.",
             first.segments, first.length
         )
     });
