@@ -199,7 +199,7 @@ fn films_are_made_by_ffmpeg() {
     assert!(folder.path("run3/path.svg").exists() && folder.path("run3/manifest.json").exists());
 }
 
-/// What is no folder, a figure that a folder has not, one that is not asked for as a panel, and a layout without room: input, exit code 2.
+/// No folder, a figure that a folder has not, one that is not asked for as a panel, and a layout without room: input, exit code 2.
 #[test]
 fn what_is_no_folder_of_figures_is_named() {
     let folder = Folder::new();
