@@ -73,8 +73,10 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
             over(found.errors)
         ),
     )];
-    let doubt =
-        |why: &String| ("", format!("not stationary: {why}. The numbers below are those of these records"));
+    let of_model = if units.is_physical() { " (numbers in model units)" } else { "" };
+    let doubt = |why: &String| {
+        ("", format!("not stationary: {why}{of_model}. The numbers below are those of these records"))
+    };
     all.extend(found.not_stationary.iter().map(doubt));
     all.extend([
         (
