@@ -4,6 +4,7 @@ use crate::jackknife::{Sums, jackknife, leave_out};
 use crate::lag_window::Integral;
 use crate::oscillation::oscillation;
 use crate::plateau::{Curves, Estimate, too_coarse};
+use crate::resolution::too_far_apart;
 use crate::{Answer, Measured, Oscillation, Quantity, Result, Tracks};
 
 /// Most lags.
@@ -113,8 +114,10 @@ pub(crate) fn remembering(tracks: &Tracks, quantity: &Quantity, memory: usize) -
     let correlation = (0..products.sums.len()).map(|lag| products.ratio(lag)).collect();
     let window = curves.window(memory);
     let last = window.as_ref().map_or(curves.longest(), |window| *window);
-    let coarse = too_coarse(&curves.integral(last), &curves.coarser(last)[0], tracks.dt());
-    let time = match (window, &coarse) {
+    let folded = too_far_apart(tracks, &quantity);
+    let coarse = || too_coarse(&curves.integral(last), &curves.coarser(last)[0], tracks.dt());
+    let coarse = folded.clone().or_else(coarse);
+    let time = match (folded.map_or(window, Err), &coarse) {
         (Err(reason), _) => Answer::Unknown { reason },
         (Ok(_), Some(reason)) => Answer::unknown(reason),
         (Ok(window), None) => products.time(&curves, window),

@@ -6,6 +6,7 @@ use crate::displacement::square_sums;
 use crate::jackknife::Sums;
 use crate::lag_window::Integral;
 use crate::plateau::{Estimate, difference, too_coarse};
+use crate::resolution::too_far_apart;
 use crate::{Answer, Measured, Quantity, Result, Tracks, with_error};
 use serde::Serialize;
 
@@ -64,7 +65,8 @@ pub(crate) fn remembering(tracks: &Tracks, memory: usize) -> Result<Diffusion> {
     let halves =
         |integrals: Vec<Integral>| integrals.iter().map(|found| 0.5 * found.value).collect::<Vec<_>>();
     let (all, coarser) = (curves.integrals(window), curves.coarser(window));
-    let coarse = too_coarse(&all[0], &coarser[0], tracks.dt());
+    let coarse =
+        too_far_apart(tracks, &Quantity::Velocity).or_else(|| too_coarse(&all[0], &coarser[0], tracks.dt()));
     let velocities = Estimate {
         values: halves(all),
         longer: halves(curves.integrals(longer)),
@@ -86,7 +88,7 @@ pub(crate) fn remembering(tracks: &Tracks, memory: usize) -> Result<Diffusion> {
 }
 
 impl Diffusion {
-    fn unknown(reason: impl Into<String>) -> Self {
+    pub(crate) fn unknown(reason: impl Into<String>) -> Self {
         let unknown = Answer::unknown(reason);
         Self {
             green_kubo: unknown.clone(),

@@ -27,6 +27,8 @@ mod plateau;
 mod power;
 mod quantity;
 mod residence;
+mod resolution;
+mod stationary;
 mod statistics;
 mod survival;
 mod tracks;

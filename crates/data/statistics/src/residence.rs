@@ -1,7 +1,8 @@
 //! Residence times above and below a threshold.
 
+use crate::resolution::{is_smooth, too_far_apart};
 use crate::survival::{Duration, MeanTime, mean_time};
-use crate::{Quantity, Tracks};
+use crate::{Quantity, Track, Tracks};
 use motiform_dynamics::sample::{mean, median};
 use serde::Serialize;
 
@@ -29,11 +30,12 @@ pub struct Residence {
 
 /// Times for which the size of a quantity stays above and below a threshold (its median, if none is given).
 ///
-/// A stay begins with a crossing of the threshold, located by linear interpolation, so the first one of a
-/// unit (and after a gap) is left out; the last one is censored ([`mean_time`]). A quantity that does not vary has none. Under noise, stays
-/// shorter than the time between samples are not seen, and the mean time depends on that time.
+/// A stay begins with a crossing of the threshold, so the first one of a unit (and after a gap) is left out; the last one is censored
+/// ([`mean_time`]). Between samples the quantity is a cubic where its rates are known ([`Track::rates`]) and give its changes, else a line.
+/// A quantity that does not vary has none, and one that is sampled too coarsely has no mean times. Under noise, stays shorter than the
+/// time between samples are not seen, and the mean time depends on that time.
 ///
-/// # Checked by  tests/all/passage.rs: a sine, whose stays are known
+/// # Checked by  tests/all/passage.rs: a sine, whose stays are known, seen 4 to 600 times a period
 #[must_use]
 pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -> Residence {
     let sizes: Vec<Vec<f64>> = tracks.units().iter().map(|track| quantity.size(track)).collect();
@@ -50,16 +52,49 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
         return Residence { quantity, threshold, above: side(is_above), below: side(!is_above) };
     }
     let (mut above, mut below) = (Vec::new(), Vec::new());
-    for (unit, series) in sizes.iter().enumerate() {
-        for (is_above, steps, ended) in stays(series, threshold) {
-            let duration = Duration { time: steps * tracks.dt(), ended, group: tracks.group(unit) };
+    let is_smooth = is_smooth(tracks, quantity);
+    for (unit, track) in tracks.units().iter().enumerate() {
+        let (series, between) = match is_smooth {
+            true => (cubics(track, quantity, tracks.dt()), tracks.dt() / POINTS as f64),
+            false => (quantity.size(track), tracks.dt()),
+        };
+        for (is_above, steps, ended) in stays(&series, threshold) {
+            let duration = Duration { time: steps * between, ended, group: tracks.group(unit) };
             if is_above { above.push(duration) } else { below.push(duration) }
         }
     }
     let share = all().filter(|&x| x >= threshold).count() as f64 / all().count() as f64;
-    let side = |share, durations: &[Duration]| Side { share, time: mean_time(durations, tracks.groups()) };
+    let coarse = too_far_apart(tracks, quantity);
+    let side = |share, durations: &[Duration]| {
+        let time = mean_time(durations, tracks.groups()).map(|time| time.unless(coarse.as_ref()));
+        Side { share, time }
+    };
     let quantity = quantity.name().to_owned();
     Residence { quantity, threshold, above: side(share, &above), below: side(1.0 - share, &below) }
+}
+
+/// Points of a cubic between two samples.
+const POINTS: usize = 8;
+
+/// The size of a quantity at samples and between them, by the cubics that have its rates at the samples.
+fn cubics(track: &Track, quantity: &Quantity, dt: f64) -> Vec<f64> {
+    let sizes = quantity.size(track);
+    let (pairs, rates) = match quantity {
+        Quantity::Mode(number, _) => (&track.modes[*number], &track.rates[number + 1]),
+        _ => (&track.velocity, &track.rates[0]),
+    };
+    let slope = |k: usize| {
+        let ([a, b], [f, g]) = (pairs[k], rates[k]);
+        if sizes[k] == 0.0 { 0.0 } else { dt * (a * f + b * g) / sizes[k] }
+    };
+    let cubic = |k: usize| {
+        let (rise, from, to) = (sizes[k + 1] - sizes[k], slope(k), slope(k + 1));
+        let (two, three) = (3.0 * rise - 2.0 * from - to, from + to - 2.0 * rise);
+        let at = move |x: f64| x * (from + x * (two + x * three));
+        (0..POINTS).map(|point| sizes[k] + at(point as f64 / POINTS as f64)).collect::<Vec<_>>()
+    };
+    let last = sizes.len().saturating_sub(1);
+    (0..last).flat_map(cubic).chain(sizes.get(last).copied()).collect()
 }
 
 /// Stays after the first crossing of each stretch without gaps: the side, the length in samples, and whether its end was seen.

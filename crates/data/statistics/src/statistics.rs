@@ -4,6 +4,8 @@ use crate::carried::carried;
 use crate::correlation::{self, Remembered, remembered};
 use crate::diffusion;
 use crate::jackknife::Sums;
+use crate::resolution::too_far_apart;
+use crate::stationary::not_stationary;
 use crate::{
     Answer, Autocorrelation, Diffusion, Errors, Histogram, MeanSquare, Measured, Passage, PowerSpectrum,
     Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, first_passages, histogram,
@@ -34,6 +36,9 @@ pub struct Statistics {
     pub samples: [usize; 2],
     /// The units that errors refer to.
     pub errors: Errors,
+    /// Why the records are not those of a stationary motion; `None` where nothing says so. Else what is defined for stationary motion alone
+    /// is unknown: persistence, diffusion coefficients, correlation times, frequencies. All other numbers are those of the records.
+    pub not_stationary: Option<String>,
     /// Mean speed <|v|>.
     pub mean_speed: Measured,
     /// Root-mean-square speed.
@@ -79,6 +84,7 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let varying = autocorrelations.iter().filter(|found| !found.lags.is_empty()).map(|found| &found.quantity);
     let spectra = varying
         .filter(|quantity| !matches!(quantity, Quantity::Heading)) // it may have gaps
+        .filter(|quantity| too_far_apart(tracks, quantity).is_none()) // its frequencies are others
         .map(|quantity| power_spectrum(tracks, quantity))
         .collect::<Result<Vec<_>>>()?;
     let lengths = || tracks.bodies().iter().map(|track| track.position.len());
@@ -90,11 +96,12 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let diffusion = diffusion.beside(kept).doubted(carried.as_deref());
     let seen =
         Seen { speed: &rms_speed, diffusion: &diffusion.displacements, time: &autocorrelations[0].time };
-    Ok(Statistics {
+    let found = Statistics {
         bodies: tracks.bodies().len(),
         dt: tracks.dt(),
         samples: [lengths().min().unwrap_or(0), lengths().max().unwrap_or(0)],
         errors: tracks.errors(),
+        not_stationary: None,
         mean_speed,
         rms_speed,
         walk: persistent_walk(&displacement).held_against(&seen).carried(carried.is_some()),
@@ -102,12 +109,30 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
         exponents,
         speeds: speeds(tracks),
         turning: turning_angles(tracks),
-        passages: first_passages(tracks, &radii),
+        passages: passages(tracks, &radii, rms_speed.value),
         residence: residence(tracks, &residing, threshold),
         displacement,
         autocorrelations,
         spectra: spectra.into_iter().flatten().collect(),
+    };
+    Ok(match not_stationary(tracks) {
+        Some(why) => found.of_records_alone(why),
+        None => found,
     })
+}
+
+/// Smallest radius, in ways that a body goes between samples, of a disc that it is seen to leave where it turns between them.
+const STEPS: f64 = 5.0;
+
+/// First passages; of discs about as small as a way between samples that are too far apart for the velocity, the mean is not known.
+fn passages(tracks: &Tracks, radii: &[f64], speed: f64) -> Vec<Passage> {
+    let coarse = too_far_apart(tracks, &Quantity::Velocity);
+    let least = STEPS * speed * tracks.dt();
+    let held = |found: Passage| {
+        let reason = coarse.as_ref().filter(|_| found.radius < least);
+        Passage { time: found.time.unless(reason), ..found }
+    };
+    first_passages(tracks, radii).into_iter().map(held).collect()
 }
 
 /// The radii of the discs, increasing.
@@ -118,7 +143,7 @@ fn discs(settings: &Settings, displacement: &MeanSquare) -> Result<Vec<f64>> {
     let mut given = settings.radii.clone();
     given.sort_unstable_by(f64::total_cmp);
     match given.iter().find(|radius| !(**radius > 0.0 && radius.is_finite())) {
-        Some(&value) => Err(crate::Error::Setting { key: "radius", value, remedy: "give a radius above 0" }),
+        Some(&value) => Err(crate::Error::Setting { key: "disc", value, remedy: "give a radius above 0" }),
         None => Ok(given),
     }
 }

@@ -70,6 +70,13 @@ pub fn mean_time(durations: &[Duration], groups: usize) -> Option<MeanTime> {
     Some(MeanTime { mean, restricted, limit, beyond: all.share, censored, count })
 }
 
+impl MeanTime {
+    /// The same without a mean, where there is a reason.
+    pub(crate) fn unless(self, reason: Option<&String>) -> Self {
+        Self { mean: reason.map_or(self.mean, Answer::unknown), ..self }
+    }
+}
+
 /// The area below a Kaplan-Meier curve, up to a limit.
 struct Area {
     restricted: f64,

@@ -30,6 +30,8 @@ pub struct Track {
     pub velocity: Vec<[f64; 2]>,
     /// Modes of the shape, two components each, which the plane's rotations turn.
     pub modes: Vec<Vec<[f64; 2]>>,
+    /// Time derivatives of the velocity and of each mode by the equations of the body, without noise; none where equations are not known.
+    pub rates: Vec<Vec<[f64; 2]>>,
 }
 
 /// The units that errors refer to.
@@ -227,7 +229,14 @@ fn check(body: usize, track: &Track, names: &[String], gaps: bool) -> Result<()>
             return Err(Error::NotFinite { body, what, sample, value });
         }
     }
-    Ok(())
+    let short = |series: &&Vec<[f64; 2]>| series.len() != samples;
+    let (got, expected) = match track.rates.iter().find(short) {
+        Some(series) => (series.len(), samples),
+        None if track.rates.is_empty() => return Ok(()),
+        None => (track.rates.len(), 1 + names.len()),
+    };
+    let what = "rates".to_owned();
+    if got == expected { Ok(()) } else { Err(Error::Lengths { body, what, got, expected }) }
 }
 
 /// No blocks where units are bodies; else blocks of equal length of each.
@@ -255,7 +264,8 @@ impl Track {
     /// The track without the samples that are marked as missing: they become NaN in all series ([`Tracks::with_gaps`]).
     #[must_use]
     pub fn without(mut self, missing: &[bool]) -> Self {
-        let all = [&mut self.position, &mut self.velocity].into_iter().chain(&mut self.modes);
+        let all = [&mut self.position, &mut self.velocity].into_iter();
+        let all = all.chain(&mut self.modes).chain(&mut self.rates);
         for series in all {
             series
                 .iter_mut()
@@ -272,6 +282,7 @@ impl Track {
             position: cut(&self.position),
             velocity: cut(&self.velocity),
             modes: self.modes.iter().map(|mode| cut(mode)).collect(),
+            rates: self.rates.iter().map(|rate| cut(rate)).collect(),
         }
     }
 }

@@ -7,7 +7,8 @@ use motiform_dynamics::Watch;
 use motiform_lab::verify::{Repeated, verify_dataset, verify_scan};
 use motiform_store::Audit;
 use motiform_store::Kind;
-use motiform_study::Error;
+use motiform_study::atlas::AtlasComputation;
+use motiform_study::{Error, Provenance};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -43,6 +44,10 @@ impl Verification {
             Some(Kind::Curves) => {
                 ("plan hash; points are not computed again", readable(CurveFolder::read(folder)))
             }
+            Some(Kind::Atlas) if !audit.inventory.complete => (
+                "plan hash; cells are computed again once the atlas is finished",
+                readable(Provenance::<AtlasComputation>::read(folder)),
+            ),
             Some(Kind::Atlas) => (
                 "plan hash; cells computed again, points of curves are not",
                 verify_atlas(folder, all, watch),

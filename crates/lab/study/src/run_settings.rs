@@ -23,11 +23,11 @@ settings! {
     /// Settings of a run.
     #[derive(Clone, Debug, PartialEq, Serialize)]
     pub struct RunSettings {
-        /// Recorded time (model time), above 0; by default 200.
+        /// Recorded time (model time), above 0; by default that of the preset, without one 200.
         pub t_end: f64,
         /// Time before the recording starts; the position is reset to the start after it.
         pub transient: f64,
-        /// Time between recorded states; 0, the default, chooses `t_end` / 2000.
+        /// Time between recorded states, above 0; by default that of the preset, without one `t_end` / 2000.
         pub dt_out: f64,
         /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for stiff models ifrk4 (fixed step),
         /// etdrk4, hochbruck4, krogstad4 (adaptive). By default dop853 for tensor, krogstad4 for cell.
@@ -51,7 +51,8 @@ settings! {
         /// Amplitude eta of additive white noise (0 for none): du = f(u) dt + eta dW for every coordinate u of the shape (s11, s12,
         /// u111, u222; c1, s1, c2, ...), and for v1, v2 unless `noise_velocity` is given. Unit of u per square root of model time.
         pub noise: f64,
-        /// Amplitude of the noise on v1 and v2, if it differs from that of the shape. For models whose velocity is an unknown: tensor.
+        /// Amplitude of the noise on v1 and v2, if it differs from that of the shape. For models whose velocity is an unknown: tensor, and
+        /// equations given as text with an amplitude z1.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub noise_velocity: Option<f64>,
     }

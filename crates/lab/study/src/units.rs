@@ -25,16 +25,16 @@ impl Shown {
         if text.is_empty() {
             return Ok(Self::default());
         }
-        let both =
-            text.split_once(',').and_then(|(length, time)| Some([Size::parse(length)?, Size::parse(time)?]));
-        let refuse = |remedy| Err(Error::Setting { key: "figure.units", value: text.to_owned(), remedy });
-        let Some([length, time]) = both else {
-            return refuse("write what a unit of length and one of time are, such as 20um,1min");
-        };
-        if length.is(Dimension::TIME) || time.is(Dimension::LENGTH) {
-            return refuse("a length comes first, then a time, such as 20um,1min");
-        }
-        Ok(Self(Some([length, time])))
+        let both = text.split_once(',').and_then(|(length, time)| {
+            Some([Size::parse(length, Dimension::LENGTH)?, Size::parse(time, Dimension::TIME)?])
+        });
+        let remedy = "write what a unit of length is (nm, um, mm, cm, m, km) and then one of time (ns, us, ms, s, min, h, d), such as \
+                      20um,1min";
+        both.map(|both| Self(Some(both))).ok_or_else(|| Error::Setting {
+            key: "units",
+            value: text.to_owned(),
+            remedy,
+        })
     }
 
     /// Returns `true` if they are physical.
@@ -99,17 +99,12 @@ impl Shown {
 }
 
 impl Size {
-    fn parse(text: &str) -> Option<Self> {
+    /// A number above 0 and a known name of this dimension.
+    fn parse(text: &str, dimension: Dimension) -> Option<Self> {
         let number = text.trim().trim_end_matches(char::is_alphabetic);
-        let name = text.trim()[number.len()..].to_owned();
+        let unit = Unit::named(&text.trim()[number.len()..]).filter(|unit| unit.dimension == dimension)?;
         let size: f64 = number.trim().parse().ok()?;
-        let name = Unit::named(&name).map_or(name, |unit| Unit::typeset(unit.name));
-        (size > 0.0 && size.is_finite() && !name.is_empty()).then_some(Self { size, name })
-    }
-
-    /// Returns `true` if its name is known to be of this dimension.
-    fn is(&self, dimension: Dimension) -> bool {
-        Unit::named(&self.name).is_some_and(|unit| unit.dimension == dimension)
+        (size > 0.0 && size.is_finite()).then(|| Self { size, name: Unit::typeset(unit.name) })
     }
 }
 
@@ -141,5 +136,14 @@ mod tests {
         {
             assert!(Shown::parse(bad).is_err(), "{bad}");
         }
+        for bad in ["20kg,1min", "20mn,1hour", "20pears,1min", "20um,3moons"] {
+            let told = Shown::parse(bad).unwrap_err().to_string();
+            assert!(
+                told.contains("(nm, um, mm, cm, m, km)") && told.contains("(ns, us, ms, s, min, h, d)"),
+                "{told}"
+            );
+        }
+        let hour = Shown::parse("3microns,1hour").unwrap();
+        assert_eq!(hour.name(Dimension::SPEED, ""), "µm/h");
     }
 }

@@ -27,7 +27,7 @@ pub(crate) struct DrawingOptions {
 pub(crate) struct UnitsOptions {
     /// Axes and printed results in physical units: what a unit of length and one of time are, such as 20um,1min; parameters, tables,
     /// JSON and what `simulate` prints keep model units (docs/units.md)
-    #[arg(long = "units", value_name = "LENGTH,TIME")]
+    #[arg(long = "units", value_name = "LENGTH,TIME", allow_hyphen_values = true)]
     pub(crate) given: Option<String>,
 }
 

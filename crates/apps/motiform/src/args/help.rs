@@ -189,6 +189,8 @@ addition, of
   a scan               the digests inside its parts; the first, a middle and the last part,
                        computed again
   branches, curves     the hash of their plan; points are not computed again
+  an atlas             the hash of its plan; some of its cells, computed again (with --all every cell
+                       that was computed, once it is finished); points of its curves are not
   other results        nothing: their numbers are not computed again
 
 Files that motiform did not write are listed, and are no fault. Exit code 0: intact; 1: not intact.

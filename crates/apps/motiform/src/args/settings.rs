@@ -123,6 +123,16 @@ impl<K: Keys> SettingOptions<K> {
     }
 }
 
+impl SettingOptions<Recording> {
+    /// [`SettingOptions::apply`] for states that are recorded: a time of 0 between them, the default of a study, is refused.
+    pub(crate) fn record(&self, settings: &mut RunSettings) -> Result<(), Error> {
+        if self.get("dt_out").is_some_and(|value| value.as_f64() == Some(0.0)) {
+            return Err(Error::Setting { key: "dt_out", value: "0".into(), remedy: "give a time above 0" });
+        }
+        self.apply(settings)
+    }
+}
+
 impl<K: Keys> FromArgMatches for SettingOptions<K> {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let given = |name: &&'static str| {

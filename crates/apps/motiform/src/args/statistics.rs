@@ -76,8 +76,9 @@ What is measured, each with its 95 % interval (docs/statistics.md has the formul
   stays          residence times above and below a threshold
 'unknown' comes with a reason: too short a track has no diffusion coefficient.
 
-Without --dt-out samples are as far apart as in the subject's own run, and further where all bodies
-would have more than two million.
+Without --dt-out samples are as far apart as in the subject's own run, and further, with a
+warning, where all bodies would have more than two million. 'sampled too coarsely' says which
+--dt-out is enough; 'not stationary' that --transient should be longer.
 Intervals are those over bodies, from 8 bodies on. Fewer are cut into 16 blocks altogether: then
 lags end within a block.
 

@@ -29,6 +29,7 @@ pub(crate) fn run(options: &FigureOptions) -> anyhow::Result<End> {
         return Err(Error::Setting { key: "--out", value: out.display().to_string(), remedy }.into());
     }
     for path in &options.datasets {
+        one(path, options)?;
         check(kind_of(path), options)?;
         let pictures = Content::read(path, options)?.pictures(options)?;
         if pictures.is_empty() && shows_a_part(options)? {
@@ -135,13 +136,35 @@ fn panels([columns, rows]: [usize; 2], options: &FigureOptions) -> anyhow::Resul
     check(one.flatten(), options)?;
     let figures = sources.iter().map(|(path, name)| chosen(path, *name, options));
     let panels = Panels::new(columns, figures.collect::<anyhow::Result<_>>()?);
-    Ok(files(vec![("panels", Box::new(panels))], true, &options.drawing.style.format())?)
+    files(vec![("panels", Box::new(panels))], true, &options.drawing.style.format()).map_err(|error| {
+        match error {
+            Error::Figure(why) => anyhow::anyhow!(why), // nothing is drawn: the layout that was asked for is no input
+            other => other.into(),
+        }
+    })
 }
 
 /// A folder, and after a colon the name of one of its figures.
 fn source(path: &Path) -> (&Path, Option<&str>) {
     let split = path.to_str().filter(|_| !path.exists()).and_then(|text| text.rsplit_once(':'));
     split.map_or((path, None), |(folder, name)| (Path::new(folder), Some(name)))
+}
+
+/// Refuses what is no folder; a figure of one is a panel.
+fn one(path: &Path, options: &FigureOptions) -> anyhow::Result<()> {
+    if path.exists() {
+        return Ok(());
+    }
+    let value = path.display().to_string();
+    let (folder, name) = source(path);
+    if name.is_some() && folder.exists() {
+        chosen(folder, name, options)?;
+        let remedy = "one figure of a folder is drawn as a panel: add --panels 1x1 --out DIR, or give the folder alone";
+        return Err(Error::Setting { key: "DIR", value, remedy }.into());
+    }
+    let remedy =
+        "there is no such folder: give one written by `motiform simulate`, `scan`, `continue` or `atlas`";
+    Err(Error::Setting { key: "DIR", value, remedy }.into())
 }
 
 /// A figure of a folder by its name, or the first one.

@@ -61,14 +61,15 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
 /// A fixed step whose error is a larger fraction of the state than this gives a warning.
 const COARSE: f64 = 1e-4;
 
+/// The reason why a run without an error has no figures.
+const NOT_DRAWN: &str = "no figure is drawn: fewer than two rows lie within the times that are shown; give a smaller --dt-out, or a longer \
+                         --t-end";
+
 /// The study that the options describe: a file or a model, a preset, then the options.
 fn study(options: &SimulateOptions) -> Result<Study, Error> {
     let mut study = subject::study(&options.subject)?;
     subject::apply(&options.method, &mut study)?;
-    options.run.apply(&mut study.run)?;
-    if options.run.get("dt_out").is_some_and(|value| value.as_f64() == Some(0.0)) {
-        return Err(Error::Setting { key: "dt_out", value: "0".into(), remedy: "give a time above 0" });
-    }
+    options.run.record(&mut study.run)?;
     figure::apply(&options.drawing, &mut study.figure)?;
     remark(&study, &[])?;
     Ok(study)
@@ -149,6 +150,9 @@ impl Target {
                 write_rest(run, whole.as_ref(), format(options), &staged)?;
                 let drawn =
                     if options.no_figures { Ok(Vec::new()) } else { pictures(options, run, whole, &staged) };
+                if drawn.as_ref().is_ok_and(|pictures| pictures.is_empty() && !options.no_figures) {
+                    warn(NOT_DRAWN);
+                }
                 let (pictures, undrawn) = match drawn {
                     Ok(pictures) => (pictures, None),
                     Err(error @ Error::Figure(_)) => (

@@ -5,7 +5,9 @@ use crate::commands::remarks::remark;
 use crate::commands::subject;
 use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
-use motiform_lab::statistics::{Measurement, read, samples_apart, sentences, simulated_kept, summary, write};
+use motiform_lab::statistics::{
+    Measurement, coarser_than_own, read, samples_apart, sentences, simulated_kept, summary, write,
+};
 use motiform_statistics::Settings;
 use motiform_store::{Folder, Journal};
 use motiform_study::{Error, RunPlan, Shown, Study};
@@ -121,9 +123,10 @@ fn study(options: &StatisticsOptions) -> Result<Study, Error> {
     let mut study = subject::study(&subject)?;
     subject::apply(&options.method, &mut study)?;
     let own = study.run.clone();
-    options.run.apply(&mut study.run)?;
+    options.run.record(&mut study.run)?;
     if options.run.get("t_end").is_some() && options.run.get("dt_out").is_none() {
         study.run.dt_out = samples_apart(&own, study.run.t_end, options.bodies.unwrap_or(BODIES));
+        coarser_than_own(&own, study.run.dt_out).iter().for_each(|note| warn(note));
     }
     remark(&study, &[])?;
     Ok(study)

@@ -198,3 +198,21 @@ fn films_are_made_by_ffmpeg() {
     assert!(done.stderr.contains("no encoder"), "{}", done.stderr);
     assert!(folder.path("run3/path.svg").exists() && folder.path("run3/manifest.json").exists());
 }
+
+/// No folder, a figure that a folder has not, one that is not asked for as a panel, and a layout without room: input, exit code 2.
+#[test]
+fn what_is_no_folder_of_figures_is_named() {
+    let folder = Folder::new();
+    folder.run("simulate tensor --preset fig5a --t-end 40 --transient 0 --no-figures --out run").expect(0);
+    for (words, told) in [
+        ("figure nothing", "`motiform simulate`, `scan`, `continue` or `atlas`"),
+        ("figure run:foo", "there is no such figure; it has path"),
+        ("figure run:path", "add --panels 1x1"),
+        ("figure run:path run:series run --panels 3x1 --width 60mm --out wide", "mm on paper and has"),
+    ] {
+        let done = folder.run(words).expect(2);
+        assert!(done.stderr.contains(told), "{words}: {}", done.stderr);
+    }
+    let short = "simulate tensor --preset fig5a --transient 0 --t-end 10 --dt-out 50 --out short";
+    assert!(folder.run(short).expect(0).stderr.contains("no figure is drawn"));
+}

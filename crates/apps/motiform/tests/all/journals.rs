@@ -112,6 +112,10 @@ fn atlases() {
     let command = "atlas tensor --preset fig4 --axis kappa2=0.8:1.5:33 --axis kappa3=0.2:0.6:17 --samples 2 --lines 4 \
      --branches 2 --threads 2";
     is_kept(command, "--resume", &items, 3);
+    let folder = Folder::new();
+    assert!(kill_when(&folder, &format!("{command} --out killed"), || items(&folder.path("killed")) > 0));
+    let said = folder.run("verify killed").expect(0).stdout;
+    assert!(said.contains("not complete") && said.contains("verdict   intact"), "{said}");
 }
 
 /// Orbits are kept every five seconds.

@@ -66,10 +66,38 @@ fn bad_input_names_the_remedy() {
         ("statistics tensor --initial v1=0.1", "leave out the initial values, or give noise"),
         ("statistics tensor --threshold speed=fast", "is not a number"),
         ("statistics tensor --bodies 8 --t-end 10 --threshold heading", "choose one of speed, s, u"),
-        ("statistics tensor --bodies 8 --t-end 10 --disc -1", "give a radius above 0"),
+        ("statistics tensor --bodies 8 --t-end 10 --disc -1", "disc = -1: give a radius above 0"),
+        ("statistics tensor --bodies 8 --t-end 10 --dt-out 0", "dt_out = 0: give a time above 0"),
+        (
+            "statistics tensor --bodies 8 --t-end 10 --units -20um,1min",
+            "write what a unit of length is (nm, um",
+        ),
+        (
+            "statistics tensor --bodies 8 --t-end 10 --units 20kg,1min",
+            "write what a unit of length is (nm, um",
+        ),
         ("statistics tensor --bodies 8 --t-end 10 --dt-out 1", "record longer, or more often"),
     ] {
         let done = folder.run(words).expect(2);
         assert!(done.stderr.contains(told), "{words}: {}", done.stderr);
     }
+}
+
+/// Where the limit on samples of all bodies makes them coarser, it is said; what is then too coarse is unknown, with the remedy.
+#[test]
+fn coarser_samples_than_usual_are_said() {
+    let folder = Folder::new();
+    folder.write(
+        "turning.toml",
+        "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.equations]\nz1 = \"-(0.05 + 6.2*i)*z1\"\nz2 = \"-z2\"\n\
+         [model.amplitudes.noise]\nz1 = \"0.4\"\nz2 = \"0.1\"\n",
+    );
+    let words = "statistics turning.toml --transient 100 --bodies 30";
+    let fine = folder.run(&format!("{words} --t-end 400 --dt-out 0.05 --threshold z2 --json")).expect(0);
+    assert!(fine.stderr.is_empty() && fine.json()["residence"]["quantity"] == "z2", "{}", fine.stderr);
+    let done = folder.run("statistics turning.toml --t-end 2000 --bodies 1000 --max-steps 10").stderr;
+    assert!(done.contains("samples are 1 apart, and 0.1 in the subject's own run"), "{done}");
+    let done = folder.run(&format!("{words} --t-end 400 --dt-out 1")).expect(0);
+    assert!(done.stdout.contains("sampled too coarsely: within 1 velocity changes"), "{}", done.stdout);
+    assert!(done.stdout.contains("at least every 0.08 (dt_out)"), "{}", done.stdout);
 }

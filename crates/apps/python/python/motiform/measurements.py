@@ -95,7 +95,8 @@ class Statistics:
     in_model_units: bool = True
     """Whether numbers and tables are in model units: false of what :meth:`in_units` returns."""
     doubt: str | None = None
-    """Why the diffusion coefficients may not be those of long times; ``None`` where nothing says so."""
+    """Why the records are not those of a stationary motion, or the diffusion coefficients may not be those of long times; ``None`` where
+    nothing says so."""
 
     def to_xarray(self) -> xr.Dataset:
         """Displacements along ``lag``, and the correlations of each quantity along ``time_lag``."""
@@ -230,5 +231,5 @@ def statistics_from(text: str, tables: Sequence[tuple[str, bytes]], units: Units
         frames["first_passage"],
         raw,
         units,
-        doubt=raw["diffusion"]["doubt"],
+        doubt=raw["not_stationary"] or raw["diffusion"]["doubt"],
     )

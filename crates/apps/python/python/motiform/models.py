@@ -172,7 +172,7 @@ class Model(Analysed):
     ) -> Statistics:
         """What is measured on many bodies: displacements, diffusion, correlations, distributions, first-passage times, spectra.
 
-        >>> found = motiform.Tensor(gamma=1.0, kappa2=2.0, kappa3=2.0).statistics(100, t_end=400.0, noise=0.3)
+        >>> found = motiform.Tensor(gamma=1.0, kappa2=2.0, kappa3=2.0).statistics(100, t_end=400.0, transient=20.0, noise=0.3)
         >>> found.persistence, found.diffusion          # numbers with 95 % intervals, or the reason why there are none
         >>> found.msd, found.autocorrelations           # tables
         >>> found.plot("autocorrelations")

@@ -71,7 +71,7 @@ pub(crate) fn active_msd((d_r, omega, d): (f64, f64, f64), t: f64) -> f64 {
 /// Motion along a curve given by position and velocity.
 pub(crate) fn along(dt: f64, samples: usize, at: impl Fn(f64) -> ([f64; 2], [f64; 2])) -> Track {
     let (position, velocity) = (0..samples).map(|k| at(k as f64 * dt)).unzip();
-    Track { position, velocity, modes: Vec::new() }
+    Track { position, velocity, ..Track::default() }
 }
 
 /// `count` bodies.

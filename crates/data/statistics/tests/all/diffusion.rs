@@ -130,6 +130,7 @@ fn a_slow_part_of_the_shape_puts_the_coefficient_in_doubt() {
             position: sum(&fast.position, &slow.position),
             velocity: sum(&fast.velocity, &slow.velocity),
             modes: vec![mode],
+            rates: Vec::new(),
         }
     };
     let doubt = |slow: f64, period: f64| {
@@ -148,11 +149,10 @@ fn a_slow_part_of_the_shape_puts_the_coefficient_in_doubt() {
 fn a_velocity_that_all_bodies_share_is_named() {
     let tracks = |drift: f64, count: usize, samples: usize| {
         let body = |normal: &mut Normal| {
-            let Track { mut position, mut velocity, modes } =
-                ornstein_uhlenbeck(1.0, 1.0, 0.2, samples, normal);
+            let Track { mut position, mut velocity, .. } = ornstein_uhlenbeck(1.0, 1.0, 0.2, samples, normal);
             position.iter_mut().enumerate().for_each(|(k, x)| x[0] += drift * 0.2 * k as f64);
             velocity.iter_mut().for_each(|v| v[0] += drift);
-            Track { position, velocity, modes }
+            Track { position, velocity, ..Track::default() }
         };
         statistics(&many(0.2, count, body, 51), &Settings::default()).unwrap()
     };

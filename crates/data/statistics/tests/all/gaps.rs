@@ -109,7 +109,7 @@ fn intervals_hold_with_gaps() {
 fn what_is_not_enough_is_named() {
     let line = |k: usize| [k as f64, 0.0];
     let track =
-        Track { position: (0..40).map(line).collect(), velocity: vec![[1.0, 0.0]; 40], modes: vec![] };
+        Track { position: (0..40).map(line).collect(), velocity: vec![[1.0, 0.0]; 40], ..Track::default() };
     let missing: Vec<bool> = (0..40).map(|k| k >= 10).collect();
     let error = Tracks::with_gaps(1.0, vec![], vec![track.clone().without(&missing)]).unwrap_err();
     assert!(error.to_string().contains("body 0 has 10 samples, fewer than 16"), "{error}");

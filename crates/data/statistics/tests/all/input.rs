@@ -33,7 +33,7 @@ fn bad_samples_are_named() {
     let error = statistics(&tracks, &Settings { threshold, ..Settings::default() }).unwrap_err().to_string();
     assert!(error.contains("choose one of speed"), "{error}");
     let error = statistics(&tracks, &Settings { radii: vec![-1.0], ..Settings::default() }).unwrap_err();
-    assert!(error.to_string().contains("radius = -1"));
+    assert!(error.to_string().contains("disc = -1"));
 }
 
 /// From 8 bodies on, errors are those over bodies.

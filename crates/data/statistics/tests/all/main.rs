@@ -13,3 +13,5 @@ mod oscillation;
 mod passage;
 mod power;
 mod records;
+mod resolution;
+mod stationary;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{agrees, along, holds, known, many};
+use crate::common::{agrees, along, holds, known, many, ornstein_uhlenbeck};
 use motiform_dynamics::Normal;
 use motiform_statistics::{Duration, Quantity, Track, Tracks, first_passages, mean_time, residence};
 
@@ -111,4 +111,49 @@ fn a_sine_stays_half_its_period_above_its_mean() {
         assert!((found.above.share - above / (2.0 * pi)).abs() < 0.01);
     }
     assert_eq!(residence(&tracks, &Quantity::Speed, Some(9.0)).above.time, None);
+}
+
+/// The same with its rates: stays of a deterministic motion do not depend on the time between samples, until four samples a period.
+#[test]
+fn stays_do_not_depend_on_the_time_between_samples() {
+    let found = |dt: f64| {
+        let body = |k: u32| {
+            let phase = |t: f64| t + 0.7 * f64::from(k);
+            let sine = |t: f64| ([t, 0.0], [1.0 + 0.5 * phase(t).sin(), 0.0]);
+            let samples = (1600.0 / dt) as usize;
+            let rate = (0..samples).map(|j| [0.5 * phase(j as f64 * dt).cos(), 0.0]).collect();
+            Track { rates: vec![rate], ..along(dt, samples, sine) }
+        };
+        let tracks = Tracks::new(dt, vec![], (0..9).map(body).collect()).unwrap();
+        let found = residence(&tracks, &Quantity::Speed, Some(1.25));
+        [found.above, found.below].map(|side| side.time.unwrap().mean)
+    };
+    let exact = [1.0, 2.0].map(|part| part * std::f64::consts::TAU / 3.0);
+    for dt in [0.01, 0.1, 0.5, 1.0, 1.4] {
+        for (mean, exact) in found(dt).iter().zip(exact) {
+            let off = (known(mean).value / exact - 1.0).abs(); // the cubic is off by x^4/384 of the amplitude
+            assert!(off < 0.002 + 0.02 * dt.powi(4), "{dt}: {off}");
+        }
+    }
+    for dt in [1.7, 3.1, 6.2, 6.4] {
+        assert!(
+            found(dt).iter().all(|mean| mean.reason().is_some_and(|why| why.contains("too coarsely"))),
+            "{dt}"
+        );
+    }
+}
+
+/// Under noise rates do not give the changes between samples: stays are those of lines, with and without rates.
+#[test]
+fn noise_is_no_cubic() {
+    let body = |k: u64| {
+        let mut track = ornstein_uhlenbeck(0.5, 1.0, 0.1, 2000, &mut Normal::new(9, k));
+        track.rates = vec![track.velocity.iter().map(|v| v.map(|x| -0.5 * x)).collect()];
+        track
+    };
+    let bodies: Vec<Track> = (0..9).map(body).collect();
+    let plain = bodies.iter().map(|track| Track { rates: Vec::new(), ..track.clone() }).collect();
+    let [with, without] = [bodies, plain]
+        .map(|bodies| residence(&Tracks::new(0.1, vec![], bodies).unwrap(), &Quantity::Speed, Some(1.2)));
+    assert!(with.above.time.is_some() && with == without);
 }

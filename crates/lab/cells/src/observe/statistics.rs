@@ -79,6 +79,7 @@ fn track(series: &Series) -> Track {
         position: pair(0),
         velocity: velocity.map(|(v, angle)| [v * libm::cos(*angle), v * libm::sin(*angle)]).collect(),
         modes: vec![pair(2), pair(4)],
+        rates: Vec::new(),
     }
 }
 

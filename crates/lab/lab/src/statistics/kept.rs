@@ -38,7 +38,7 @@ fn encode(bodies: &[Body]) -> serde_json::Result<Vec<u8>> {
     let mut content = serde_json::to_vec(&head)?;
     content.push(b'\n');
     for (_, track) in bodies.iter().flatten() {
-        let columns = [&track.position, &track.velocity].into_iter().chain(&track.modes);
+        let columns = [&track.position, &track.velocity].into_iter().chain(&track.modes).chain(&track.rates);
         columns.flatten().flatten().for_each(|number| content.extend(number.to_le_bytes()));
     }
     Ok(content)
@@ -51,14 +51,15 @@ fn decode(content: &[u8]) -> Option<Vec<Body>> {
     let mut pairs = content[line + 1..]
         .chunks_exact(16)
         .map(|pair| [0, 8].map(|at| f64::from_le_bytes(std::array::from_fn(|byte| pair[at + byte]))));
-    let needed: usize = head.iter().map(|(_, rows, modes)| rows * (2 + modes)).sum();
+    let needed: usize = head.iter().map(|(_, rows, modes)| rows * (3 + 2 * modes)).sum();
     if pairs.len() != needed {
         return None;
     }
     let mut column = |rows: usize| -> Vec<[f64; 2]> { pairs.by_ref().take(rows).collect() };
     let body = |(outcome, rows, modes): (Outcome, usize, usize)| {
         let (position, velocity) = (column(rows), column(rows));
-        Some((outcome, Track { position, velocity, modes: (0..modes).map(|_| column(rows)).collect() }))
+        let mut columns = |count: usize| (0..count).map(|_| column(rows)).collect();
+        Some((outcome, Track { position, velocity, modes: columns(modes), rates: columns(modes + 1) }))
     };
     Some(head.into_iter().map(body).collect())
 }
@@ -75,6 +76,7 @@ mod tests {
             position: (0..rows).map(|k| [0.1 * k as f64, -0.0]).collect(),
             velocity: (0..rows).map(|k| [1.0 / (k + 1) as f64, f64::MIN_POSITIVE]).collect(),
             modes: vec![(0..rows).map(|k| [k as f64, 1e300]).collect(); 2],
+            rates: vec![(0..rows).map(|k| [-(k as f64), 1e-300]).collect(); 3],
         };
         let bodies = vec![
             Some((Outcome::Completed { t: 0.1 + 0.2 }, track(3))),

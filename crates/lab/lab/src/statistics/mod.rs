@@ -18,6 +18,6 @@ pub use draw::draw;
 pub use error::{Error, Result};
 pub use folder::{open, write};
 pub use record::{Measurement, mode_names};
-pub use sampling::samples_apart;
+pub use sampling::{coarser_than_own, samples_apart};
 pub use summary::{sentences, summary};
 pub use tables::{Named, tables};

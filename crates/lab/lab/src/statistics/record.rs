@@ -1,8 +1,8 @@
 //! From states in a model's coordinates to the tracks of bodies.
 
 use crate::statistics::Result;
-use motiform_dynamics::Model;
-use motiform_dynamics::model::velocity;
+use motiform_dynamics::model::{drift, velocity};
+use motiform_dynamics::{Model, VectorField};
 use motiform_statistics::{Settings, Statistics, Track, Tracks, statistics};
 use motiform_study::Plan;
 use motiform_study::titles::capital;
@@ -32,7 +32,7 @@ pub struct Measurement {
 
 /// The names of the first four modes of the shape: pairs of coordinates after the velocity.
 ///
-/// `s11, s12` is `s`; `c2, s2` is `mode2`; any other pair is joined: `a_b`.
+/// `s11, s12` is `s`; `c2, s2` is `mode2`; `z2_re, z2_im` is `z2`; any other pair is joined: `a_b`.
 #[must_use]
 pub fn mode_names(model: &dyn Model) -> Vec<String> {
     let names: Vec<&str> = model.coordinates()[model.velocities()..].iter().map(|c| c.name).collect();
@@ -47,37 +47,52 @@ fn mode_name(one: &str, other: &str) -> String {
     match (split(one), split(other)) {
         ((a, _), (b, _)) if a == b && !a.is_empty() => a,
         ((_, a), (_, b)) if a == b && !a.is_empty() => format!("mode{a}"),
-        _ => format!("{one}_{other}"),
+        _ => match (one.strip_suffix("_re"), other.strip_suffix("_im")) {
+            (Some(a), Some(b)) if a == b => a.to_owned(),
+            _ => format!("{one}_{other}"),
+        },
     }
 }
 
 /// A track under construction.
 pub(crate) struct Recorder<'m> {
     model: &'m dyn Model,
-    shape: Vec<f64>,
+    /// The state, and its rate of change.
+    shape: [Vec<f64>; 2],
+    /// The rate in the model's coordinates.
+    rates: Vec<f64>,
     track: Track,
 }
 
 impl<'m> Recorder<'m> {
     pub(crate) fn new(model: &'m dyn Model) -> Self {
-        let modes = vec![Vec::new(); mode_names(model).len()];
-        Self { model, shape: vec![0.0; model.dim()], track: Track { modes, ..Track::default() } }
+        let modes = mode_names(model).len();
+        let track =
+            Track { modes: vec![Vec::new(); modes], rates: vec![Vec::new(); modes + 1], ..Track::default() };
+        let shape = [(); 2].map(|()| vec![0.0; model.dim()]);
+        Self { model, shape, rates: vec![0.0; model.coordinates().len()], track }
     }
 
     /// A state: the model's coordinates and the position.
     pub(crate) fn push(&mut self, coordinates: &[f64], position: [f64; 2]) {
         let velocities = self.model.velocities();
-        let drift = if velocities == 2 {
-            [coordinates[0], coordinates[1]]
-        } else {
-            self.model.encode(coordinates, &mut self.shape);
-            velocity(self.model, &self.shape)
+        let [shape, rate] = &mut self.shape;
+        self.model.encode(coordinates, shape);
+        VectorField::<f64>::eval(self.model, 0.0, shape, rate);
+        self.model.decode(rate, &mut self.rates);
+        let (velocity, acceleration) = match velocities {
+            2 => ([coordinates[0], coordinates[1]], [self.rates[0], self.rates[1]]),
+            _ => (velocity(self.model, shape), drift(self.model, shape, rate).1),
         };
-        self.track.position.push(position);
-        self.track.velocity.push(drift);
-        for (mode, pair) in self.track.modes.iter_mut().zip(coordinates[velocities..].chunks_exact(2)) {
-            mode.push([pair[0], pair[1]]);
-        }
+        let track = &mut self.track;
+        track.position.push(position);
+        track.velocity.push(velocity);
+        let pairs = |values: &[f64]| -> Vec<[f64; 2]> {
+            values[velocities..].chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
+        };
+        track.modes.iter_mut().zip(pairs(coordinates)).for_each(|(mode, pair)| mode.push(pair));
+        let rates = std::iter::once(acceleration).chain(pairs(&self.rates));
+        track.rates.iter_mut().zip(rates).for_each(|(series, pair)| series.push(pair));
     }
 
     pub(crate) fn finish(self) -> Track {
@@ -100,12 +115,45 @@ pub(crate) fn measured(plan: &Plan, tracks: Vec<Track>, settings: &Settings) -> 
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
     use super::mode_name;
+    use crate::statistics::datasets::track;
+    use motiform_study::{RunPlan, Study};
+
+    /// Rates of velocity and modes are the derivatives of their series: of an unknown velocity, of one read off the shape, of text.
+    #[test]
+    fn rates_are_derivatives_of_the_series() {
+        let equations = "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.equations]\nz1 = \"(1 - |z1|^2)*z1 + conj(z1)*z2\"\n\
+                         z2 = \"-(0.5 + i)*z2 + z1^2\"\n";
+        for text in ["preset = \"fig5b\"\n", "preset = \"fig6a\"\n", equations] {
+            let dt = 1e-3;
+            let text = format!("{text}[run]\ntransient = 5\nt_end = 0.05\ndt_out = {dt}");
+            let plan = RunPlan::new(&Study::parse(&text, "text", "test").unwrap()).unwrap();
+            let run = crate::simulate::simulate(&plan, &()).unwrap().trajectory;
+            let track = track(&run, plan.body().unwrap().as_ref(), 0.0);
+            let all = std::iter::once(&track.velocity).chain(&track.modes).zip(&track.rates);
+            for (series, rates) in all {
+                let largest = rates.iter().flatten().fold(1e-12, |most: f64, rate| most.max(rate.abs()));
+                for k in 1..series.len() - 1 {
+                    for c in 0..2 {
+                        let slope = (series[k + 1][c] - series[k - 1][c]) / (2.0 * dt);
+                        assert!(
+                            (slope - rates[k][c]).abs() < 1e-3 * largest,
+                            "{text}: {slope} {:?}",
+                            rates[k]
+                        );
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn modes_are_named_after_their_coordinates() {
         assert_eq!(mode_name("s11", "s12"), "s");
         assert_eq!(mode_name("c2", "s2"), "mode2");
         assert_eq!(mode_name("p", "q"), "p_q");
+        assert_eq!(mode_name("z2_re", "z2_im"), "z2");
     }
 }

@@ -15,7 +15,7 @@ const OF_ALL: f64 = 2e6;
 /// # Units   model time
 #[must_use]
 pub fn samples_apart(own: &RunSettings, t_end: f64, bodies: u64) -> f64 {
-    let usual = if own.dt_out > 0.0 { own.dt_out } else { own.t_end / OF_A_RUN };
+    let usual = usual(own);
     let fewest = bodies as f64 * t_end / OF_ALL;
     let longest = t_end / OF_A_RUN;
     if usual.max(fewest) >= longest || !fewest.is_finite() {
@@ -25,6 +25,22 @@ pub fn samples_apart(own: &RunSettings, t_end: f64, bodies: u64) -> f64 {
     } else {
         round_up(fewest).min(longest)
     }
+}
+
+/// The sentence for samples that [`samples_apart`] puts farther apart than the subject's own run does.
+#[must_use]
+pub fn coarser_than_own(own: &RunSettings, apart: f64) -> Option<String> {
+    let usual = usual(own);
+    (apart > usual * (1.0 + 1e-9)).then(|| {
+        format!(
+            "samples are {apart} apart, and {usual} in the subject's own run: all bodies together would have more than two million; \
+             --dt-out {usual} keeps them all"
+        )
+    })
+}
+
+fn usual(own: &RunSettings) -> f64 {
+    if own.dt_out > 0.0 { own.dt_out } else { own.t_end / OF_A_RUN }
 }
 
 /// The next of 1, 2 and 5 times a power of ten.
@@ -37,6 +53,17 @@ fn round_up(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn farther_apart_than_usual_is_said() {
+        let own = RunSettings { dt_out: 0.05, ..RunSettings::default() };
+        assert_eq!(coarser_than_own(&own, samples_apart(&own, 100.0, 50)), None);
+        let said = coarser_than_own(&own, samples_apart(&own, 4000.0, 500)).unwrap_or_default();
+        assert!(
+            said.starts_with("samples are 1 apart, and 0.05") && said.contains("--dt-out 0.05"),
+            "{said}"
+        );
+    }
 
     #[test]
     fn longer_runs_have_more_samples_until_there_are_too_many() {

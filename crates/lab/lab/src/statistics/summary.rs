@@ -35,6 +35,7 @@ pub fn summary(measurement: &Measurement) -> Value {
         "samples": found.samples,
         "dt": found.dt,
         "errors": found.errors,
+        "not_stationary": found.not_stationary,
         "complete": measurement.complete,
         "notes": measurement.notes,
         "mean_speed": found.mean_speed,
@@ -63,16 +64,21 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
     let [shortest, longest] = found.samples;
     let samples = if shortest == longest { longest.to_string() } else { format!("{shortest} to {longest}") };
     let bodies = if found.bodies == 1 { "body" } else { "bodies" };
-    let mut all = vec![
-        (
-            "bodies",
-            format!(
-                "{} {bodies}, {samples} samples every {}; {}",
-                found.bodies,
-                if units.is_physical() { four(Dimension::TIME, found.dt) } else { found.dt.to_string() },
-                over(found.errors)
-            ),
+    let mut all = vec![(
+        "bodies",
+        format!(
+            "{} {bodies}, {samples} samples every {}; {}",
+            found.bodies,
+            if units.is_physical() { four(Dimension::TIME, found.dt) } else { found.dt.to_string() },
+            over(found.errors)
         ),
+    )];
+    let of_model = if units.is_physical() { " (numbers in model units)" } else { "" };
+    let doubt = |why: &String| {
+        ("", format!("not stationary: {why}{of_model}. The numbers below are those of these records"))
+    };
+    all.extend(found.not_stationary.iter().map(doubt));
+    all.extend([
         (
             "speed",
             format!(
@@ -97,7 +103,7 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
                 answer(Dimension::DIFFUSION, &found.walk.diffusion)
             ),
         ),
-    ];
+    ]);
     all.extend(diffusion(&found.diffusion, units));
     all.extend([
         ("exponent", format!("{} at the shortest lag", answer(Dimension::NUMBER, &found.exponents[0]))),

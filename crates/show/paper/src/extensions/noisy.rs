@@ -17,6 +17,7 @@ pub(super) fn claims(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
     study.set_initial("v1", 1.0)?;
     (study.run.noise_velocity, study.run.t_end, study.run.dt_out) =
         (Some(NOISE), context.choose(20_000.0, 5_000.0), 1.0);
+    study.run.transient = 0.0; // it starts as it moves
     let dataset = context.simulate(&study)?;
     let column = |name: &str| dataset.trajectory.get(name).unwrap_or(&[]);
     let headings: Vec<f64> =

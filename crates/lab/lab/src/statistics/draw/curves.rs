@@ -155,18 +155,23 @@ pub(super) fn turning(measurement: &Measurement, units: &Shown) -> Result<Option
     Ok(with_axes(figure, [&TURNING_ANGLE, &PER_DEGREE], units))
 }
 
+/// Part of the largest power from which on spectra are drawn: below, there is what the window leaks of stronger frequencies, and round-off.
+const DRAWN: f64 = 1e-10;
+
 /// Power spectra with their bands.
 pub(super) fn spectra(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let found = &measurement.statistics.spectra;
     let curve = |spectrum: &motiform_statistics::PowerSpectrum| {
         let [low, high] = spectrum.band;
-        let rows = spectrum.frequencies.iter().zip(&spectrum.power).filter(|(_, power)| **power > 0.0);
+        let least = DRAWN * spectrum.power.iter().copied().fold(0.0, f64::max);
+        let rows = spectrum.frequencies.iter().zip(&spectrum.power).filter(|(_, power)| **power > least);
         let points = rows.map(|(&x, &y)| BandPoint { x, y, low: low * y, high: high * y }).collect();
         BandCurve { label: symbol(&spectrum.quantity), points }
     };
     let method = found.first().map_or(String::new(), |first| {
         format!(
-            "Welch's method: {} half-overlapping segments of {} samples, Hann window; bands: chi-square, 95 % at each frequency.",
+            "Welch's method: {} half-overlapping segments of {} samples, Hann window; bands: chi-square, 95 % at each frequency. \
+             Drawn down to 10^{{-10}} of the largest power of each.",
             first.segments, first.length
         )
     });

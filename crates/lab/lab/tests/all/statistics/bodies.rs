@@ -46,6 +46,7 @@ fn bodies_are_single_runs() {
                 position: pair("x", "y"),
                 velocity: pair("v1", "v2"),
                 modes: vec![pair("s11", "s12"), pair("u111", "u222")],
+                rates: Vec::new(),
             }
         });
         let names = vec!["s".to_owned(), "u".to_owned()];

@@ -8,3 +8,4 @@ mod coverage;
 mod datasets;
 mod invariance;
 mod motions;
+mod sampling;

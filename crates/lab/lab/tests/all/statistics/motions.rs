@@ -153,7 +153,7 @@ fn bodies(text: &str, count: usize, first: u64) -> Vec<Track> {
 /// A track of the tensor model: velocity, ellipse, triangle, position.
 fn track(states: &[Vec<f64>]) -> Track {
     let pair = |at: usize| states.iter().map(|u| [u[at], u[at + 1]]).collect::<Vec<_>>();
-    Track { position: pair(6), velocity: pair(0), modes: vec![pair(2), pair(4)] }
+    Track { position: pair(6), velocity: pair(0), modes: vec![pair(2), pair(4)], rates: Vec::new() }
 }
 
 fn each(track: &Track, of: impl Fn(&[[f64; 2]]) -> Vec<[f64; 2]>) -> Track {
@@ -161,5 +161,6 @@ fn each(track: &Track, of: impl Fn(&[[f64; 2]]) -> Vec<[f64; 2]>) -> Track {
         position: of(&track.position),
         velocity: of(&track.velocity),
         modes: track.modes.iter().map(|mode| of(mode)).collect(),
+        rates: track.rates.iter().map(|rate| of(rate)).collect(),
     }
 }
