@@ -53,7 +53,8 @@ pub(super) fn nearly_crosses<P: Problem>(
     !crosses(problem, at) && second(problem, at).is_some_and(nearly) && may_cross()
 }
 
-/// Errors of a test by which it may change up to a crossing nearby that makes it vanish: of the slope the tolerance divided by the distance.
+/// Errors of a test by which it may change up to a crossing nearby that makes it vanish: of the slope the tolerance divided by the
+/// distance.
 const NOISE: f64 = 10.0;
 
 /// Part of the step by which a crossing may lie outside: about it the slope at the ends of steps may be that of round-off.

@@ -257,6 +257,9 @@ impl Connection {
     }
 }
 
+/// A saddle quantity below this part of its rates has no sign: they are those at the last point of the branch.
+const NEUTRAL: f64 = 1e-6;
+
 impl std::fmt::Display for Connection {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let (place, with) = (stated(self.parameter, self.error), words(self.joins));
@@ -305,6 +308,10 @@ impl std::fmt::Display for Connection {
             Some(quantity)
                 if matches!(self.law, PeriodLaw::Logarithmic { .. } | PeriodLaw::Oscillating { .. }) =>
             {
+                let rates = self.sides().map_or(f64::NAN, |[grows, decays]| grows.0 - decays.0);
+                if quantity.abs() < NEUTRAL * rates {
+                    return write!(f, "; saddle quantity 0 within its error: its sign is not known");
+                }
                 write!(f, "; saddle quantity {}", places::<4>(quantity))
             }
             _ => Ok(()),

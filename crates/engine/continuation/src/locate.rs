@@ -145,8 +145,9 @@ fn normal_form<P: Problem>(problem: &P, x: &[f64], special: Special) -> Option<N
     asked(special).map(|(order, doubled)| problem.normal_form(x, order, doubled))
 }
 
-/// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point, unless branches
-/// do cross there. (Where a branch is stiff the two tests place one point at lengths that differ by far more than the solutions' accuracy.)
+/// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point, unless
+/// branches do cross there. (Where a branch is stiff the two tests place one point at lengths that differ by far more than the solutions'
+/// accuracy.)
 fn without_folds<P: Problem>(problem: &P, found: &mut Vec<(Place<P::Local>, Special)>) {
     let folds: Vec<f64> =
         found.iter().filter(|one| one.1 == Special::Fold).map(|one| one.0.arclength).collect();

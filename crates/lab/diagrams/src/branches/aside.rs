@@ -88,3 +88,24 @@ fn is_near(old: &[f64], new: &[f64]) -> bool {
     add(&mut change, -1.0, old);
     norm(&change) <= (SAME * norm(old)).max(f64::EPSILON)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use motiform_models::zoo::VanDerPol;
+
+    /// Van der Pol's cycle, of which the period is published (Andersen and Geer 1982), passed once and twice.
+    #[test]
+    fn a_cycle_that_is_passed_twice_is_told_from_one_that_is_passed_once() {
+        let (body, period, settings) = (VanDerPol { mu: 1.0 }, 6.663_286_859_323_13, Settings::over(0.0, 1.0));
+        let turns = |turns: f64| {
+            let wanted = (turns * period, false);
+            PeriodicOrbit::near(&body, &[2.008_619_860_874_84, 0.0], wanted, &settings.flow, &()).unwrap()
+        };
+        assert!(!is_twice(&body, &turns(1.0), &settings, &()));
+        let twice = turns(2.0);
+        assert!((twice.time - 2.0 * period).abs() < 1e-8 && is_twice(&body, &twice, &settings, &()));
+    }
+}
