@@ -202,9 +202,9 @@ impl Work<'_> {
 
     /// Follows the exponents until their average is complete.
     fn follow(&self) -> Result<(), Gone> {
-        let Ok(info) = self.job.plan.info() else { return Ok(()) };
+        let Ok(look) = self.job.plan.look() else { return Ok(()) };
         let count = COUNT.min(self.job.plan.computation.initial.0.len() - 2);
-        let span = LOOKS.1 * info.look;
+        let span = LOOKS.1 * look;
         (self.tell)(Found::Followed)?;
         let (mut next, mut gone) = (0.0, Ok(()));
         let mut tell = |time: f64, exponents: Vec<Estimate>, done: bool| {
@@ -215,7 +215,7 @@ impl Work<'_> {
         };
         // One behind: the last point is that of the whole average.
         let mut last = None;
-        let times = (Some(LOOKS.0 * info.look), Some(span));
+        let times = (Some(LOOKS.0 * look), Some(span));
         let result = analyse::lyapunov_followed(&self.job.plan, count, times, self.watch, &mut |so_far| {
             if so_far.time() < next {
                 return;

@@ -1,6 +1,6 @@
 //! Residence times above and below a threshold.
 
-use crate::resolution::{is_smooth, too_far_apart};
+use crate::resolution::too_far_apart;
 use crate::survival::{Duration, MeanTime, mean_time};
 use crate::{Quantity, Track, Tracks};
 use motiform_dynamics::sample::{mean, median};
@@ -26,14 +26,17 @@ pub struct Residence {
     pub above: Side,
     /// Below it.
     pub below: Side,
+    /// The time between samples, where the stays depend on it: a path under noise crosses the threshold as often as it is looked at.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seen_every: Option<f64>,
 }
 
 /// Times for which the size of a quantity stays above and below a threshold (its median, if none is given).
 ///
 /// A stay begins with a crossing of the threshold, so the first one of a unit (and after a gap) is left out; the last one is censored
-/// ([`mean_time`]). Between samples the quantity is a cubic where its rates are known ([`Track::rates`]) and give its changes, else a line.
-/// A quantity that does not vary has none, and one that is sampled too coarsely has no mean times. Under noise, stays shorter than the
-/// time between samples are not seen, and the mean time depends on that time.
+/// ([`mean_time`]). Between samples the quantity is a cubic where its rates are known ([`Track::rates`]) and there is no noise
+/// ([`Tracks::with_noise`]), else a line. A quantity that does not vary has none, and one that is sampled too coarsely has no mean times.
+/// Under noise, stays shorter than the time between samples are not seen, and the mean time depends on that time.
 ///
 /// # Checked by  tests/all/passage.rs: a sine, whose stays are known, seen 4 to 600 times a period
 #[must_use]
@@ -49,12 +52,17 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
         let side = |is_here| Side { share: f64::from(u8::from(is_here)), time: None };
         let is_above = all().any(|x| x >= threshold);
         let quantity = quantity.name().to_owned();
-        return Residence { quantity, threshold, above: side(is_above), below: side(!is_above) };
+        return Residence {
+            quantity,
+            threshold,
+            above: side(is_above),
+            below: side(!is_above),
+            seen_every: None,
+        };
     }
     let (mut above, mut below) = (Vec::new(), Vec::new());
-    let is_smooth = is_smooth(tracks, quantity);
     for (unit, track) in tracks.units().iter().enumerate() {
-        let (series, between) = match is_smooth {
+        let (series, between) = match tracks.is_smooth() {
             true => (cubics(track, quantity, tracks.dt()), tracks.dt() / POINTS as f64),
             false => (quantity.size(track), tracks.dt()),
         };
@@ -70,7 +78,14 @@ pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -
         Side { share, time }
     };
     let quantity = quantity.name().to_owned();
-    Residence { quantity, threshold, above: side(share, &above), below: side(1.0 - share, &below) }
+    let seen_every = tracks.is_noisy().then(|| tracks.dt());
+    Residence {
+        quantity,
+        threshold,
+        above: side(share, &above),
+        below: side(1.0 - share, &below),
+        seen_every,
+    }
 }
 
 /// Points of a cubic between two samples.

@@ -40,14 +40,6 @@ pub(crate) fn too_far_apart(tracks: &Tracks, quantity: &Quantity) -> Option<Stri
     })
 }
 
-/// Returns `true` if a quantity is smooth between samples: the rates at both ends give its changes, up to a tenth of their mean square.
-/// Noise, and steps that are too long, leave more. `false` where the rates are not known.
-pub(crate) fn is_smooth(tracks: &Tracks, quantity: &Quantity) -> bool {
-    let is_known = tracks.bodies().iter().all(|track| !track.rates.is_empty());
-    let found = Sums::of(tracks, quantity, is_known);
-    is_known && found.rr <= UNEXPLAINED * found.dd
-}
-
 /// A quantity with its rate; of the speed its square, whose rate has no part of the noise that varies.
 fn with_rate(track: &Track, quantity: &Quantity) -> Pair {
     let squares = || {
@@ -68,8 +60,8 @@ fn displacement(track: &Track) -> Pair {
     (track.position.clone(), track.velocity.clone())
 }
 
-/// The products of z_0, f_0, r and z_1 - z_0, by their places.
-const PAIRS: [[usize; 2]; 7] = [[0, 0], [0, 1], [1, 1], [2, 0], [2, 1], [2, 2], [3, 3]];
+/// The products of z_0, f_0 and r, by their places.
+const PAIRS: [[usize; 2]; 5] = [[0, 0], [0, 1], [1, 1], [2, 0], [2, 1]];
 
 /// Mean products over all pairs of samples; of a number those of deviations from the mean.
 struct Sums {
@@ -78,20 +70,18 @@ struct Sums {
     ff: f64,
     rz: f64,
     rf: f64,
-    rr: f64,
-    dd: f64,
 }
 
 impl Sums {
     fn of(tracks: &Tracks, quantity: &Quantity, is_known: bool) -> Self {
         let is_number = is_known && *quantity == Quantity::Speed;
         let half = 0.5 * tracks.dt();
-        let (mut count, mut means, mut products) = (0.0, [0.0; 4], [0.0; 7]);
+        let (mut count, mut means, mut products) = (0.0, [0.0; 3], [0.0; 5]);
         for track in tracks.bodies() {
             let (z, f) = if is_known { with_rate(track, quantity) } else { displacement(track) };
             for (z, f) in z.windows(2).zip(f.windows(2)) {
                 let rest = [0, 1].map(|c| z[1][c] - z[0][c] - half * (f[0][c] + f[1][c]));
-                let step = [z[0], f[0], rest, [0, 1].map(|c| z[1][c] - z[0][c])];
+                let step = [z[0], f[0], rest];
                 if step.iter().flatten().all(|x| x.is_finite()) {
                     count += 1.0;
                     means.iter_mut().zip(step).for_each(|(mean, x)| *mean += x[0]);
@@ -101,9 +91,9 @@ impl Sums {
                 }
             }
         }
-        let centre = if is_number { means.map(|sum| sum / count) } else { [0.0; 4] };
+        let centre = if is_number { means.map(|sum| sum / count) } else { [0.0; 3] };
         let mean = |place: usize| products[place] / count - centre[PAIRS[place][0]] * centre[PAIRS[place][1]];
-        Self { zz: mean(0), zf: mean(1), ff: mean(2), rz: mean(3), rf: mean(4), rr: mean(5), dd: mean(6) }
+        Self { zz: mean(0), zf: mean(1), ff: mean(2), rz: mean(3), rf: mean(4) }
     }
 
     /// The mean square of the projection of r on f_0, and on z_0 where it is asked for.

@@ -43,7 +43,8 @@ pub struct MeanTime {
 /// L is the longest time at which 0.1 % of the durations and at least 5 are still watched; k is the rate of
 /// ends (ends over time watched) from where S falls to sqrt(S(L)), the second half of the fall on a
 /// logarithmic scale: an exponential tail, as escapes by diffusion have. Such ends are as frequent in the second half of the time watched
-/// there as in the first; where they are rarer (p below 0.1 %), some may never come, and the mean is unknown. If every end was seen, the
+/// there as in the first; where they are rarer (p below 0.1 %), and a tail by the second half alone would move the mean out of its
+/// interval, some may never come, and the mean is unknown. If every end was seen, the
 /// mean is the plain mean. `None` without durations.
 ///
 /// Source: Kaplan and Meier (1958), J. Am. Stat. Assoc. 53, 457; Brown, Hollander, Korwar (1974), exponential completion of the tail.
@@ -65,7 +66,8 @@ pub fn mean_time(durations: &[Duration], groups: usize) -> Option<MeanTime> {
     let without: Vec<Area> = (0..groups).map(|group| curve(&sorted, limit, Some(group))).collect();
     let measured =
         |of: fn(&Area) -> f64| leave_out(groups, &|left| of(left.map_or(&all, |g| &without[g])), false);
-    let mean = all.without_mean(limit).map_or_else(|| Answer::Known(measured(Area::mean)), Answer::unknown);
+    let mean = measured(Area::mean);
+    let mean = all.without_mean(limit, mean.half_width()).map_or(Answer::Known(mean), Answer::unknown);
     let restricted = measured(|area| area.restricted);
     Some(MeanTime { mean, restricted, limit, beyond: all.share, censored, count })
 }
@@ -93,16 +95,18 @@ impl Area {
         self.restricted + if self.share > 0.0 { self.share / self.rate } else { 0.0 }
     }
 
-    /// The reason why the mean is not known.
-    fn without_mean(&self, limit: f64) -> Option<String> {
+    /// The reason why the mean, with this half width of its interval, is not known.
+    fn without_mean(&self, limit: f64, half_width: f64) -> Option<String> {
         let (percent, [first, second]) = (100.0 * self.share, self.halves);
         let rarer = (first - second) / (first + second).max(1.0).sqrt();
+        // the tail by the ends of the second half alone
+        let longer = self.share / self.rate * (0.5 * (first + second) / second - 1.0);
         if self.share > 0.5 {
             let limit = four_digits(limit);
             Some(format!(
                 "not reached: {percent:.0} % last longer than they were watched ({limit}); record longer"
             ))
-        } else if self.share > 0.0 && rarer > RARER {
+        } else if self.share > 0.0 && rarer > RARER && longer > half_width {
             Some(format!(
                 "ends become rarer with time ({first} in the first half of the late time watched, {second} in the second), and \
                  {percent:.1} % are not seen to end: some may never do"

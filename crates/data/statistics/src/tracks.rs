@@ -68,6 +68,8 @@ pub struct Tracks {
     /// Blocks of starting times of each body, where windows may end beyond.
     pieces: Option<usize>,
     errors: Errors,
+    /// `true` under noise, `false` without; `None` where that is not known.
+    noise: Option<bool>,
 }
 
 impl Tracks {
@@ -97,9 +99,25 @@ impl Tracks {
         Self::in_units(dt, names, bodies)
     }
 
+    /// The same of bodies whose equations are known to have noise, or none: without it they are smooth between samples.
+    #[must_use]
+    pub fn with_noise(self, is_noisy: bool) -> Self {
+        Self { noise: Some(is_noisy), ..self }
+    }
+
+    /// Returns `true` if it is known that there is noise.
+    pub(crate) fn is_noisy(&self) -> bool {
+        self.noise == Some(true)
+    }
+
+    /// Returns `true` if all is smooth between samples, and its rates are known.
+    pub(crate) fn is_smooth(&self) -> bool {
+        self.noise == Some(false) && self.bodies.iter().all(|track| !track.rates.is_empty())
+    }
+
     fn in_units(dt: f64, names: Vec<String>, bodies: Vec<Track>) -> Result<Self> {
         let (blocks, errors) = units(&bodies)?;
-        Ok(Self { dt, names, bodies, blocks, pieces: None, errors })
+        Ok(Self { dt, names, bodies, blocks, pieces: None, errors, noise: None })
     }
 
     /// The same for few short records, such as an observed cell: with fewer than 8 bodies, windows are
@@ -126,7 +144,7 @@ impl Tracks {
             samples: bodies.iter().map(length).min().unwrap_or(0),
         };
         let blocks = Some(bodies.iter().flat_map(cut).collect());
-        Ok(Self { dt, names, bodies, blocks, pieces: Some(pieces), errors })
+        Ok(Self { dt, names, bodies, blocks, pieces: Some(pieces), errors, noise: None })
     }
 
     /// Blocks of starting times of each body, where there are some.

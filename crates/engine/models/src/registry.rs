@@ -27,8 +27,8 @@ pub struct ModelInfo {
     /// Ratio of relative to absolute tolerance, if only the former is given: the inverse of the size below
     /// which an entry of the state counts as small.
     pub tolerance_ratio: f64,
-    /// The length of a look, the unit in which times of observation are given: some tens of the model's slowest
-    /// ordinary time scale (model time). The first look at a motion is as long as this.
+    /// The length of a look at the default parameters, the unit in which times of observation are given: some tens of the model's slowest
+    /// ordinary time scale (model time). The first look at a motion is as long as this; see [`ModelInfo::look_at`].
     pub look: f64,
     /// Default maximum model time for classifying a motion.
     pub budget: f64,
@@ -166,6 +166,21 @@ impl ModelInfo {
                 known,
             }
         })
+    }
+
+    /// The look of a body with these parameters, in registry order: that of equations given as text follows their rates.
+    #[must_use]
+    pub fn look_at(&self, values: &[f64]) -> f64 {
+        match self.inner {
+            Source::Amplitudes(known) => amplitudes::look(known, values),
+            Source::BuiltIn { .. } | Source::Own(_) => self.look,
+        }
+    }
+
+    /// Default maximum model time for classifying the motion of a body with these parameters.
+    #[must_use]
+    pub fn budget_at(&self, values: &[f64]) -> f64 {
+        self.budget / self.look * self.look_at(values)
     }
 
     /// The models that are built in, then those of one's own ([`register`](crate::register)).

@@ -93,20 +93,21 @@ pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
     let allowed = (0.0..=LONGEST).contains(&budget);
     check("budget", budget, allowed, "give a model time above 0, at most 1e9, or 0 for the model's default")?;
     let bounds = (c.escape_norm, c.max_steps);
-    Ok(settings_of(info, plan.method()?, c.control, bounds, budget))
+    Ok(settings_of((info, &c.parameters.values()), plan.method()?, c.control, bounds, budget))
 }
 
-/// The classifier's settings: looks and budget (if that is 0) are those of the model, the rest is that of the plan.
+/// The classifier's settings: looks and budget (if that is 0) are those of the model at these parameters, the rest is that of the plan.
 #[must_use]
 pub fn settings_of(
-    info: &ModelInfo,
+    (info, values): (&ModelInfo, &[f64]),
     method: Method,
     control: Control,
     (escape_norm, max_steps): (f64, u64),
     budget: f64,
 ) -> Settings {
-    let budget = if budget > 0.0 { budget } else { info.budget };
-    Settings { method, control: control.into(), first_look: info.look, budget, escape_norm, max_steps }
+    let budget = if budget > 0.0 { budget } else { info.budget_at(values) };
+    let first_look = info.look_at(values);
+    Settings { method, control: control.into(), first_look, budget, escape_norm, max_steps }
 }
 
 /// The `count` largest Lyapunov exponents of the plan's motion, averaged over `t_end` after `transient` (if not
@@ -145,12 +146,12 @@ pub(crate) fn lyapunov_settings(
     count: usize,
     (transient, t_end): (Option<f64>, Option<f64>),
 ) -> Result<LyapunovSettings, Error> {
-    let (info, c) = (plan.info()?, &plan.computation);
+    let (look, c) = (plan.look()?, &plan.computation);
     let dim = c.initial.0.len() - 2; // without the position
     if count == 0 || count > dim {
         return Err(Error::Count { count, dim });
     }
-    let (transient, span) = (transient.unwrap_or(4.0 * info.look), t_end.unwrap_or(20.0 * info.look));
+    let (transient, span) = (transient.unwrap_or(4.0 * look), t_end.unwrap_or(20.0 * look));
     check("transient", transient, transient <= LONGEST, "give a time of at most 1e9")?;
     check("t_end", span, span <= LONGEST, "give a time of at most 1e9")?;
     Ok(LyapunovSettings {

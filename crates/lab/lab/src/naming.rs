@@ -21,7 +21,7 @@ const LOOKS: f64 = 2.0;
 /// # Checked by  tests/all/naming.rs: the presets' motions, other parameters, noise, blow-up
 pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let Some(plan) = from_its_end(manifest).filter(|_| !watch.stopped()) else { return Ok(None) };
-    let budget = LOOKS * plan.info()?.look;
+    let budget = LOOKS * plan.look()?;
     let verdict = analyse::classify(&plan, budget, watch)?;
     Ok(verdict.filter(|verdict| verdict.regime != Regime::Undetermined))
 }

@@ -54,14 +54,14 @@ pub fn saddle(
     threads: usize,
     watch: &dyn Watch,
 ) -> Result<Option<Saddle>, Error> {
-    let (info, c) = (plan.info()?, &plan.computation);
+    let (info, look, c) = (plan.info()?, plan.look()?, &plan.computation);
     let model = analyse::model(plan)?;
     let settings = LyapunovSettings {
         count: 1,
         method: plan.method()?,
         control: c.control.into(),
-        transient: transient.unwrap_or(0.5 * info.look),
-        span: t_end.unwrap_or(10.0 * info.look),
+        transient: transient.unwrap_or(0.5 * look),
+        span: t_end.unwrap_or(10.0 * look),
         escape_norm: c.escape_norm,
         max_steps: c.max_steps,
     };
@@ -71,7 +71,7 @@ pub fn saddle(
         Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
     };
     let runs = spread(samples, threads, watch, |jobs| jobs.each(one))?;
-    runs.map(|runs| summarise(&runs, &settings, WAY_OUT * info.look)).transpose()
+    runs.map(|runs| summarise(&runs, &settings, WAY_OUT * look)).transpose()
 }
 
 fn summarise(runs: &[Lyapunov], settings: &LyapunovSettings, way_out: f64) -> Result<Saddle, Error> {

@@ -86,6 +86,27 @@ fn what_never_ends_has_no_mean() {
     }
 }
 
+/// 5 and an exponential time, of 97 % with the mean 1 and of 3 % with 10/3: the rate of ends falls, and all end.
+#[test]
+fn a_rate_that_falls_among_the_last_ends_leaves_the_mean_known() {
+    let exact = 5.0 + 0.97 + 0.1;
+    let mut held = 0;
+    for seed in 0..20 {
+        let mut normal = Normal::new(77, seed);
+        let durations: Vec<Duration> = (0..20_000)
+            .map(|k| {
+                let half = if k % 100 < 3 { 5.0 / 3.0 } else { 0.5 };
+                let time = 5.0 + half * (normal.next().powi(2) + normal.next().powi(2));
+                Duration { time: time.min(16.0), ended: time < 16.0, group: k % 40 }
+            })
+            .collect();
+        let found = mean_time(&durations, 40).unwrap();
+        assert!(found.censored > 0.0, "{found:?}");
+        held += usize::from(holds(known(&found.mean), exact));
+    }
+    assert!(held >= 17, "{held} of 20");
+}
+
 #[test]
 fn durations_that_are_all_seen_have_their_plain_mean() {
     let times = [1.0, 5.0, 2.0, 2.0];
@@ -124,8 +145,9 @@ fn stays_do_not_depend_on_the_time_between_samples() {
             let rate = (0..samples).map(|j| [0.5 * phase(j as f64 * dt).cos(), 0.0]).collect();
             Track { rates: vec![rate], ..along(dt, samples, sine) }
         };
-        let tracks = Tracks::new(dt, vec![], (0..9).map(body).collect()).unwrap();
+        let tracks = Tracks::new(dt, vec![], (0..9).map(body).collect()).unwrap().with_noise(false);
         let found = residence(&tracks, &Quantity::Speed, Some(1.25));
+        assert!(found.seen_every.is_none());
         [found.above, found.below].map(|side| side.time.unwrap().mean)
     };
     let exact = [1.0, 2.0].map(|part| part * std::f64::consts::TAU / 3.0);
@@ -153,7 +175,9 @@ fn noise_is_no_cubic() {
     };
     let bodies: Vec<Track> = (0..9).map(body).collect();
     let plain = bodies.iter().map(|track| Track { rates: Vec::new(), ..track.clone() }).collect();
-    let [with, without] = [bodies, plain]
-        .map(|bodies| residence(&Tracks::new(0.1, vec![], bodies).unwrap(), &Quantity::Speed, Some(1.2)));
-    assert!(with.above.time.is_some() && with == without);
+    let [with, without] = [bodies, plain].map(|bodies| {
+        let tracks = Tracks::new(0.1, vec![], bodies).unwrap().with_noise(true);
+        residence(&tracks, &Quantity::Speed, Some(1.2))
+    });
+    assert!(with.above.time.is_some() && with.seen_every == Some(0.1) && with == without);
 }

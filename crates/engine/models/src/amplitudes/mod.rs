@@ -30,7 +30,7 @@ pub use definition::{Definition, DefinitionError, ParameterDefinition, Part};
 pub use equations::{Equations, check_modes};
 pub use formula::Formula;
 pub use lanes::AmplitudesField;
-pub(crate) use names::Known;
+pub(crate) use names::{Known, look};
 pub use names::{NAME, info, terms};
 pub use parser::RESERVED;
 pub use polynomial::{MOST_MODES, MOST_ORDER, Monomial};

@@ -81,10 +81,10 @@ fn make(equations: Equations) -> ModelInfo {
     }
 }
 
-/// Twenty times the slowest linear time scale at the default parameters, where rates below a twentieth of the median do not count: one fast
+/// Twenty times the slowest linear time scale at these parameters, where rates below a twentieth of the median do not count: one fast
 /// amplitude does not make the others slow, unless it is faster by more than steps can bridge.
-fn look(known: &'static Known, defaults: &[f64]) -> f64 {
-    let model = Amplitudes::new(known, defaults);
+pub(crate) fn look(known: &'static Known, values: &[f64]) -> f64 {
+    let model = Amplitudes::new(known, values);
     let all = at_rest(&model).unwrap_or_else(|| model.linear.to_vec());
     let mut rates: Vec<f64> =
         all.iter().map(|rate| rate.abs()).filter(|rate| *rate > 0.0 && rate.is_finite()).collect();

@@ -45,7 +45,7 @@ pub(crate) fn insets(folder: &AtlasFolder) -> Result<Vec<MapInset>, Error> {
 /// The path of a motion; nothing of one that goes nowhere.
 fn path(folder: &AtlasFolder, cell: usize, found: &Found) -> Result<Option<Vec<[f64; 2]>>, Error> {
     let (plan, scan) = (&folder.plan, folder.plan.scan());
-    let look = plan.info()?.look;
+    let look = scan.look_of(cell)?;
     let Some(t_end) = time(found, look).map(|time| time.min(LONGEST * look)) else { return Ok(None) };
     let computation = motiform_study::plan::Computation {
         transient: SETTLED * look,

@@ -99,7 +99,8 @@ mod tests {
     /// Van der Pol's cycle, of which the period is published (Andersen and Geer 1982), passed once and twice.
     #[test]
     fn a_cycle_that_is_passed_twice_is_told_from_one_that_is_passed_once() {
-        let (body, period, settings) = (VanDerPol { mu: 1.0 }, 6.663_286_859_323_13, Settings::over(0.0, 1.0));
+        let (body, period, settings) =
+            (VanDerPol { mu: 1.0 }, 6.663_286_859_323_13, Settings::over(0.0, 1.0));
         let turns = |turns: f64| {
             let wanted = (turns * period, false);
             PeriodicOrbit::near(&body, &[2.008_619_860_874_84, 0.0], wanted, &settings.flow, &()).unwrap()

@@ -62,7 +62,7 @@ impl<'p> Bodies<'p> {
         let mut settings = Settings::over(c.along.from, c.along.to);
         settings.most_points = c.points;
         settings.largest_size = c.start.escape_norm * self.units.length;
-        settings.longest_time = LOOKS * self.info.look;
+        settings.longest_time = LOOKS * self.look();
         let Stride { first_step, branch_step, tolerance, steady, .. } = c.stride;
         settings.steady = steady;
         settings.first_step = first_step.unwrap_or(settings.first_step);
@@ -75,15 +75,15 @@ impl<'p> Bodies<'p> {
     }
 
     /// The time in which the model's motions are looked at.
-    pub(crate) const fn look(&self) -> f64 {
-        self.info.look
+    pub(crate) fn look(&self) -> f64 {
+        self.info.look_at(&self.plan.computation.start.parameters.values())
     }
 
     /// Settings by which the motion of the start is named and the path on an orbit is computed: the plan's own method.
     pub(crate) fn looks(&self) -> regime::Settings {
         let start = &self.plan.computation.start;
         let bounds = (start.escape_norm, start.max_steps);
-        settings_of(self.info, self.method, start.control, bounds, 0.0)
+        settings_of((self.info, &start.parameters.values()), self.method, start.control, bounds, 0.0)
     }
 }
 

@@ -73,14 +73,15 @@ struct Way {
 
 impl<'p> Follower<'p> {
     pub(super) fn new(plan: &'p ScanPlan, looks: usize, watch: &'p dyn Watch) -> Result<Self, Error> {
-        let (info, c, method) = (plan.info()?, &plan.computation, plan.method()?);
+        let (info, c, look) = (plan.info()?, &plan.computation, plan.look_of(0)?);
         let models: Vec<_> = (0..plan.cells()).map(|cell| plan.model_of(cell)).collect::<Result<_, _>>()?;
         let bounds = (c.escape_norm, c.max_steps);
-        let settings = settings_of(info, method, c.control, bounds, LAST_LOOKS * info.look);
+        let of = (info, &plan.parameters_of(0)?[..]);
+        let settings = settings_of(of, plan.method()?, c.control, bounds, LAST_LOOKS * look);
         let adaptive = matches!(c.control.into(), StepControl::Adaptive { .. });
         let suited = c.stepper == "dop853" && adaptive;
         let kernel = suited.then(|| Kernel::of_all(models.iter().map(AsRef::as_ref))).flatten();
-        Ok(Self { plan, models, looks, look: info.look, size: info.size, settings, watch, kernel })
+        Ok(Self { plan, models, looks, look, size: info.size, settings, watch, kernel })
     }
 
     /// Follows the orbits that a thread takes, in lanes where there are any.

@@ -133,9 +133,9 @@ pub fn follow_lives_kept(
     Ok(Lives::of(plan, orbits))
 }
 
-/// The longest time of an orbit, in whole looks of the model ([`motiform_models::ModelInfo::look`]).
+/// The longest time of an orbit, in whole looks of the first cell ([`ScanPlan::look_of`]).
 fn looks(plan: &ScanPlan) -> Result<f64, Error> {
-    let (look, budget) = (plan.info()?.look, plan.computation.budget);
+    let (look, budget) = (plan.look_of(0)?, plan.computation.budget);
     Ok((if budget > 0.0 { budget / look } else { LOOKS }).ceil())
 }
 
@@ -174,7 +174,7 @@ impl Lives {
     /// As [`lifetimes`].
     pub fn summarised(&self, plan: &ScanPlan, delay: Option<f64>) -> Result<Lifetimes, Error> {
         let axis = check_axis(plan, delay)?;
-        let (look, looks) = (plan.info()?.look, looks(plan)?);
+        let (look, looks) = (plan.look_of(0)?, looks(plan)?);
         let values: Vec<LifeAt> = axis
             .values
             .iter()

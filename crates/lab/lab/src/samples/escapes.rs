@@ -78,7 +78,7 @@ impl Escapes {
             all().filter(is(Regime::BlowUp)).map(|(_, v)| v.escape_time.unwrap_or(v.time)).collect();
         let chaotic: Vec<usize> = all().filter(is(Regime::Chaotic)).map(|(sample, _)| sample).collect();
         let population = Population::new(plan, samples, watch)?;
-        let look = plan.info()?.look;
+        let look = plan.look()?;
         if Kernel::of(population.model.as_ref()).is_none() {
             let seen = |&sample: &usize| Stay { time: verdicts[sample].time, escaped: false };
             let stays: Vec<Stay> = chaotic.iter().map(seen).collect();
@@ -99,7 +99,7 @@ impl Escapes {
     pub fn of_orbits(plan: &RunPlan, orbits: &[Lyapunov]) -> Result<Option<Self>, Error> {
         let chaotic =
             |orbit: &&Lyapunov| orbit.separates() || matches!(orbit.outcome, Outcome::Escaped { .. });
-        let look = plan.info()?.look;
+        let look = plan.look()?;
         let all = orbits.iter().filter(chaotic).filter_map(|orbit| stay(&orbit.outcome));
         // What leaves within the first look was never near chaos.
         let (at_once, stays): (Vec<Stay>, Vec<Stay>) =

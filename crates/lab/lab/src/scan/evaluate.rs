@@ -67,8 +67,9 @@ impl Evaluate for Classify {
         let model = plan.model_of(cell)?;
         let start = plan.start(cell, sample, model.as_ref())?;
         let bounds = (c.escape_norm, c.max_steps);
-        let settings = settings_of(plan.info()?, plan.method()?, c.control, bounds, c.budget);
-        let body = Body { info: plan.info()?, values: plan.parameters_of(cell)?, model: model.as_ref() };
+        let (info, values) = (plan.info()?, plan.parameters_of(cell)?);
+        let settings = settings_of((info, &values), plan.method()?, c.control, bounds, c.budget);
+        let body = Body { info, values, model: model.as_ref() };
         body.classify(&start, &settings, stop)
     }
 

@@ -29,7 +29,8 @@ pub(super) fn classify(
 fn kernel(plan: &ScanPlan) -> Option<(Settings, Kernel)> {
     let c = &plan.computation;
     let bounds = (c.escape_norm, c.max_steps);
-    let settings = settings_of(plan.info().ok()?, plan.method().ok()?, c.control, bounds, c.budget);
+    let of = (plan.info().ok()?, &plan.parameters_of(0).ok()?[..]);
+    let settings = settings_of(of, plan.method().ok()?, c.control, bounds, c.budget);
     if !classifies_in_lanes(&settings) {
         return None;
     }

@@ -110,6 +110,7 @@ pub(crate) fn title(plan: &Plan) -> String {
 pub(crate) fn measured(plan: &Plan, tracks: Vec<Track>, settings: &Settings) -> Result<Statistics> {
     let model = plan.body()?;
     let tracks = Tracks::new(plan.computation.dt_out, mode_names(model.as_ref()), tracks)?;
+    let tracks = tracks.with_noise(plan.computation.noise.is_some());
     Ok(statistics(&tracks, settings)?)
 }
 

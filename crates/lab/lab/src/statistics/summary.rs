@@ -154,6 +154,12 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
     };
     all.push(("stays", side("at or above", &residence.above)));
     all.push(("", side("below", &residence.below)));
+    let depends = |every: f64| {
+        let every = four(Dimension::TIME, every);
+        let why = "under noise a path crosses a threshold the more often the more often it is seen";
+        ("", format!("of samples every {every}, on which stays depend: {why}"))
+    };
+    all.extend(residence.seen_every.map(depends));
     all
 }
 

@@ -192,8 +192,11 @@ fn the_plan_says_what_the_noise_is() {
     let mut study = noisy("tensor", &[("gamma", 1.0)], 0.5, (10.0, 0.5));
     let both = settings(&study);
     assert_eq!((both.velocity, both.shape), (0.5, 0.5));
-    study.run.dt_out = 0.001;
+    study.run.dt_out = 2.0;
     assert_eq!(settings(&study).step, both.step, "the step is the dynamics' own");
+    study.run.dt_out = 0.001;
+    assert_eq!(settings(&study).step, 2.0_f64.powi(-10), "a step has one bridge, and so one sample");
+    study.run.dt_out = 2.0;
     study.run.noise_velocity = Some(0.0);
     assert_eq!(settings(&study).velocity, 0.0);
     (study.run.noise, study.run.noise_velocity) = (0.0, Some(0.25));

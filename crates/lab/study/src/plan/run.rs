@@ -141,6 +141,7 @@ impl RunPlan {
         check_steps(model.as_ref(), method, control, run.transient + run.t_end)?;
         let initial = initial::resolve(study, info)?;
         check_start(model.as_ref(), &initial)?;
+        let noise = noise(study, model.as_ref(), info.look_at(&parameters.values()), dt_out)?;
         let computation = Computation {
             format: PLAN_FORMAT,
             model: ModelName::from(info),
@@ -155,7 +156,7 @@ impl RunPlan {
             max_steps: run.max_steps,
             escape_norm: run.escape_norm_in(unit(study)?),
             return_map: study.return_map.clone(),
-            noise: noise(study, model.as_ref(), info.look)?,
+            noise,
         };
         let (name, title) = (study.name.clone(), study.title.clone());
         Ok(Self { name, title, computation, figure: study.figure.clone() })
@@ -169,6 +170,14 @@ impl RunPlan {
         Ok(self.info()?.build(&self.computation.parameters.values())?)
     }
 
+    /// The look of its body.
+    ///
+    /// # Errors
+    /// An unknown model.
+    pub fn look(&self) -> Result<f64, Error> {
+        Ok(self.info()?.look_at(&self.computation.parameters.values()))
+    }
+
     /// Its stepper.
     ///
     /// # Errors
@@ -179,7 +188,7 @@ impl RunPlan {
 }
 
 /// The noise of a study, if it has any.
-fn noise(study: &Study, model: &dyn Model, look: f64) -> Result<Option<NoiseSettings>, Error> {
+fn noise(study: &Study, model: &dyn Model, look: f64, dt_out: f64) -> Result<Option<NoiseSettings>, Error> {
     let run = &study.run;
     let remedy = "give an amplitude above 0, or 0 for none";
     check("noise", run.noise, run.noise >= 0.0, remedy)?;
@@ -192,8 +201,10 @@ fn noise(study: &Study, model: &dyn Model, look: f64) -> Result<Option<NoiseSett
     Semilinear::<f64>::linear(model, &mut rates);
     let own = model.noise();
     rates.extend(own.diffusion.as_ref().map(|diffusion| diffusion.rate()));
-    // A look is some tens of the slowest ordinary time scale.
-    let settings = NoiseSettings { velocity, shape: run.noise, step: Noise::step_for(&rates, look / 20.0) };
+    // A look is some tens of the slowest ordinary time scale. Within a step the path has one bridge: a second sample in it would follow
+    // from the first.
+    let step = Noise::step_for(&rates, look / 20.0).min(libm::exp2(libm::log2(dt_out).floor()));
+    let settings = NoiseSettings { velocity, shape: run.noise, step };
     Ok((settings.largest() > 0.0 || !own.is_none()).then_some(settings))
 }
 

@@ -164,11 +164,19 @@ impl ScanPlan {
             let model = self.model_of(cell)?;
             check_stability(model.as_ref(), self.method()?, self.computation.control)?;
             // Looks, exponents and periodic orbits repeat such times: a thousand looks are a day.
-            let time = 1e3 * self.info()?.look;
+            let time = 1e3 * self.look_of(cell)?;
             check_steps(model.as_ref(), self.method()?, self.computation.control, time)?;
             self.start(cell, 0, model.as_ref())?;
         }
         Ok(())
+    }
+
+    /// The look of the body of a cell.
+    ///
+    /// # Errors
+    /// An unknown model.
+    pub fn look_of(&self, cell: usize) -> Result<f64, Error> {
+        Ok(self.info()?.look_at(&self.parameters_of(cell)?))
     }
 
     /// Number of cells.

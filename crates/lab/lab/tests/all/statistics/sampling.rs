@@ -83,3 +83,37 @@ fn a_start_at_rest_is_left_out_or_said() {
     assert!(seen(small, 20).not_stationary.is_some());
     assert_eq!(seen(&format!("{small}\ntransient = 1000"), 20).not_stationary, None);
 }
+
+/// The speed |x + c| of x' = -k x + s dW/dt far from 0, with these values as defaults of the equations, or set beside others.
+fn walker(k: f64, set: bool, (t_end, dt): (f64, f64)) -> Statistics {
+    let value = |given: f64, default: f64| match set {
+        true => format!("{{ value = {given:?}, default = {default:?} }}"),
+        false => format!("{given:?}"),
+    };
+    let [k, s, c] =
+        [(k, 1.0), (k, 1.0), (20.0 * k.sqrt(), 20.0)].map(|(given, default)| value(given, default));
+    seen(
+        &format!(
+            "[model.amplitudes]\nmodes = [2]\nsymmetry = \"none\"\nvelocity = \"re(z2) + c\"\n[model.amplitudes.parameters]\n\
+             k = {k}\ns = {s}\nc = {c}\n[model.amplitudes.equations]\nz2 = \"-k*z2\"\n[model.amplitudes.noise]\nz2 = \"s\"\n\
+             [run]\ntransient = {}\nt_end = {t_end}\ndt_out = {dt}",
+            0.1 * t_end
+        ),
+        24,
+    )
+}
+
+/// A Gaussian process with the correlation exp(-k t) that is looked at every dt stays on one side for dt pi / arccos(exp(-k dt)).
+#[test]
+fn stays_under_noise_are_those_of_the_samples_however_the_rates_are_given() {
+    for (k, times) in [(1.0, (20.0, 0.001)), (1.0, (60.0, 0.05)), (1e4, (6e-3, 5e-6)), (1e-4, (6e5, 500.0))] {
+        for set in [false, true] {
+            let found = walker(k, set, times).residence;
+            let exact = times.1 * std::f64::consts::PI / (-k * times.1).exp().acos();
+            for side in [found.above, found.below] {
+                let mean = side.time.unwrap().mean.known().unwrap();
+                assert!(holds(mean, exact), "k {k}, dt {}, set {set}: {mean:?}, exact {exact}", times.1);
+            }
+        }
+    }
+}
