@@ -4,10 +4,14 @@ use super::correct::{TIGHT, correct, normal, product, scaled};
 use super::place::{Before, Place, place};
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
+use motiform_analysis::linear::norm;
 use motiform_dynamics::Watch;
 
 /// Part of a step that solutions keep from a place where the equations are singular: what the branch bends on it is below [`TIGHT`].
 pub(super) const APART: f64 = 1e-4;
+
+/// Tolerances by which the equations may be off in the middle of two solutions.
+const UNSOLVED: f64 = 10.0;
 
 /// The step from `old` to `new`, and the place before it.
 pub(super) struct Step<'s, L> {
@@ -47,6 +51,10 @@ fn middle<P: Problem>(
     let x = mean(&low.x, &high.x);
     let tangent = scaled(mean(&low.tangent, &high.tangent), &problem.weights(&x)).ok_or_else(broken)?;
     let local = problem.local(&x, watch)?;
+    // over a gap between two branches it is no solution
+    if norm(&problem.linear(&local).residual) > UNSOLVED * TIGHT {
+        return Err(broken());
+    }
     let levels = problem.levels(&x, &local).ok_or_else(broken)?;
     Ok(Place { x, local, tangent, levels, arclength: step.old.arclength + s, certificate: None })
 }

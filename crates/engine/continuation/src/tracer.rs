@@ -2,7 +2,7 @@
 
 use super::between::{Step, between};
 use super::certificate::TestFunction;
-use super::correct::{correct, directions, normal, scaled};
+use super::correct::{correct, directions, normal, product, scaled};
 use super::levels::{CLEAR, unstable};
 use super::locate::{Changes, ONE, locate};
 use super::periods::Periods;
@@ -19,6 +19,9 @@ const NEUTRAL: f64 = 10.0;
 
 /// Newton's method has converged with a step shorter than this, if nothing else is asked for.
 pub(super) const TOLERANCE: f64 = 1e-9;
+
+/// Distance, in the units of the unknowns, within which two special points of a branch are one.
+const AGAIN: f64 = 1e-7;
 
 /// Copies of the critical level, which symmetry makes equal to it, differ from it by less than its residual.
 const RESIDUALS: f64 = 3.0;
@@ -57,6 +60,8 @@ pub(super) struct Tracer<P: Problem> {
     pub(super) count: usize,
     end: Option<End>,
     pub(super) periods: Periods,
+    /// Special points handed out: unknowns, tangents, names, and the number of points before them.
+    passed: Vec<(Vec<f64>, Vec<f64>, &'static str, usize)>,
 }
 
 /// Number of levels that are 0 within their error.
@@ -119,6 +124,7 @@ impl<P: Problem> Tracer<P> {
             count: 0,
             end: None,
             periods: Periods::default(),
+            passed: Vec::new(),
         };
         let first = tracer.point(&tracer.place, None);
         tracer.queue.push_back(first);
@@ -196,6 +202,11 @@ impl<P: Problem> Tracer<P> {
         }
         self.check(&new)?;
         let (new, length, mut changes) = self.examine(new, length, &mut last, watch)?;
+        if let Some(again) = changes.found.iter().position(|(at, special)| self.has_passed(at, *special)) {
+            changes.found.truncate(again);
+            self.hand_out_special(changes.found, (&new, length), watch);
+            return Err(End::Closed);
+        }
         if let Some(end) = self.meets(length, &mut changes) {
             self.hand_out_special(changes.found, (&new, length), watch);
             return Err(end);
@@ -237,6 +248,20 @@ impl<P: Problem> Tracer<P> {
         Ok((new, length, found))
     }
 
+    /// Returns `true` if the branch was at a special point before, in the same direction: it is closed. (A step may be as long as a small
+    /// loop, and pass its start unseen.)
+    fn has_passed(&self, at: &Place<P::Local>, special: Special) -> bool {
+        let weights = self.problem.weights(&at.x);
+        self.passed.iter().any(|(x, tangent, name, count)| {
+            let apart: Vec<f64> = x.iter().zip(&at.x).map(|(a, b)| a - b).collect();
+            *name == special.name()
+                && self.count >= count + 2 // at the end of a step a point may be found twice
+                && x.len() == at.x.len()
+                && product(&weights, &apart, &apart).sqrt() < AGAIN
+                && product(&weights, tangent, &at.tangent) > 0.0
+        })
+    }
+
     /// The special points of a step to `new`, and between two of them a point that is none: it says how many deviations grow there.
     fn hand_out_special(
         &mut self,
@@ -252,6 +277,7 @@ impl<P: Problem> Tracer<P> {
                 .map(|last: f64| 0.5 * (last + at.arclength) - self.place.arclength)
                 .and_then(|s| between(&self.problem, &step, s, watch).ok());
             last = Some(at.arclength);
+            self.passed.push((at.x.clone(), at.tangent.clone(), special.name(), self.count));
             let points =
                 [middle.map(|middle| self.point(&middle, None)), Some(self.point(&at, Some(special)))];
             self.queue.extend(points.into_iter().flatten());

@@ -139,3 +139,68 @@ fn crossings_of_high_order_are_crossings() {
         }
     }
 }
+
+/// `x' = x (-(p - 1/10) (p - 1/10 - d) - x^2)`: a loop between two pitchforks of rest, as small as a step.
+struct Bubble {
+    p: f64,
+    d: f64,
+}
+motiform_models::plain!(Bubble, 2);
+impl<T: Scalar> VectorField<T> for Bubble {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        du[0] = u[0] * (-(self.p - 0.1) * (self.p - 0.1 - self.d)) - u[0] * u[0] * u[0];
+        du[1] = -u[1];
+    }
+}
+
+#[test]
+fn a_loop_as_small_as_a_step_is_passed_once() {
+    for d in [0.003, 0.01, 0.03] {
+        for (low, high) in [(-1.0, 1.0), (-0.5, 0.7)] {
+            let family = move |p: f64| -> Body { Ok(Box::new(Bubble { p, d })) };
+            let points = branch(&family, 0.5, &[0.0, 0.0], &down(low, high));
+            let forks: Vec<&Point> = points.iter().filter(|p| p.special.is_some()).collect();
+            assert_eq!(forks.len(), 2, "{d} in {low} to {high}");
+            for fork in forks {
+                for mut leg in switch(&family, fork, &down(low, high), &()).unwrap().into_iter().flatten() {
+                    let met = leg.by_ref().filter(|point| point.special.is_some()).count();
+                    assert!(
+                        matches!(leg.end(), Some(End::Closed)) && met == 2,
+                        "{d}: {met}, {:?}",
+                        leg.end()
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// `x' = p x + e - x^3`: no pitchfork, a branch that is stable for all p, and another one with a fold at `3 (e/2)^(2/3)`.
+struct Imperfect {
+    p: f64,
+    e: f64,
+}
+motiform_models::plain!(Imperfect, 2);
+impl<T: Scalar> VectorField<T> for Imperfect {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let x = u[0];
+        du[0] = x * self.p - x * x * x + x.constant(self.e);
+        du[1] = -u[1];
+    }
+}
+
+#[test]
+fn a_pitchfork_that_is_not_quite_one_is_none() {
+    for e in [1e-9, 1e-8, 1e-7, 1e-5] {
+        for (low, high) in [(-1.0, 1.0), (-2.0, 2.0), (-0.5, 1.0), (-1.0, 0.7)] {
+            let family = move |p: f64| -> Body { Ok(Box::new(Imperfect { p, e })) };
+            let points = branch(&family, 0.5, &[0.7, 0.0], &down(low, high));
+            let found: Vec<_> = points.iter().filter_map(|p| Some((p.parameter, p.special?))).collect();
+            assert!(
+                found.is_empty() && points.iter().all(|p| p.unstable == 0),
+                "{e} in {low} to {high}: {found:?}"
+            );
+            assert_eq!(points.last().unwrap().parameter, low, "{e} in {low} to {high}");
+        }
+    }
+}

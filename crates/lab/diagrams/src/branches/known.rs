@@ -55,6 +55,7 @@ pub(super) fn known(
         found.is_some_and(|found| {
             !gained(body.as_ref(), &neighbour.point.motion, &found)
                 && same_motion(body.as_ref(), &sample.point.motion, &found, &settings.flow, SAME)
+                && (between.is_some() || leads_back(bodies, sample, neighbour, settings, watch))
         })
     };
     let far = |neighbour: &Sample| (neighbour.point.parameter - parameter).abs();
@@ -70,6 +71,22 @@ pub(super) fn known(
     };
     let holds = |branch: &Followed| branch.legs.iter().any(holds_leg);
     branches.iter().position(holds)
+}
+
+/// Returns `true` if Newton's method leads from a motion to its neighbour as well: beside a point where branches cross it may lead from
+/// either to the same one of them.
+fn leads_back(
+    bodies: &Bodies<'_>,
+    sample: &Sample,
+    neighbour: &Sample,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> bool {
+    let there = neighbour.point.parameter;
+    let (Ok(body), Some(found)) = (bodies.model(there), moved(bodies, sample, there, settings, watch)) else {
+        return false;
+    };
+    same_motion(body.as_ref(), &neighbour.point.motion, &found, &settings.flow, SAME)
 }
 
 /// Returns `true` if Newton's method has led from a steady motion to one of more symmetry, which is on another branch.
