@@ -1,5 +1,8 @@
 //! Kinds of results.
 
+use crate::{Inventory, mend};
+use std::path::Path;
+
 /// The kind of a result: only a result of the same kind may replace it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -81,6 +84,13 @@ impl Kind {
                 | Self::Fits
         )
     }
+}
+
+/// The kind of a folder, by its inventory. An interrupted replacement is finished before.
+#[must_use]
+pub fn kind_of(folder: &Path) -> Option<Kind> {
+    let _ = mend(folder); // reading says what is wrong
+    Kind::of_name(&Inventory::read(folder).ok()??.kind)
 }
 
 #[test]
