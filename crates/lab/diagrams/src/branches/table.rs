@@ -4,6 +4,7 @@ use super::family::Bodies;
 use super::result::{Branches, Sample};
 use super::sweep::{SweepPoint, Sweeps};
 use motiform_analysis::regime::{Course, Form};
+use motiform_continuation::Point;
 use motiform_store::columns::Column;
 use motiform_study::quantity::motion;
 use motiform_study::{BranchPlan, Error, Quantity};
@@ -53,7 +54,7 @@ fn motions(rows: &Rows<'_>) -> Vec<Column> {
         Column::of(&motion::FORM, readings().map(|reading| reading.form.map_or("", Form::name)).collect()),
         Column::of(&motion::COURSE, course.collect()),
         Column::of(&motion::SPECIAL, special.collect()),
-        Column::of(&motion::STABLE, points().map(|point| point.is_stable()).collect()),
+        Column::of(&motion::STABLE, points().map(Point::is_stable).collect()),
         Column::of(&motion::UNSTABLE, points().map(|point| point.unstable).collect()),
     ]
 }
