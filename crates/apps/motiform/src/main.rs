@@ -11,7 +11,7 @@ mod remedy;
 #[cfg(unix)]
 mod standard_output;
 
-use args::{Arguments, Command, old_names};
+use args::{Arguments, Command};
 use clap::Parser;
 use std::process::ExitCode;
 
@@ -21,7 +21,6 @@ fn main() -> ExitCode {
         return output::report(&error);
     }
     let arguments = Arguments::parse();
-    old_names(&std::env::args_os().collect::<Vec<_>>()).iter().for_each(|said| output::warn(said));
     let done = match arguments.command {
         Command::Models(options) => commands::models::run(&options),
         Command::Simulate(options) => commands::simulate::run(&options),

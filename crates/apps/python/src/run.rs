@@ -81,8 +81,7 @@ impl Run {
         let place = |name: &str| self.table.names.iter().position(|known| known == name);
         let coordinates = model.coordinates().iter();
         let named: Vec<f64> = coordinates.filter_map(|c| Some(block[[place(c.name)?, row]])).collect();
-        let mut shape = vec![0.0; model.dim()];
-        model.encode(&named, &mut shape);
+        let shape = model.encoded(&named);
         Ok(shape)
     }
 }

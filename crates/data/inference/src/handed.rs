@@ -20,17 +20,19 @@ pub const COLOURED: f64 = 1e-6;
 /// intervals of a mirror-symmetric cell exclude.
 pub const SEEN: f64 = 0.1;
 
-/// The answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Symmetry {
-    /// Real coefficients are enough, and the 95 % interval of every imaginary part excludes the size [`SEEN`]: it would have been seen.
-    Mirror,
-    /// Real coefficients are rejected.
-    Handed,
-    /// Real coefficients are enough, but imaginary parts of the size [`SEEN`] are within their intervals: not
-    /// decidable; or the likelihood ratio is between [`HANDED_RATE`] and [`DOUBTED_RATE`].
-    Undecided,
+motiform_dynamics::named! {
+    /// The answer.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Symmetry by name {
+        /// Real coefficients are enough, and the 95 % interval of every imaginary part excludes the size [`SEEN`]: it would have been seen.
+        Mirror = "mirror symmetric",
+        /// Real coefficients are rejected.
+        Handed = "handed",
+        /// Real coefficients are enough, but imaginary parts of the size [`SEEN`] are within their intervals: not
+        /// decidable; or the likelihood ratio is between [`HANDED_RATE`] and [`DOUBTED_RATE`].
+        Undecided = "not decidable",
+    }
 }
 
 impl Handedness {
@@ -51,18 +53,6 @@ impl Handedness {
             "imaginary parts above {:.0} % of the largest coefficient of their equation are excluded",
             100.0 * self.excluded
         )
-    }
-}
-
-impl Symmetry {
-    /// The answer in a word or two.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Mirror => "mirror symmetric",
-            Self::Handed => "handed",
-            Self::Undecided => "not decidable",
-        }
     }
 }
 

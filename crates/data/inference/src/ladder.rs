@@ -10,50 +10,35 @@ use serde::{Deserialize, Serialize};
 /// Parts of each track, of which one at a time is left out of the fits.
 pub const BLOCKS: usize = 5;
 
-/// A model of the ladder. In all of them each mode of the shape relaxes at a rate of its own and has noise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LadderModel {
-    /// The velocity relaxes and is renewed by noise: rest, or a persistent random walk; nothing acts on anything else.
-    PassiveWalk,
-    /// The same, and the shape acts on the velocity to second order.
-    PolarWalk,
-    /// The velocity has a linear and a cubic term: a speed of its own.
-    Speed,
-    /// All terms of z1 and z2.
-    TwoModes,
-    /// All terms of z1 to z3.
-    ThreeModes,
-    /// All terms of z1 to z4.
-    FourModes,
-    /// The terms that the frames of the fit ask for.
-    Selected,
-    /// The same with complex coefficients.
-    Handed,
-    /// The terms that the frames of the fit ask for, and a velocity of the stage for each track.
-    Drifting,
-    /// The terms that the frames of the fit ask for, and noise of the velocity with a memory; of at most three modes.
-    Coloured,
+motiform_dynamics::named! {
+    /// A model of the ladder. In all of them each mode of the shape relaxes at a rate of its own and has noise.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum LadderModel by words {
+        /// The velocity relaxes and is renewed by noise: rest, or a persistent random walk; nothing acts on anything else.
+        PassiveWalk = "rest or persistent random walk, passive shape",
+        /// The same, and the shape acts on the velocity to second order.
+        PolarWalk = "persistent random walk, the shape acts on the velocity",
+        /// The velocity has a linear and a cubic term: a speed of its own.
+        Speed = "velocity with a speed of its own, passive shape",
+        /// All terms of z1 and z2.
+        TwoModes = "all terms of z1 and z2",
+        /// All terms of z1 to z3.
+        ThreeModes = "all terms of z1 to z3",
+        /// All terms of z1 to z4.
+        FourModes = "all terms of z1 to z4",
+        /// The terms that the frames of the fit ask for.
+        Selected = "terms that the data ask for",
+        /// The same with complex coefficients.
+        Handed = "terms that the data ask for, handed",
+        /// The terms that the frames of the fit ask for, and a velocity of the stage for each track.
+        Drifting = "terms that the data ask for, and a drift of the stage",
+        /// The terms that the frames of the fit ask for, and noise of the velocity with a memory; of at most three modes.
+        Coloured = "terms that the data ask for, and noise of the velocity with a memory",
+    }
 }
 
 impl LadderModel {
-    /// The model in words.
-    #[must_use]
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::PassiveWalk => "rest or persistent random walk, passive shape",
-            Self::PolarWalk => "persistent random walk, the shape acts on the velocity",
-            Self::Speed => "velocity with a speed of its own, passive shape",
-            Self::TwoModes => "all terms of z1 and z2",
-            Self::ThreeModes => "all terms of z1 to z3",
-            Self::FourModes => "all terms of z1 to z4",
-            Self::Selected => "terms that the data ask for",
-            Self::Handed => "terms that the data ask for, handed",
-            Self::Drifting => "terms that the data ask for, and a drift of the stage",
-            Self::Coloured => "terms that the data ask for, and noise of the velocity with a memory",
-        }
-    }
-
     /// The models of so many amplitudes, from the simplest to the richest.
     fn all(modes: usize) -> Vec<Self> {
         let mut all = vec![Self::PassiveWalk, Self::PolarWalk, Self::Speed, Self::TwoModes];

@@ -1,7 +1,7 @@
 //! The section that reduced orbits are watched on.
 
 use crate::linear::{dot, norm};
-use motiform_dynamics::{Equivariant, VectorField};
+use motiform_dynamics::Equivariant;
 
 /// A size of the reduced shape, whose extremes are the section that reduced orbits are watched on.
 ///
@@ -30,8 +30,7 @@ impl Gauge {
     /// A function that vanishes where the size of an orbit has its extremes, smooth everywhere: `u . f(u)`, or `l . f(u)`.
     #[must_use]
     pub fn rate(&self, body: &dyn Equivariant, shape: &[f64]) -> f64 {
-        let mut rate = vec![0.0; shape.len()];
-        VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
+        let rate = body.rates(shape);
         dot(self.form.as_deref().unwrap_or(shape), &rate)
     }
 

@@ -30,8 +30,7 @@ impl Isotropy {
     pub fn of(body: &dyn Equivariant, shape: &[f64], tolerance: f64) -> Self {
         let size = norm(shape);
         let symmetry = body.symmetry();
-        let mut spin = vec![0.0; shape.len()];
-        body.spin(shape, &mut spin);
+        let spin = body.spun(shape);
         let circle = symmetry.rotations && norm(&spin) <= tolerance * size;
         let axis = symmetry.mirror.then(|| align(body, shape, shape, true));
         let mirror = axis.filter(|axis| axis.distance <= tolerance * size).map(|axis| axis.angle);

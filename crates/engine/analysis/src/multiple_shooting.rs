@@ -15,7 +15,7 @@ use crate::periodic::{Flow, PeriodicOrbit, back};
 use crate::product::logarithms_of_product;
 use crate::symmetry::wrap;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, Request, Tangent, VectorField, Watch};
+use motiform_dynamics::{Equivariant, Request, Tangent, Watch};
 use nalgebra::DMatrix;
 
 /// The limits on the parts of a period.
@@ -170,8 +170,7 @@ impl<'b> Nodes<'b> {
             }
             add(&mut columns[count * dim][i * dim..(i + 1) * dim], 1.0 / count as f64, &brought(&part.slope));
             if last && turns {
-                let mut by_angle = part.end.clone();
-                self.body.spin(&part.end, &mut by_angle);
+                let by_angle = self.body.spun(&part.end);
                 add(&mut columns[count * dim + 1][i * dim..(i + 1) * dim], -1.0, &brought(&by_angle));
             }
         }
@@ -284,7 +283,6 @@ fn part(body: &dyn Equivariant, start: &[f64], span: f64, flow: &Flow, watch: &d
         return None;
     }
     let (end, tangents) = orbit.state().split_at(dim);
-    let mut slope = end.to_vec();
-    VectorField::<f64>::eval(body, 0.0, end, &mut slope);
+    let slope = body.rates(end);
     Some(Part { end: end.to_vec(), slope, tangents: tangents.to_vec() })
 }

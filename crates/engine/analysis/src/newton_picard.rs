@@ -122,10 +122,8 @@ impl<'b> Newton<'b> {
             return None;
         }
         let (end, vectors) = orbit.state().split_at(dim);
-        let mut by_time = end.to_vec();
-        VectorField::<f64>::eval(self.body, 0.0, end, &mut by_time);
-        let mut by_angle = end.to_vec();
-        self.body.spin(end, &mut by_angle);
+        let mut by_time = self.body.rates(end);
+        let mut by_angle = self.body.spun(end);
         by_angle.iter_mut().for_each(|x| *x = -*x);
         let mut rest = end.to_vec();
         let mut directions: Vec<Vec<f64>> = vectors.chunks_exact(dim).map(<[f64]>::to_vec).collect();

@@ -156,8 +156,7 @@ pub fn wrap(angle: f64) -> f64 {
 /// The turning rate of the shape: `omega = Gu . f / |Gu|^2` makes `|f - omega Gu|` least; 0 for a circle.
 #[must_use]
 pub fn turning_of_shape(body: &dyn Equivariant, shape: &[f64], rate: &[f64]) -> f64 {
-    let mut spin = vec![0.0; shape.len()];
-    body.spin(shape, &mut spin);
+    let spin = body.spun(shape);
     let size = dot(&spin, &spin);
     if size > 0.0 { dot(&spin, rate) / size } else { 0.0 }
 }
@@ -165,8 +164,7 @@ pub fn turning_of_shape(body: &dyn Equivariant, shape: &[f64], rate: &[f64]) -> 
 /// `|f - omega Gu|` with the best omega: how fast the reduced shape changes.
 #[must_use]
 pub fn reduced_speed(body: &dyn Equivariant, shape: &[f64], rate: &[f64]) -> f64 {
-    let mut spin = vec![0.0; shape.len()];
-    body.spin(shape, &mut spin);
+    let spin = body.spun(shape);
     speed_beside(&spin, rate)
 }
 
@@ -209,8 +207,7 @@ impl VectorField<f64> for MovingFrame<'_> {
         let (shape, place) = u.split_at(self.0.dim());
         let (rate, moves) = du.split_at_mut(shape.len());
         VectorField::<f64>::eval(self.0, t, shape, rate);
-        let mut spin = vec![0.0; shape.len()];
-        self.0.spin(shape, &mut spin);
+        let spin = self.0.spun(shape);
         let omega = turning_of_shape(self.0, shape, rate);
         for (r, g) in rate.iter_mut().zip(&spin) {
             *r -= omega * g;

@@ -19,7 +19,7 @@ use motiform_analysis::linear::{add, apply, eigenvalues, leading_first, norm, re
 use motiform_analysis::singular::svd;
 use motiform_dynamics::sample::ascending;
 use motiform_dynamics::tangent::jacobian;
-use motiform_dynamics::{Equivariant, VectorField, Watch, model};
+use motiform_dynamics::{Equivariant, Watch, model};
 use nalgebra::DMatrix;
 
 /// The unit of the shape is at least this part of its own size: a branch that begins small keeps the steps of its beginning until it has
@@ -248,21 +248,13 @@ impl Problem for Equilibria<'_> {
     }
 }
 
-/// `f(shape)`.
-fn rate(body: &dyn Equivariant, shape: &[f64]) -> Vec<f64> {
-    let mut rate = vec![0.0; shape.len()];
-    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-    rate
-}
-
 impl Equilibria<'_> {
     /// The equations, in their units. What breaks the symmetry of the shape is left to itself, `du = 0`: where such a deviation is critical
     /// the equations of the motion itself stay regular.
     fn fill(&self, shape: &[f64], omega: f64, sides: &[Sides], local: &Local) -> Linear {
         let (dim, body) = (self.dim, local.body.as_ref());
-        let mut spin = vec![0.0; dim];
-        body.spin(shape, &mut spin);
-        let mut residual = rate(body, shape);
+        let spin = body.spun(shape);
+        let mut residual = body.rates(shape);
         add(&mut residual, -omega, &spin);
         residual.push(0.0);
         let mut all = DMatrix::zeros(dim + 1, dim + 1 + sides.len());
@@ -276,8 +268,8 @@ impl Equilibria<'_> {
         }
         put(dim, &spin.iter().map(|g| -g).collect::<Vec<f64>>());
         for (j, Sides { above, below, width }) in sides.iter().enumerate() {
-            let mut slope = rate(above.as_ref(), shape);
-            add(&mut slope, -1.0, &rate(below.as_ref(), shape));
+            let mut slope = above.rates(shape);
+            add(&mut slope, -1.0, &below.rates(shape));
             slope.iter_mut().for_each(|value| *value /= width);
             put(dim + 1 + j, &slope);
         }

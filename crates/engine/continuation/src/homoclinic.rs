@@ -41,35 +41,23 @@ pub enum PeriodLaw {
     },
 }
 
-/// The limit of an orbit where its period grows without bound.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum ConnectionKind {
-    /// The leading eigenvalues of the saddle are real, growing and decaying ones of different size.
-    Saddle,
-    /// A complex pair of the saddle leads on one side (Shilnikov). Where the pair is slower than the leading eigenvalue of the other side
-    /// there are infinitely many periodic orbits beside the connection.
-    SaddleFocus,
-    /// Growth and decay at the saddle are equal.
-    Resonant,
-    /// Two equilibria meet on the orbit and disappear.
-    SaddleNode,
-    /// The orbit passes two saddles or more that are no images of each other (a heteroclinic cycle).
-    Cycle,
-}
-
-impl ConnectionKind {
-    /// Its name in files.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Saddle => "saddle",
-            Self::SaddleFocus => "saddle-focus",
-            Self::Resonant => "resonant",
-            Self::SaddleNode => "saddle-node",
-            Self::Cycle => "cycle",
-        }
+motiform_dynamics::named! {
+    /// The limit of an orbit where its period grows without bound.
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    #[non_exhaustive]
+    pub enum ConnectionKind by name {
+        /// The leading eigenvalues of the saddle are real, growing and decaying ones of different size.
+        Saddle = "saddle",
+        /// A complex pair of the saddle leads on one side (Shilnikov). Where the pair is slower than the leading eigenvalue of the other
+        /// side there are infinitely many periodic orbits beside the connection.
+        SaddleFocus = "saddle-focus",
+        /// Growth and decay at the saddle are equal.
+        Resonant = "resonant",
+        /// Two equilibria meet on the orbit and disappear.
+        SaddleNode = "saddle-node",
+        /// The orbit passes two saddles or more that are no images of each other (a heteroclinic cycle).
+        Cycle = "cycle",
     }
 }
 

@@ -46,9 +46,7 @@ impl Slice<'_> {
         let rate: Vec<f64> = rates.iter().map(|r| r.value).collect();
         let mut out: Vec<f64> = rates.iter().map(|r| r.derivative[0]).collect();
         if let Some(neutral) = self.neutral.first() {
-            let (mut spin, mut turned) = (vec![0.0; dim], vec![0.0; dim]);
-            self.body.spin(&shape, &mut spin);
-            self.body.spin(&direction, &mut turned);
+            let (spin, turned) = (self.body.spun(&shape), self.body.spun(&direction));
             let along = dot(neutral, &spin);
             let xi = dot(neutral, &rate) / along;
             let slope = (dot(neutral, &out) - xi * dot(neutral, &turned)) / along;

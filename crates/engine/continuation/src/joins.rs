@@ -3,27 +3,17 @@
 use motiform_analysis::RelativeEquilibrium;
 use serde::{Deserialize, Serialize};
 
-/// The relation of the saddles that an orbit passes in its period.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Joins {
-    /// It is one saddle, up to rotations: a homoclinic connection.
-    Itself,
-    /// They are mirror images: a heteroclinic connection of a saddle with its image.
-    Images,
-    /// They differ: a heteroclinic cycle.
-    Different,
-}
-
-impl Joins {
-    /// Its name in files.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Itself => "itself",
-            Self::Images => "images",
-            Self::Different => "different",
-        }
+motiform_dynamics::named! {
+    /// The relation of the saddles that an orbit passes in its period.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Joins by name {
+        /// It is one saddle, up to rotations: a homoclinic connection.
+        Itself = "itself",
+        /// They are mirror images: a heteroclinic connection of a saddle with its image.
+        Images = "images",
+        /// They differ: a heteroclinic cycle.
+        Different = "different",
     }
 }
 

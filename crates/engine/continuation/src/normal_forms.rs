@@ -9,7 +9,7 @@ use super::problem::Equations;
 use super::reduction::{Size, System, leading};
 use super::shooting::segment;
 use motiform_analysis::linear::{add, apply, basis, dot, norm};
-use motiform_dynamics::{Equivariant, VectorField};
+use motiform_dynamics::Equivariant;
 
 /// Shapes below this part of the unit of the equations are 0, which is no unit.
 const ROUND_OFF: f64 = 1e-9;
@@ -144,9 +144,7 @@ fn size_along(orbits: &Orbits<'_>, x: &[f64], v: &[f64]) -> Option<Size> {
 
 /// The square of the part of a deviation normal to the flow and the group.
 fn normal_part(body: &dyn Equivariant, shape: &[f64], deviation: &[f64]) -> f64 {
-    let (mut rate, mut spin) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
-    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-    body.spin(shape, &mut spin);
+    let (rate, spin) = (body.rates(shape), body.spun(shape));
     let columns: Vec<&[f64]> =
         [&spin[..], &rate[..]].into_iter().filter(|column| column.iter().any(|x| *x != 0.0)).collect();
     let mut rest = deviation.to_vec();

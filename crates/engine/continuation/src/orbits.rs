@@ -155,8 +155,7 @@ impl Orbits<'_> {
         }
         put(time, 1.0 / self.parts as f64, &brought(&segment.slope));
         if last && self.turns {
-            let mut spin = vec![0.0; dim];
-            body.spin(&segment.end, &mut spin);
+            let spin = body.spun(&segment.end);
             put(time + 1, -1.0, &brought(&spin));
         }
         for (j, slope) in segment.by_parameter.chunks_exact(dim).enumerate() {

@@ -8,7 +8,7 @@ use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::Units;
 use motiform_analysis::linear::norm;
 use motiform_analysis::symmetry::align;
-use motiform_dynamics::{Equivariant, VectorField, Watch};
+use motiform_dynamics::{Equivariant, Watch};
 use std::ops::RangeInclusive;
 
 /// Shapes along an orbit that are looked at.
@@ -123,9 +123,7 @@ impl<'w> Way<'w> {
     /// The shapes at which the reduced orbit is slow, and slower than at its neighbours.
     fn slow_places(&self) -> Vec<usize> {
         let speed = |shape: &Vec<f64>| {
-            let (mut rate, mut spin) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
-            VectorField::<f64>::eval(self.body, 0.0, shape, &mut rate);
-            self.body.spin(shape, &mut spin);
+            let (rate, spin) = (self.body.rates(shape), self.body.spun(shape));
             norm(&reduced(&rate, &spin))
         };
         let speeds: Vec<f64> = self.shapes.iter().map(speed).collect();

@@ -9,7 +9,7 @@ use motiform_analysis::linear::norm;
 use motiform_analysis::periodic::Flow;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
-use motiform_dynamics::{Equivariant, Integration, Outcome, Request, Semilinear, VectorField, Watch};
+use motiform_dynamics::{Equivariant, Integration, Outcome, Request, Semilinear, Watch};
 
 /// A shape that grows by this factor, or to so many units of shapes, has left every bound.
 const UNBOUND: f64 = 1e6;
@@ -100,8 +100,7 @@ fn read(neighbours: &Neighbours, (start, end): (&[f64], &[f64]), steps: u64) -> 
     let (shape, vectors) = end.split_at(dim);
     let by_parameter = Variation::by_parameter(neighbours, start, vectors);
     let tangents = vectors[..dim * dim].iter().map(|x| x / neighbours.length).collect();
-    let mut slope = vec![0.0; dim];
-    VectorField::<f64>::eval(neighbours.body.as_ref(), 0.0, shape, &mut slope);
+    let slope = neighbours.body.rates(shape);
     Segment { end: shape.to_vec(), slope, tangents, by_parameter, steps }
 }
 
@@ -119,8 +118,7 @@ fn stiff_segment(
     (0..dim).for_each(|i| vectors[dim * i + i] = 1.0);
     let forced = |u: &[f64]| neighbours.sides.iter().map(|sides| slope_at(sides, u)).collect();
     let flowed = implicit_flow(body, start, &vectors, &forced, (span, first), watch).map_err(failure)?;
-    let mut slope = vec![0.0; dim];
-    VectorField::<f64>::eval(body, 0.0, &flowed.end, &mut slope);
+    let slope = body.rates(&flowed.end);
     let by_parameter = flowed.vectors[dim * dim..].to_vec();
     let mut tangents = flowed.vectors;
     tangents.truncate(dim * dim);

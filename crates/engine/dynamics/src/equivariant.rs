@@ -1,7 +1,7 @@
 //! Dynamics with the symmetry of the plane: the requirements of every analysis of a motion.
 
 use crate::tangent::Differentiable;
-use crate::{Dual, Semilinear, Shape};
+use crate::{Dual, Semilinear, Shape, VectorField};
 use std::f64::consts::TAU;
 
 /// The motions of the plane that map solutions to solutions.
@@ -68,6 +68,20 @@ pub trait Equivariant:
     /// The infinitesimal rotation: writes `d/d(angle) rotate(angle, shape)` at `angle = 0`.
     fn spin(&self, _shape: &[f64], out: &mut [f64]) {
         out.fill(0.0);
+    }
+
+    /// As [`Equivariant::spin`], in a vector of its own.
+    fn spun(&self, shape: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; shape.len()];
+        self.spin(shape, &mut out);
+        out
+    }
+
+    /// The rates of change of a shape, in a vector of their own.
+    fn rates(&self, shape: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0; shape.len()];
+        VectorField::<f64>::eval(self, 0.0, shape, &mut out);
+        out
     }
 
     /// Mirrors the shape at the x axis (y -> -y), in place.

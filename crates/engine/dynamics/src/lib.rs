@@ -22,6 +22,7 @@ pub mod exponential_orbit;
 pub mod integration;
 mod interpolant;
 pub mod model;
+mod named;
 pub mod noise;
 mod noise_steps;
 mod noisy_orbit;

@@ -76,6 +76,20 @@ pub trait Model: Equivariant {
         coordinates.copy_from_slice(shape);
     }
 
+    /// As [`Model::encode`], in a vector of its own.
+    fn encoded(&self, coordinates: &[f64]) -> Vec<f64> {
+        let mut shape = vec![0.0; self.dim()];
+        self.encode(coordinates, &mut shape);
+        shape
+    }
+
+    /// As [`Model::decode`], in a vector of its own.
+    fn decoded(&self, shape: &[f64]) -> Vec<f64> {
+        let mut coordinates = vec![0.0; self.dim()];
+        self.decode(shape, &mut coordinates);
+        coordinates
+    }
+
     /// The noise that belongs to the model: none, unless its equations have some. Fields and analyses are those without it.
     fn noise(&self) -> ModelNoise {
         ModelNoise::default()

@@ -8,14 +8,12 @@ use crate::steppers::runge_kutta::{self, Slopes, Step};
 use crate::steppers::{DOP853, Tableau};
 pub use crate::stepping::{Counters, StepFailure};
 use crate::stepping::{check_start, fixed_step};
-use crate::{Bundle, Error, StepControl, VectorField};
+use crate::{Bundle, Error, Integration, StepControl, VectorField};
 
-mod integration;
-
-/// An initial-value problem in progress. [`Orbit::advance`] takes one accepted step and allocates nothing.
+/// An initial-value problem in progress. [`Integration::advance`] takes one accepted step and allocates nothing.
 ///
 /// ```
-/// use motiform_dynamics::{Orbit, Scalar, StepControl, System, VectorField, steppers::DOP853};
+/// use motiform_dynamics::{Integration, Orbit, Scalar, StepControl, System, VectorField, steppers::DOP853};
 /// struct Decay;
 /// impl System for Decay { fn dim(&self) -> usize { 1 } }
 /// impl<T: Scalar> VectorField<T> for Decay {
@@ -139,17 +137,6 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         tolerance.first_step(self.field, self.tableau.order, start, room)
     }
 
-    /// Takes one step, ending at `limit` (later than [`Orbit::t`]) at the latest.
-    ///
-    /// # Errors
-    /// [`StepFailure`]; the orbit is unchanged.
-    pub fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
-        match self.control {
-            StepControl::Fixed { step } => self.advance_fixed(step, limit),
-            StepControl::Adaptive { rtol, atol } => self.advance_adaptive(Tolerance { rtol, atol }, limit),
-        }
-    }
-
     fn advance_fixed(&mut self, step: f64, limit: f64) -> Result<(), StepFailure> {
         let (start, count) = self.origin;
         let (t_new, h) = fixed_step(step, self.t, self.origin, limit);
@@ -244,9 +231,26 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         Ok(())
     }
 
-    /// The last step as a function of time (computes the extra stages of dense output where the method has any); a
-    /// correction by the field is a jump at its very end.
-    pub fn dense(&mut self) -> DenseStep<'_> {
+    fn place(&mut self, u: &[f64]) {
+        self.u.copy_from_slice(u);
+        self.u_old.copy_from_slice(u);
+        self.t_old = self.t;
+        self.accepted = true;
+        self.jumped = false;
+        self.prepared = false;
+    }
+}
+
+impl<F: VectorField<f64> + ?Sized> Integration for Orbit<'_, F> {
+    fn advance(&mut self, limit: f64) -> Result<(), StepFailure> {
+        match self.control {
+            StepControl::Fixed { step } => self.advance_fixed(step, limit),
+            StepControl::Adaptive { rtol, atol } => self.advance_adaptive(Tolerance { rtol, atol }, limit),
+        }
+    }
+
+    /// Computes the extra stages of dense output where the method has any.
+    fn dense(&mut self) -> DenseStep<'_> {
         if !self.prepared {
             let h = self.t - self.t_old;
             let at = Step { t: self.t_old, h, u: &self.u_old };
@@ -265,17 +269,13 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         }
     }
 
-    /// Writes the state at `t` inside the last step by a true step of the method from its start: as accurate as the
-    /// orbit itself. Must follow a successful [`Orbit::advance`].
-    pub fn step_to(&mut self, t: f64, out: &mut [f64]) {
+    fn step_to(&mut self, t: f64, out: &mut [f64]) {
         self.restep.get_mut(0).copy_from_slice(self.slopes.get(0));
         let at = Step { t: self.t_old, h: t - self.t_old, u: &self.u_old };
         runge_kutta::step(self.tableau, self.field, &at, &mut self.restep, out);
     }
 
-    /// Moves the end of the last step back to `t` (by a true step from its start): the orbit continues from there, and the
-    /// field does not correct it.
-    pub fn end_step_at(&mut self, t: f64) {
+    fn end_step_at(&mut self, t: f64) {
         let mut state = std::mem::take(&mut self.scratch);
         self.step_to(t, &mut state);
         self.scratch = std::mem::replace(&mut self.u, state);
@@ -286,48 +286,29 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         self.prepared = false;
     }
 
-    /// Continues from the state `u` (of the same length) at the same time; see [`crate::Integration::restart`].
-    pub fn restart(&mut self, u: &[f64]) {
+    fn restart(&mut self, u: &[f64]) {
         self.field.eval(self.t, u, self.slopes.get_mut(self.tableau.stages()));
         self.place(u);
     }
 
-    /// As [`Orbit::restart`], with the rates there, which are not recomputed.
-    pub fn restart_with(&mut self, u: &[f64], rates: &[f64]) {
+    fn restart_with(&mut self, u: &[f64], rates: &[f64]) {
         self.slopes.get_mut(self.tableau.stages()).copy_from_slice(rates);
         self.place(u);
     }
 
-    fn place(&mut self, u: &[f64]) {
-        self.u.copy_from_slice(u);
-        self.u_old.copy_from_slice(u);
-        self.t_old = self.t;
-        self.accepted = true;
-        self.jumped = false;
-        self.prepared = false;
-    }
-
-    /// Current time.
-    #[must_use]
-    pub fn t(&self) -> f64 {
+    fn t(&self) -> f64 {
         self.t
     }
 
-    /// Time at the start of the last step.
-    #[must_use]
-    pub fn t_old(&self) -> f64 {
+    fn t_old(&self) -> f64 {
         self.t_old
     }
 
-    /// Current state.
-    #[must_use]
-    pub fn state(&self) -> &[f64] {
+    fn state(&self) -> &[f64] {
         &self.u
     }
 
-    /// `f(t, u)` at the current state.
-    #[must_use]
-    pub fn slope(&self) -> &[f64] {
+    fn slope(&self) -> &[f64] {
         match (self.accepted, self.jumped) {
             (false, _) => self.slopes.get(0),
             (true, false) => self.slopes.get(self.tableau.stages()),
@@ -335,9 +316,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         }
     }
 
-    /// The work done so far.
-    #[must_use]
-    pub fn counters(&self) -> Counters {
+    fn counters(&self) -> Counters {
         self.counters
     }
 }

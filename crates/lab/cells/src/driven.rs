@@ -90,14 +90,12 @@ pub(crate) fn states(
     (noise, normal): (Noise, Normal),
     steps: usize,
 ) -> Option<Vec<Vec<f64>>> {
-    let mut state = vec![0.0; model.dim()];
-    model.encode(start, &mut state);
+    let mut state = model.encoded(start);
     state.extend([0.0; 2]);
     let looks = Looks { step: STEP, steps: 1, count: steps + 1 };
     let mut all = Vec::with_capacity(steps);
     let whole = sample_path(model, &state, (noise, normal), looks, &mut |look, state| {
-        let mut coordinates = vec![0.0; start.len()];
-        model.decode(&state[..model.dim()], &mut coordinates);
+        let coordinates = model.decoded(&state[..model.dim()]);
         let square = coordinates[0] * coordinates[0] + coordinates[1] * coordinates[1];
         if look > 0 {
             all.push(coordinates);

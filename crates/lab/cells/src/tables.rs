@@ -1,7 +1,8 @@
 //! Results as tables: modes frame by frame, coefficients cell by cell.
 
 use crate::{CellFit, CellTrack};
-use motiform_store::columns::{Column, Values};
+use motiform_inference::Estimate;
+use motiform_store::columns::Column;
 use motiform_study::Quantity;
 use motiform_study::quantity::{coefficient, frame};
 use motiform_tracks::Form;
@@ -25,30 +26,25 @@ const MODES: [&Quantity; 8] = [
 pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
     let rows: Vec<(&CellTrack, &FrameModes)> =
         cells.iter().flat_map(|cell| cell.modes.frames.iter().map(move |frame| (cell, frame))).collect();
-    let number = |read: &dyn Fn(&CellTrack, &FrameModes) -> Option<f64>| {
-        Values::Number(rows.iter().map(|row| read(row.0, row.1).unwrap_or(f64::NAN)).collect())
-    };
-    let text = |read: &dyn Fn(&CellTrack, &FrameModes) -> String| {
-        Values::Text(rows.iter().map(|row| read(row.0, row.1)).collect())
-    };
+    let frames = || rows.iter().map(|row| row.1);
     let flags =
         |frame: &FrameModes| frame.flags.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
-    let radius = |read: fn(&RadiusFit) -> f64| number(&move |_, frame| frame.radius.as_ref().map(read));
-    let form = |read: fn(Form) -> f64| number(&move |_, frame| frame.form.map(read));
-    let of_frame = |read: fn(&FrameModes) -> f64| number(&move |_, frame| Some(read(frame)));
-    let whole = |read: fn(&FrameModes) -> i64| Values::Whole(rows.iter().map(|row| read(row.1)).collect());
-    let mode =
-        |place: usize| number(&move |_, frame| frame.radius.as_ref()?.z.get(place / 2).map(|z| z[place % 2]));
-    // after X, Y, R0
-    let error = |at: usize| {
-        number(&move |cell, frame| {
-            let fit = frame.radius.as_ref()?;
-            Some(fit.covariance(cell.modes.sigma.unwrap_or(fit.sigma), at, at).sqrt())
-        })
+    let radius =
+        |read: fn(&RadiusFit) -> f64| frames().map(|frame| frame.radius.as_ref().map(read)).collect();
+    let form = |read: fn(Form) -> f64| frames().map(|frame| frame.form.map(read)).collect();
+    let of_frame = |read: fn(&FrameModes) -> f64| frames().map(read).collect();
+    let mode = |place: usize| {
+        frames().map(|frame| frame.radius.as_ref()?.z.get(place / 2).map(|z| z[place % 2])).collect()
     };
+    // after X, Y, R0
+    let error_of = |(cell, frame): &(&CellTrack, &FrameModes), at: usize| {
+        let fit = frame.radius.as_ref()?;
+        Some(fit.covariance(cell.modes.sigma.unwrap_or(fit.sigma), at, at).sqrt())
+    };
+    let error = |at: usize| rows.iter().map(|row| error_of(row, at)).collect();
     let mut columns = vec![
-        Column::of_data(&frame::CELL, text(&|cell, _| cell.name.clone())),
-        Column::of_data(&frame::FRAME, whole(|frame| frame.frame)),
+        Column::of_data(&frame::CELL, rows.iter().map(|row| row.0.name.clone()).collect()),
+        Column::of_data(&frame::FRAME, frames().map(|frame| frame.frame).collect()),
         Column::of_data(&frame::T, of_frame(|frame| frame.t)),
         Column::of_data(&frame::X, radius(|fit| fit.centre[0])),
         Column::of_data(&frame::Y, radius(|fit| fit.centre[1])),
@@ -69,10 +65,10 @@ pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
         Column::of_data(&frame::Z3_ERROR, error(5)),
         Column::of_data(
             &frame::LEFT_OUT,
-            whole(|frame| i64::from(frame.is_left_out() || frame.radius.is_none())),
+            frames().map(|frame| frame.is_left_out() || frame.radius.is_none()).collect(),
         ),
-        Column::of_data(&frame::SEEN, whole(|frame| i64::from(frame.is_seen()))),
-        Column::of_data(&frame::FLAGS, text(&|_, frame| flags(frame))),
+        Column::of_data(&frame::SEEN, frames().map(FrameModes::is_seen).collect()),
+        Column::of_data(&frame::FLAGS, frames().map(flags).collect()),
     ]);
     columns
 }
@@ -90,28 +86,17 @@ pub fn coefficient_columns(fits: &[CellFit]) -> Vec<Column> {
             coefficients.map(move |(place, coefficient)| (fit, coefficient, fitted.checks.weak(place), sound))
         })
         .collect();
-    let number = |read: &dyn Fn(&motiform_inference::Estimate) -> f64| {
-        Values::Number(rows.iter().map(|row| read(&row.1.estimate)).collect())
-    };
-    let error = |read: &dyn Fn(&motiform_inference::Estimate) -> f64| {
-        let of = |row: &(_, &motiform_inference::Coefficient, _, bool)| {
-            if row.3 { read(&row.1.estimate) } else { f64::NAN }
-        };
-        Values::Number(rows.iter().map(of).collect())
-    };
-    let names = rows.iter().map(|row| row.0.name.clone()).collect();
-    let terms = rows.iter().map(|row| row.1.name.clone()).collect();
-    let imaginary = rows.iter().map(|row| i64::from(row.1.imaginary)).collect();
-    let weak = rows.iter().map(|row| row.2.unwrap_or(f64::NAN)).collect();
+    let error =
+        |read: fn(&Estimate) -> f64| rows.iter().map(|row| row.3.then(|| read(&row.1.estimate))).collect();
     vec![
-        Column::of_data(&coefficient::CELL, Values::Text(names)),
-        Column::of_data(&coefficient::TERM, Values::Text(terms)),
-        Column::of_data(&coefficient::IMAGINARY, Values::Whole(imaginary)),
-        Column::of_data(&coefficient::VALUE, number(&|estimate| estimate.value)),
-        Column::of_data(&coefficient::ERROR, error(&|estimate| estimate.error)),
-        Column::of_data(&coefficient::ROBUST_ERROR, error(&|estimate| estimate.robust)),
-        Column::of_data(&coefficient::LOW, error(&|estimate| estimate.interval[0])),
-        Column::of_data(&coefficient::HIGH, error(&|estimate| estimate.interval[1])),
-        Column::of_data(&coefficient::WEAK_FORM, Values::Number(weak)),
+        Column::of_data(&coefficient::CELL, rows.iter().map(|row| row.0.name.clone()).collect()),
+        Column::of_data(&coefficient::TERM, rows.iter().map(|row| row.1.name.clone()).collect()),
+        Column::of_data(&coefficient::IMAGINARY, rows.iter().map(|row| row.1.imaginary).collect()),
+        Column::of_data(&coefficient::VALUE, rows.iter().map(|row| row.1.estimate.value).collect()),
+        Column::of_data(&coefficient::ERROR, error(|estimate| estimate.error)),
+        Column::of_data(&coefficient::ROBUST_ERROR, error(|estimate| estimate.robust)),
+        Column::of_data(&coefficient::LOW, error(|estimate| estimate.interval[0])),
+        Column::of_data(&coefficient::HIGH, error(|estimate| estimate.interval[1])),
+        Column::of_data(&coefficient::WEAK_FORM, rows.iter().map(|row| row.2).collect()),
     ]
 }

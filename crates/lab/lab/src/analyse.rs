@@ -65,13 +65,11 @@ impl Body<'_> {
         }
         values[place] = value;
         let body = info.build(&values)?;
-        let mut known = vec![0.0; model.coordinates().len()];
-        model.decode(shape, &mut known);
+        let known = model.decoded(shape);
         let of = |name: &str| model.coordinates().iter().position(|coordinate| coordinate.name == name);
         let coordinates: Vec<f64> =
             body.coordinates().iter().map(|one| of(one.name).map_or(0.0, |place| known[place])).collect();
-        let mut shape = vec![0.0; body.dim()];
-        body.encode(&coordinates, &mut shape);
+        let shape = body.encoded(&coordinates);
         Ok(Some(Finer { body, shape, parameter, value }))
     }
 }
@@ -174,7 +172,6 @@ pub(crate) fn model(plan: &Plan) -> Result<Box<dyn Model>, Error> {
 /// The model of a plan, and its initial shape.
 pub(crate) fn start(plan: &Plan) -> Result<(Box<dyn Model>, Vec<f64>), Error> {
     let model = model(plan)?;
-    let mut shape = vec![0.0; model.dim()];
-    model.encode(&plan.computation.initial.values()[..model.dim()], &mut shape);
+    let shape = model.encoded(&plan.computation.initial.values()[..model.dim()]);
     Ok((model, shape))
 }

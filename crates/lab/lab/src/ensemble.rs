@@ -112,8 +112,7 @@ impl Body {
         for &value in &member.start {
             check("start", value, true, "give finite numbers")?;
         }
-        let mut start = vec![0.0; model.dim()];
-        model.encode(&member.start[..dim], &mut start);
+        let mut start = model.encoded(&member.start[..dim]);
         check_closed(model.as_ref(), &start)?;
         let span = times.last().copied().unwrap_or(0.0);
         check_steps(model.as_ref(), plan.method()?, plan.computation.control, span)?;
@@ -151,8 +150,7 @@ impl Body {
 /// A state as the model's coordinates, x and y.
 pub(crate) fn named(model: &dyn Model, state: &[f64]) -> Vec<f64> {
     let (shape, position) = state.split_at(state.len() - 2);
-    let mut named = vec![0.0; model.coordinates().len()];
-    model.decode(shape, &mut named);
+    let mut named = model.decoded(shape);
     named.extend_from_slice(position);
     named
 }

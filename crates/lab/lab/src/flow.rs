@@ -58,16 +58,11 @@ mod tests {
             let a: Vec<f64> = (0..dim).map(|i| 0.3 + i as f64).collect();
             let b: Vec<f64> = (0..dim).map(|i| 1.7 - 0.5 * i as f64).collect();
             let sum: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 2.0 * a + b).collect();
-            let read = |state: &[f64]| {
-                let mut out = vec![0.0; dim];
-                model.decode(state, &mut out);
-                out
-            };
+            let read = |state: &[f64]| model.decoded(state);
             for ((a, b), sum) in read(&a).iter().zip(read(&b)).zip(read(&sum)) {
                 assert!((2.0 * a + b - sum).abs() < 1e-12 * sum.abs().max(1.0), "{}", info.name);
             }
-            let mut back = vec![0.0; dim];
-            model.encode(&read(&a), &mut back);
+            let back = model.encoded(&read(&a));
             assert!(back.iter().zip(&a).all(|(x, y)| (x - y).abs() < 1e-13 * y.abs().max(1.0)));
         }
     }

@@ -214,8 +214,7 @@ impl Simulation<'_> {
 
     fn run(&self, recording: &Stretch, centre: Option<[f64; 2]>, crossings: Option<Table>) -> Run {
         let (shape, position) = recording.last.split_at(recording.last.len() - 2);
-        let mut values = shape.to_vec();
-        self.model.decode(shape, &mut values);
+        let values = self.model.decoded(shape);
         let names = self.model.coordinates().iter().map(|c| c.name.to_owned());
         let manifest = Manifest {
             motiform: VERSION.to_owned(),

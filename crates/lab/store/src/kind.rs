@@ -1,5 +1,8 @@
 //! Kinds of results.
 
+use crate::{Inventory, mend};
+use std::path::Path;
+
 /// The kind of a result: only a result of the same kind may replace it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -31,68 +34,40 @@ pub enum Kind {
     Figures,
 }
 
-impl Kind {
-    /// Every kind.
-    pub const ALL: [Self; 13] = [
-        Self::Dataset,
-        Self::Scan,
-        Self::Branches,
-        Self::Curves,
-        Self::Atlas,
-        Self::Lifetimes,
-        Self::Statistics,
-        Self::Observations,
-        Self::Fits,
-        Self::Report,
-        Self::Table,
-        Self::Outlines,
-        Self::Figures,
-    ];
+/// Every kind, in the order of their declaration: its name in inventories, and its words.
+const KINDS: [(Kind, &str, &str); 13] = [
+    (Kind::Dataset, "dataset", "a dataset"),
+    (Kind::Scan, "scan", "a scan"),
+    (Kind::Branches, "branches", "branches"),
+    (Kind::Curves, "curves", "curves"),
+    (Kind::Atlas, "atlas", "an atlas"),
+    (Kind::Lifetimes, "lifetimes", "lifetimes"),
+    (Kind::Statistics, "statistics", "statistics"),
+    (Kind::Observations, "observations", "observations of cells"),
+    (Kind::Fits, "fits", "fits of cells"),
+    (Kind::Report, "report", "a reproduction of the paper"),
+    (Kind::Table, "table", "a table"),
+    (Kind::Outlines, "outlines", "outlines"),
+    (Kind::Figures, "figures", "figures"),
+];
 
+impl Kind {
     /// Its name in inventories.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Dataset => "dataset",
-            Self::Scan => "scan",
-            Self::Branches => "branches",
-            Self::Curves => "curves",
-            Self::Atlas => "atlas",
-            Self::Lifetimes => "lifetimes",
-            Self::Statistics => "statistics",
-            Self::Observations => "observations",
-            Self::Fits => "fits",
-            Self::Report => "report",
-            Self::Table => "table",
-            Self::Outlines => "outlines",
-            Self::Figures => "figures",
-        }
+        KINDS[self as usize].1
     }
 
     /// The kind of a name.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
+        KINDS.into_iter().find(|kind| kind.1 == name).map(|kind| kind.0)
     }
 
     /// The kind in words: `a scan`.
     #[must_use]
     pub fn words(self) -> &'static str {
-        match self {
-            Self::Dataset => "a dataset",
-            Self::Scan => "a scan",
-            Self::Branches => "branches",
-            Self::Curves => "curves",
-            Self::Atlas => "an atlas",
-            Self::Lifetimes => "lifetimes",
-            Self::Statistics => "statistics",
-            Self::Observations => "observations of cells",
-            Self::Fits => "fits of cells",
-            Self::Report => "a reproduction of the paper",
-            Self::Table => "a table",
-            Self::Outlines => "outlines",
-            Self::Figures => "figures",
-        }
+        KINDS[self as usize].2
     }
 
     /// Returns `true` if its command continues it with `--resume`.
@@ -109,4 +84,16 @@ impl Kind {
                 | Self::Fits
         )
     }
+}
+
+/// The kind of a folder, by its inventory. An interrupted replacement is finished before.
+#[must_use]
+pub fn kind_of(folder: &Path) -> Option<Kind> {
+    let _ = mend(folder); // reading says what is wrong
+    Kind::of_name(&Inventory::read(folder).ok()??.kind)
+}
+
+#[test]
+fn kinds_are_in_their_order() {
+    assert!(KINDS.iter().enumerate().all(|(place, kind)| kind.0 as usize == place));
 }

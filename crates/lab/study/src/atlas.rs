@@ -189,8 +189,7 @@ impl AtlasPlan {
     /// Parameters that the model refuses.
     pub fn start(&self, scan: &ScanPlan, (cell, sample): (usize, usize)) -> Result<Computation, Error> {
         let model = scan.model_of(cell)?;
-        let mut state = vec![0.0; model.coordinates().len()];
-        model.decode(&scan.start(cell, sample, model.as_ref())?, &mut state);
+        let state = model.decoded(&scan.start(cell, sample, model.as_ref())?);
         let names = self.info()?.parameters().iter().map(|spec| spec.name.to_owned());
         let parameters = Named(names.zip(scan.parameters_of(cell)?).collect());
         let coordinates = model.coordinates().iter().map(|one| one.name.to_owned()).zip(state);

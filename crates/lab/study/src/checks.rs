@@ -70,8 +70,7 @@ pub fn check_steps(model: &dyn Model, method: Method, control: Control, time: f6
 /// An initial state must be a body.
 pub(crate) fn check_start(model: &dyn Model, initial: &Named) -> Result<(), Error> {
     let values = initial.values();
-    let mut shape = vec![0.0; model.dim()];
-    model.encode(&values[..model.dim()], &mut shape);
+    let shape = model.encoded(&values[..model.dim()]);
     check_closed(model, &shape)
 }
 

@@ -13,49 +13,34 @@ use serde::{Deserialize, Serialize};
 /// Version of the meaning of a plan of curves; part of the hash. A change that moves a number raises it.
 pub const CURVE_FORMAT: u32 = 1;
 
-/// A kind of special point that can be followed over two parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CurveKind {
-    /// An oscillation of the shape begins.
-    Hopf,
-    /// A branch turns back.
-    Fold,
-    /// A steady motion loses a symmetry.
-    Pitchfork,
-    /// A zigzag loses its mirror symmetry.
-    SymmetryBreaking,
-    /// An orbit of twice the period begins.
-    PeriodDoubling,
-    /// An invariant torus begins.
-    Torus,
+motiform_dynamics::named! {
+    /// A kind of special point that can be followed over two parameters, in the order of messages and legends.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum CurveKind by name {
+        /// An oscillation of the shape begins.
+        Hopf = "hopf",
+        /// A branch turns back.
+        Fold = "fold",
+        /// A steady motion loses a symmetry.
+        Pitchfork = "pitchfork",
+        /// A zigzag loses its mirror symmetry.
+        SymmetryBreaking = "symmetry-breaking",
+        /// An orbit of twice the period begins.
+        PeriodDoubling = "period-doubling",
+        /// An invariant torus begins.
+        Torus = "torus",
+    }
 }
 
 impl CurveKind {
-    /// All of them, in the order of messages and legends.
-    pub const ALL: [Self; 6] =
-        [Self::Hopf, Self::Fold, Self::Pitchfork, Self::SymmetryBreaking, Self::PeriodDoubling, Self::Torus];
-
-    /// Its name in files.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Hopf => "hopf",
-            Self::Fold => "fold",
-            Self::Pitchfork => "pitchfork",
-            Self::SymmetryBreaking => "symmetry-breaking",
-            Self::PeriodDoubling => "period-doubling",
-            Self::Torus => "torus",
-        }
-    }
-
     /// The kind of this name.
     ///
     /// # Errors
     /// [`Error::CurveKind`] with the nearest name.
-    pub fn find(name: &str) -> Result<Self, Error> {
+    pub fn parse(name: &str) -> Result<Self, Error> {
         let known = Self::ALL.map(Self::name);
-        Self::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| Error::CurveKind {
+        Self::find(name).ok_or_else(|| Error::CurveKind {
             name: name.to_owned(),
             nearest: nearest_of(name, &known),
             known: known.to_vec(),
@@ -69,7 +54,7 @@ impl CurveKind {
     pub fn list(text: &str) -> Result<Vec<Self>, Error> {
         let mut all = Vec::new();
         for name in text.split(',') {
-            let kind = Self::find(name.trim())?;
+            let kind = Self::parse(name.trim())?;
             if !all.contains(&kind) {
                 all.push(kind);
             }
@@ -275,7 +260,7 @@ mod tests {
     #[test]
     fn kinds_are_found_by_their_names_and_listed_once() {
         for kind in CurveKind::ALL {
-            assert_eq!(CurveKind::find(kind.name()).unwrap(), kind);
+            assert_eq!(CurveKind::parse(kind.name()).unwrap(), kind);
             assert_eq!(serde_json::to_string(&kind).unwrap(), format!("\"{}\"", kind.name()));
         }
         let both = [CurveKind::Fold, CurveKind::Hopf];

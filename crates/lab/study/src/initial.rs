@@ -44,9 +44,7 @@ pub(crate) fn resolve(study: &Study, info: &ModelInfo) -> Result<Named, Error> {
 pub fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec<f64> {
     let mut random = Uniform::new(seed, stream);
     let coordinates: Vec<f64> = model.coordinates().iter().map(|_| size * random.draw()).collect();
-    let mut shape = vec![0.0; model.dim()];
-    model.encode(&coordinates, &mut shape);
-    shape
+    model.encoded(&coordinates)
 }
 
 /// Uniform numbers in -1..1 from ChaCha8, addressed by (seed, stream): the same on every machine.

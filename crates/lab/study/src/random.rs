@@ -112,9 +112,7 @@ impl Random {
     /// The same in the model's representation.
     pub fn shape(&self, info: &ModelInfo, model: &dyn Model, seed: u64, stream: u64) -> Vec<f64> {
         let coordinates = self.coordinates(info, model.coordinates().len(), seed, stream);
-        let mut shape = vec![0.0; model.dim()];
-        model.encode(&coordinates, &mut shape);
-        shape
+        model.encoded(&coordinates)
     }
 }
 

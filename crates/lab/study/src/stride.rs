@@ -5,42 +5,29 @@ use crate::error::nearest_of;
 use crate::plan::check;
 use serde::{Deserialize, Serialize};
 
-/// The sides to which a start is followed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Towards {
-    /// Larger values of the parameter.
-    Up,
-    /// Smaller values.
-    Down,
-    /// Both.
-    #[default]
-    Both,
+motiform_dynamics::named! {
+    /// The sides to which a start is followed.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Towards by name {
+        /// Larger values of the parameter.
+        Up = "up",
+        /// Smaller values.
+        Down = "down",
+        /// Both.
+        #[default]
+        Both = "both",
+    }
 }
 
 impl Towards {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Up, Self::Down, Self::Both];
-
-    /// Its name.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Up => "up",
-            Self::Down => "down",
-            Self::Both => "both",
-        }
-    }
-
     /// The sides of this name.
     ///
     /// # Errors
     /// [`Error::Towards`].
-    pub fn find(name: &str) -> Result<Self, Error> {
+    pub fn parse(name: &str) -> Result<Self, Error> {
         let known = Self::ALL.map(Self::name);
-        Self::ALL
-            .into_iter()
-            .find(|one| one.name() == name)
+        Self::find(name)
             .ok_or_else(|| Error::Towards { name: name.to_owned(), nearest: nearest_of(name, &known) })
     }
 

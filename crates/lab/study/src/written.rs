@@ -89,7 +89,7 @@ texts! {
     Along: Along::parse, |along: &Self| format!("{}={:?}:{:?}", along.name, along.from, along.to);
     Plane: Plane::parse, Self::to_string;
     Regime: origin, |regime: &Self| regime.name();
-    Towards: Towards::find, |sides: &Self| sides.name();
+    Towards: Towards::parse, |sides: &Self| sides.name();
 }
 
 impl<T: Written> Written for Option<T> {

@@ -6,6 +6,7 @@ use super::claims::{check, claim};
 use super::context::Context;
 use curve::{Piece, pieces};
 use motiform_analysis::regime::Regime;
+use motiform_analysis::symmetry::wrap;
 use motiform_analysis::{correlation_dimension, return_pairs};
 use motiform_figures::report::{Claim, ReportFigure, Section};
 use motiform_figures::{Chart, ErrorBarSeries, Measured};
@@ -142,11 +143,7 @@ fn anticlockwise(dataset: &Dataset) -> Claim {
     let column = |name: &str| dataset.trajectory.get(name).unwrap_or(&[]);
     let (vx, vy) = (column("v1"), column("v2"));
     let headings: Vec<f64> = vx.iter().zip(vy).map(|(vx, vy)| libm::atan2(*vy, *vx)).collect();
-    let step = |pair: &[f64]| {
-        let turn = pair[1] - pair[0];
-        turn - TAU * (turn / TAU).round()
-    };
-    let turned: f64 = headings.windows(2).map(step).sum();
+    let turned: f64 = headings.windows(2).map(|pair| wrap(pair[1] - pair[0])).sum();
     let time = column("t").last().copied().unwrap_or(f64::NAN);
     let finds = format!("mean turning rate {:+.6} rad per time unit", turned / time);
     let how = "the heading's net change over the recording; positive is counterclockwise. The mirror image exists as well: the start \

@@ -213,9 +213,7 @@ impl Setting {
 
 /// The coordinates of a shape.
 pub(crate) fn decode(model: &dyn Model, shape: &[f64]) -> Vec<f64> {
-    let mut coordinates = vec![0.0; shape.len()];
-    model.decode(shape, &mut coordinates);
-    coordinates
+    model.decoded(shape)
 }
 
 /// The state with these coordinates.
@@ -228,8 +226,7 @@ pub(super) fn state_of(
     if got != dim {
         return Err(motiform_dynamics::Error::Shape { what: "the state", expected: dim, got }.into());
     }
-    let mut state = vec![0.0; dim];
-    model.encode(coordinates, &mut state);
+    let mut state = model.encoded(coordinates);
     state.extend(position);
     Ok(state)
 }

@@ -27,7 +27,7 @@ pub(crate) struct CellsOptions {
     pub(crate) length_unit: Option<String>,
     /// The format, where the content does not decide it: csv, parquet, trackmate, quimp-csv, quimp-snqp, amoepy, roi, roi-zip,
     /// wkt or masks
-    #[arg(long = "input-format", alias = "format", value_name = "FORMAT", value_parser = format)]
+    #[arg(long = "input-format", value_name = "FORMAT", value_parser = format)]
     pub(crate) format: Option<Format>,
     /// A column of the table by its header (repeatable): cell, frame, i, x, y or wkt, e.g. --column frame=t
     #[arg(long = "column", value_name = "NAME=HEADER", value_parser = column)]
@@ -75,7 +75,7 @@ pub(crate) struct ObserveOptions {
     pub(crate) cells: CellsOptions,
     /// Also write the outlines, for other programs: a table (.csv with cell, frame, i, x, y), or, one cell in um and s, the text
     /// of AmoePy (.txt)
-    #[arg(long = "write-outlines", alias = "outlines", value_name = "FILE")]
+    #[arg(long = "write-outlines", value_name = "FILE")]
     pub(crate) outlines: Option<PathBuf>,
 }
 

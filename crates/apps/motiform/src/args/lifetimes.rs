@@ -14,7 +14,7 @@ pub(crate) struct LifetimesOptions {
     #[command(flatten)]
     pub(crate) subject: SubjectOptions,
     /// The parameter and its values: NAME=LOW:HIGH:COUNT, both ends included, or NAME=v1,v2,v3
-    #[arg(long = "axis", alias = "along", value_name = "NAME=LOW:HIGH:COUNT", required = true)]
+    #[arg(long = "axis", value_name = "NAME=LOW:HIGH:COUNT", required = true)]
     pub(crate) along: String,
     /// Random initial states for each value
     #[arg(long, value_name = "M", value_parser = whole, allow_hyphen_values = true, default_value_t = 64)]

@@ -91,7 +91,7 @@ pub(crate) struct SectionOptions {
     #[arg(long, value_name = "NAME=VALUE", value_parser = super::assignment, allow_hyphen_values = true)]
     pub(crate) at: (String, f64),
     /// Which crossings count
-    #[arg(long = "crossings", alias = "direction", value_enum, default_value_t = Crossing::Rising)]
+    #[arg(long = "crossings", value_enum, default_value_t = Crossing::Rising)]
     pub(crate) direction: Crossing,
     #[command(flatten)]
     pub(crate) run: SettingOptions<Span>,

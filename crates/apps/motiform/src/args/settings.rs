@@ -17,7 +17,7 @@ pub(crate) trait Keys {
     /// Their names in study files.
     const NAMES: &'static [&'static str];
 
-    /// Settings whose options have another name, and that name. Their own is understood, too.
+    /// Settings whose options have another name, and that name.
     const RENAMED: &'static [(&'static str, &'static str)] = &[];
 }
 
@@ -210,10 +210,6 @@ fn argument<K: Keys>(key: &'static Key) -> Arg {
     let long = option::<K>(name);
     let unit = SYMBOLS.iter().find(|(known, _)| *known == long).map_or(unit, |(_, symbol)| symbol);
     let argument = Arg::new(name).long(long).help(meaning::<K>(key)).value_parser(parser);
-    let argument = match K::RENAMED.iter().any(|(known, _)| *known == name) {
-        true => argument.alias(name),
-        false => argument,
-    };
     match action {
         ArgAction::SetTrue => argument.action(action),
         _ => argument.action(action).value_name(unit).allow_hyphen_values(true),

@@ -32,7 +32,7 @@ pub(crate) struct StatisticsOptions {
     #[command(flatten)]
     pub(crate) run: SettingOptions<Recording>,
     /// Radius of a disc for first-passage times (repeatable; default: six, from the displacements)
-    #[arg(long = "disc", alias = "radius", value_name = "R", value_parser = number, allow_hyphen_values = true)]
+    #[arg(long = "disc", value_name = "R", value_parser = number, allow_hyphen_values = true)]
     pub(crate) radius: Vec<f64>,
     /// Residence times of this quantity above and below a threshold: speed, or the size of a mode (s, u; mode1, ...); without VALUE: its
     /// median (default: speed)

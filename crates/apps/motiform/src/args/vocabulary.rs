@@ -141,10 +141,7 @@ fn page() -> String {
         let commands: Vec<&str> = uses.iter().map(|one| one.1.as_str()).collect();
         let _ = writeln!(page, "| `--{name}` | {value} | {meaning} | {} |", commands.join(", "));
     }
-    page += "\nOld names, which work for one version with a word: ";
-    let old =
-        super::renamed::RENAMED.map(|(command, old, new)| format!("`{command} --{old}` (now `--{new}`)"));
-    page + &old.join(", ") + ".\n"
+    page
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Sizes at which the terms of the equations balance.
 
 use crate::linear::norm;
+use motiform_dynamics::Equivariant;
 use motiform_dynamics::sample::ascending;
-use motiform_dynamics::{Equivariant, VectorField};
 
 /// Powers of 2 between which sizes are looked at.
 const POWERS: std::ops::RangeInclusive<i32> = -40..=40;
@@ -33,9 +33,7 @@ fn along(body: &dyn Equivariant, ray: &[f64]) -> Vec<f64> {
     let length = norm(ray);
     let rate = |power: i32| {
         let at: Vec<f64> = ray.iter().map(|x| x / length * libm::exp2(f64::from(power))).collect();
-        let mut rate = at.clone();
-        VectorField::<f64>::eval(body, 0.0, &at, &mut rate);
-        rate
+        body.rates(&at)
     };
     let rates: Vec<Vec<f64>> = POWERS.map(rate).collect();
     let seen = |rate: &[f64], i: usize| {

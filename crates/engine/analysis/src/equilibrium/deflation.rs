@@ -122,8 +122,7 @@ impl Deflation {
     #[must_use]
     pub fn find(&self, body: &dyn Equivariant, guess: &[f64], reach: f64) -> Option<RelativeEquilibrium> {
         let mut shape = guess.to_vec();
-        let mut rate = vec![0.0; shape.len()];
-        VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
+        let rate = body.rates(&shape);
         let mut omega = turning_of_shape(body, &shape, &rate);
         for _ in 0..STEPS {
             let step = step(body, &shape, omega)?;

@@ -17,7 +17,7 @@ use crate::symmetry::align;
 pub use balance::balances;
 pub use deflation::Deflation;
 use motiform_dynamics::tangent::jacobian;
-use motiform_dynamics::{Equivariant, VectorField, model};
+use motiform_dynamics::{Equivariant, model};
 use nalgebra::DMatrix;
 pub use reached::REACHED;
 pub use saddle::Saddle;
@@ -135,8 +135,7 @@ fn linearisation(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<Vec<f
 
 /// The direction of the group orbit, as a unit vector; none for a circle.
 pub fn neutral_direction(body: &dyn Equivariant, shape: &[f64]) -> Vec<Vec<f64>> {
-    let mut spin = vec![0.0; shape.len()];
-    body.spin(shape, &mut spin);
+    let mut spin = body.spun(shape);
     let size = norm(&spin);
     if size <= 1e-12 * norm(shape) {
         return Vec::new();
@@ -148,8 +147,7 @@ pub fn neutral_direction(body: &dyn Equivariant, shape: &[f64]) -> Vec<Vec<f64>>
 /// Unit vectors along the group and the flow at a shape: the directions in which nothing grows or decays along an orbit.
 pub(crate) fn along_group_and_flow(body: &dyn Equivariant, shape: &[f64]) -> Vec<Vec<f64>> {
     let mut directions = neutral_direction(body, shape);
-    let mut flow = shape.to_vec();
-    VectorField::<f64>::eval(body, 0.0, shape, &mut flow);
+    let flow = body.rates(shape);
     directions.push(flow);
     basis(&directions.iter().map(Vec::as_slice).collect::<Vec<_>>(), 1e-8)
 }

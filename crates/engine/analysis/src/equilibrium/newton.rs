@@ -6,7 +6,7 @@ use crate::graded::scale;
 use crate::isotropy::mean_over_rotations;
 use crate::linear::{add, least_squares, norm};
 use crate::symmetry::turning_of_shape;
-use motiform_dynamics::{Equivariant, VectorField};
+use motiform_dynamics::Equivariant;
 
 /// A residual that no longer falls is at most so many times the rounding of its terms.
 const LEFT: f64 = 1e6;
@@ -26,8 +26,7 @@ impl RelativeEquilibrium {
     #[must_use]
     pub fn find(body: &dyn Equivariant, guess: &[f64]) -> Option<Self> {
         let mut shape = guess.to_vec();
-        let mut rate = vec![0.0; shape.len()];
-        VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
+        let rate = body.rates(&shape);
         let mut omega = turning_of_shape(body, &shape, &rate);
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
@@ -88,8 +87,7 @@ fn round(body: &dyn Equivariant, shape: &mut [f64], step: &[f64]) -> bool {
 /// The columns of `[Df - omega G, -Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation.
 pub(super) fn equations(body: &dyn Equivariant, shape: &[f64], omega: f64) -> (Vec<Vec<f64>>, Vec<f64>) {
     let mut columns = linearisation(body, shape, omega);
-    let mut spin = vec![0.0; shape.len()];
-    body.spin(shape, &mut spin);
+    let spin = body.spun(shape);
     let mut target = residual(body, shape, omega);
     let scales: Vec<f64> = (0..shape.len()).map(|i| scale(columns.iter().map(|column| &column[i]))).collect();
     columns.push(spin);

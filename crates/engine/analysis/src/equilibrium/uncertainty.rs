@@ -4,7 +4,7 @@ use super::{RelativeEquilibrium, linearisation, matrix_of};
 use crate::graded::{EPS, spread};
 use crate::linear::add;
 use crate::lyapunov::SplitMix;
-use motiform_dynamics::{Equivariant, VectorField};
+use motiform_dynamics::Equivariant;
 use nalgebra::DMatrix;
 
 /// Rounding of a sum of products, in units of the roundoff of its terms.
@@ -31,8 +31,7 @@ impl Uncertainty {
     pub(super) fn of(body: &dyn Equivariant, shape: &[f64], omega: f64, turns: bool) -> Self {
         let dim = shape.len();
         let columns = linearisation(body, shape, omega);
-        let mut spin = vec![0.0; dim];
-        body.spin(shape, &mut spin);
+        let spin = body.spun(shape);
         let mut bounds = residual(body, shape, omega);
         let rounding = rounding_of(body, (shape, omega), &columns);
         bounds.iter_mut().zip(&rounding).for_each(|(bound, rounding)| *bound = bound.abs() + rounding);
@@ -109,8 +108,7 @@ pub(super) fn rounding_of(
     (shape, omega): (&[f64], f64),
     columns: &[Vec<f64>],
 ) -> Vec<f64> {
-    let mut spin = vec![0.0; shape.len()];
-    body.spin(shape, &mut spin);
+    let spin = body.spun(shape);
     let mut bounds = seen(body, (shape, omega), columns);
     for (i, bound) in bounds.iter_mut().enumerate() {
         let terms: f64 = columns.iter().zip(shape).map(|(column, u)| (column[i] * u).abs()).sum();
@@ -143,9 +141,7 @@ fn seen(body: &dyn Equivariant, (shape, omega): (&[f64], f64), columns: &[Vec<f6
 
 /// `f - omega Gu`.
 pub(super) fn residual(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
-    let (mut rate, mut spin) = (vec![0.0; shape.len()], vec![0.0; shape.len()]);
-    VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
-    body.spin(shape, &mut spin);
+    let (mut rate, spin) = (body.rates(shape), body.spun(shape));
     add(&mut rate, -omega, &spin);
     rate
 }

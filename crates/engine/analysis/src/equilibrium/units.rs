@@ -4,7 +4,7 @@ use super::balance::balances;
 use crate::linear::norm;
 use crate::periodic::Flow;
 use motiform_dynamics::sample::ascending;
-use motiform_dynamics::{Equivariant, StepControl, VectorField, model};
+use motiform_dynamics::{Equivariant, StepControl, model};
 
 /// Rays along which sizes are looked for.
 const RAYS: usize = 2;
@@ -107,8 +107,7 @@ fn rays(body: &dyn Equivariant) -> Vec<Vec<f64>> {
 /// `sum_i |f_i w_i| / sum_i t w_i^2` at the shape `t w`.
 fn rate(body: &dyn Equivariant, ray: &[f64], t: f64) -> f64 {
     let shape: Vec<f64> = ray.iter().map(|w| t * w).collect();
-    let mut rate = vec![0.0; shape.len()];
-    VectorField::<f64>::eval(body, 0.0, &shape, &mut rate);
+    let rate = body.rates(&shape);
     rate.iter().zip(ray).map(|(f, w)| (f * w).abs()).sum::<f64>() / t
 }
 

@@ -5,7 +5,7 @@ use super::silent::silent_rates;
 use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions, pace};
 use crate::linear::norm;
 use crate::{Estimate, Result};
-use motiform_dynamics::{Equivariant, Outcome, StepControl, VectorField};
+use motiform_dynamics::{Equivariant, Outcome, StepControl};
 
 /// Vectors are made orthonormal when they have separated by this factor (natural logarithm).
 const PARTED: f64 = 8.0;
@@ -178,8 +178,7 @@ impl Renormalisation {
             };
             let steps = (steps - self.steps_before) as f64;
             let numerical = rtol * (self.dim as f64).sqrt() * steps / time;
-            let mut rate = shape.to_vec();
-            VectorField::<f64>::eval(body, 0.0, shape, &mut rate);
+            let rate = body.rates(shape);
             means(&self.history, self.begun, numerical, pace(shape, &rate))?
         } else {
             Vec::new()

@@ -6,23 +6,25 @@ use serde::{Deserialize, Serialize};
 /// Angles below this (rad) are none.
 const NO_ANGLE: f64 = 1e-6;
 
-/// The direction of a motion, among those that the symmetry distinguishes. With rotations and the mirror
-/// there are none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Course {
-    /// The heading turns anticlockwise, in a model without the mirror.
-    Anticlockwise,
-    /// The heading turns clockwise, in a model without the mirror.
-    Clockwise,
-    /// Along the field: towards +x, the mirror's axis; where half a turn is a symmetry, towards +x or -x.
-    AlongField,
-    /// Against the field: towards -x.
-    AgainstField,
-    /// Across the field: towards +y or -y.
-    AcrossField,
-    /// At another angle to the field.
-    ObliqueToField,
+motiform_dynamics::named! {
+    /// The direction of a motion, among those that the symmetry distinguishes. With rotations and the mirror
+    /// there are none.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Course by name {
+        /// The heading turns anticlockwise, in a model without the mirror.
+        Anticlockwise = "anticlockwise",
+        /// The heading turns clockwise, in a model without the mirror.
+        Clockwise = "clockwise",
+        /// Along the field: towards +x, the mirror's axis; where half a turn is a symmetry, towards +x or -x.
+        AlongField = "along-field",
+        /// Against the field: towards -x.
+        AgainstField = "against-field",
+        /// Across the field: towards +y or -y.
+        AcrossField = "across-field",
+        /// At another angle to the field.
+        ObliqueToField = "oblique-to-field",
+    }
 }
 
 /// The direction of a motion, as far as the symmetry of the model distinguishes directions.
@@ -47,29 +49,6 @@ impl Direction {
 }
 
 impl Course {
-    /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::Anticlockwise,
-        Self::Clockwise,
-        Self::AlongField,
-        Self::AgainstField,
-        Self::AcrossField,
-        Self::ObliqueToField,
-    ];
-
-    /// Its name in files.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Anticlockwise => "anticlockwise",
-            Self::Clockwise => "clockwise",
-            Self::AlongField => "along-field",
-            Self::AgainstField => "against-field",
-            Self::AcrossField => "across-field",
-            Self::ObliqueToField => "oblique-to-field",
-        }
-    }
-
     /// Its name in sentences.
     #[must_use]
     pub const fn words(self) -> &'static str {
@@ -80,12 +59,6 @@ impl Course {
             Self::AcrossField => "across the field",
             Self::ObliqueToField => "oblique to the field",
         }
-    }
-
-    /// The course of this name.
-    #[must_use]
-    pub fn find(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|course| course.name() == name)
     }
 
     /// The hand of a motion whose heading turns at `rate` (rad per model time), where left and right differ.

@@ -7,63 +7,36 @@ use crate::periodic::PeriodicOrbit;
 use motiform_dynamics::Symmetry;
 use serde::{Deserialize, Serialize};
 
-/// The kind of a relative periodic orbit, by its symmetry and by the rotation that it adds up to in a period.
-///
-/// The symmetry of the shape at every moment (its isotropy) comes first, then the symmetry between different moments, then the
-/// net rotation. See docs/regimes.md, section 'Periodic motions'.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Form {
-    /// The shape repeats while the centre of mass rests.
-    PulsatingAtRest,
-    /// Mirror symmetric at every moment, no net rotation: the body moves along a straight line at a changing speed.
-    PulsatingStraight,
-    /// Along a straight line without net displacement: in general the shape is turned by half a turn after half the period.
-    BackAndForth,
-    /// Half a period later the motion is its own mirror image: left and right turns are alike.
-    MirrorZigzag,
-    /// No symmetry, and no net rotation either.
-    AsymmetricZigzag,
-    /// In a field: the heading turns through full circles at a rate that depends on its direction, so that in general the body drifts.
-    DriftingCircular,
-    /// The heading swings left and right, by more than the net rotation of a period.
-    RotatingZigzag,
-    /// The heading turns in one direction only, at a changing rate.
-    PulsatingCircular,
-    /// A net rotation, and neither of the two above.
-    Rosette,
+motiform_dynamics::named! {
+    /// The kind of a relative periodic orbit, by its symmetry and by the rotation that it adds up to in a period.
+    ///
+    /// The symmetry of the shape at every moment (its isotropy) comes first, then the symmetry between different moments, then the
+    /// net rotation. See docs/regimes.md, section 'Periodic motions'.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Form by name {
+        /// The shape repeats while the centre of mass rests.
+        PulsatingAtRest = "pulsating-at-rest",
+        /// Mirror symmetric at every moment, no net rotation: the body moves along a straight line at a changing speed.
+        PulsatingStraight = "pulsating-straight",
+        /// Along a straight line without net displacement: in general the shape is turned by half a turn after half the period.
+        BackAndForth = "back-and-forth",
+        /// Half a period later the motion is its own mirror image: left and right turns are alike.
+        MirrorZigzag = "mirror-zigzag",
+        /// No symmetry, and no net rotation either.
+        AsymmetricZigzag = "asymmetric-zigzag",
+        /// In a field: the heading turns through full circles at a rate that depends on its direction, so that in general the body drifts.
+        DriftingCircular = "drifting-circular",
+        /// The heading swings left and right, by more than the net rotation of a period.
+        RotatingZigzag = "rotating-zigzag",
+        /// The heading turns in one direction only, at a changing rate.
+        PulsatingCircular = "pulsating-circular",
+        /// A net rotation, and neither of the two above.
+        Rosette = "rosette",
+    }
 }
 
 impl Form {
-    /// All of them.
-    pub const ALL: [Self; 9] = [
-        Self::PulsatingAtRest,
-        Self::PulsatingStraight,
-        Self::BackAndForth,
-        Self::MirrorZigzag,
-        Self::AsymmetricZigzag,
-        Self::DriftingCircular,
-        Self::RotatingZigzag,
-        Self::PulsatingCircular,
-        Self::Rosette,
-    ];
-
-    /// Its name in files.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::PulsatingAtRest => "pulsating-at-rest",
-            Self::PulsatingStraight => "pulsating-straight",
-            Self::BackAndForth => "back-and-forth",
-            Self::MirrorZigzag => "mirror-zigzag",
-            Self::AsymmetricZigzag => "asymmetric-zigzag",
-            Self::DriftingCircular => "drifting-circular",
-            Self::RotatingZigzag => "rotating-zigzag",
-            Self::PulsatingCircular => "pulsating-circular",
-            Self::Rosette => "rosette",
-        }
-    }
-
     /// The meaning of the form, as a clause of a verdict.
     #[must_use]
     pub const fn meaning(self) -> &'static str {

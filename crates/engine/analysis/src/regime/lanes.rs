@@ -20,7 +20,7 @@ use motiform_dynamics::ensemble::{
 };
 use motiform_dynamics::simd::{LaneKernel, run_wide};
 use motiform_dynamics::steppers::unrolled::Dop853;
-use motiform_dynamics::{Bundle, Equivariant, Mask, Orbit, Outcome, StepControl, Watch};
+use motiform_dynamics::{Bundle, Equivariant, Integration, Mask, Orbit, Outcome, StepControl, Watch};
 use std::collections::VecDeque;
 
 /// A motion to classify.

@@ -5,7 +5,7 @@ use super::verdict::{Attractor, Regime, Verdict};
 use crate::SteadyMotion;
 use crate::equilibrium::RelativeEquilibrium;
 use crate::symmetry::{align, reduced_speed};
-use motiform_dynamics::{Equivariant, VectorField};
+use motiform_dynamics::Equivariant;
 
 /// Number of turns in a row: by chance, all have one sense with a probability of 2^-12.
 const TURNS: usize = 12;
@@ -34,8 +34,7 @@ impl SteadyTurns {
     pub(super) fn of(body: &dyn Equivariant, look: &Look) -> Option<Self> {
         let minima = look.minima();
         let last = &minima[minima.len().checked_sub(TURNS + 1)?..];
-        let mut rate = look.slowest.clone();
-        VectorField::<f64>::eval(body, 0.0, &look.slowest, &mut rate);
+        let rate = body.rates(&look.slowest);
         if reduced_speed(body, &look.slowest, &rate) >= RESTS * look.fastest {
             return None;
         }

@@ -8,71 +8,40 @@ use crate::regime::resolution::Resolution;
 use motiform_dynamics::Equivariant;
 use serde::{Deserialize, Serialize};
 
-/// The motions, defined by the reduced dynamics and the drift of the group (never by eye).
-///
-/// 'Reduced' means: shapes that differ by a rotation count as one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Regime {
-    /// A fixed shape at rest: a circle, or a deformed body.
-    Motionless,
-    /// A fixed shape that moves without turning.
-    Straight,
-    /// A shape that repeats and is mirror symmetric at every moment: constant heading, changing speed.
-    PulsatingStraight,
-    /// A fixed shape that moves and turns at a constant rate: the body goes round a circle.
-    Circular,
-    /// A fixed shape that turns at a constant rate and does not move: the body stays in its place.
-    Spinning,
-    /// A heteroclinic cycle between motionless shapes: rests, and turns in between.
-    Rectangular,
-    /// A shape that repeats up to a rotation, with a net rotation per period (a 2-torus in the plane); or a torus of
-    /// reduced shapes.
-    QuasiPeriodic,
-    /// A shape that repeats up to a rotation without net rotation: the body travels on.
-    Zigzag,
-    /// The largest Lyapunov exponent is positive.
-    Chaotic,
-    /// The shape leaves every bound in finite time.
-    BlowUp,
-    /// The evidence does not decide.
-    Undetermined,
+motiform_dynamics::named! {
+    /// The motions, defined by the reduced dynamics and the drift of the group (never by eye).
+    ///
+    /// 'Reduced' means: shapes that differ by a rotation count as one. Their order is that of legends.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Regime by name {
+        /// A fixed shape at rest: a circle, or a deformed body.
+        Motionless = "motionless",
+        /// A fixed shape that moves without turning.
+        Straight = "straight",
+        /// A shape that repeats and is mirror symmetric at every moment: constant heading, changing speed.
+        PulsatingStraight = "pulsating-straight",
+        /// A fixed shape that moves and turns at a constant rate: the body goes round a circle.
+        Circular = "circular",
+        /// A fixed shape that turns at a constant rate and does not move: the body stays in its place.
+        Spinning = "spinning",
+        /// A heteroclinic cycle between motionless shapes: rests, and turns in between.
+        Rectangular = "rectangular",
+        /// A shape that repeats up to a rotation, with a net rotation per period (a 2-torus in the plane); or a torus of
+        /// reduced shapes.
+        QuasiPeriodic = "quasi-periodic",
+        /// A shape that repeats up to a rotation without net rotation: the body travels on.
+        Zigzag = "zigzag",
+        /// The largest Lyapunov exponent is positive.
+        Chaotic = "chaotic",
+        /// The shape leaves every bound in finite time.
+        BlowUp = "blow-up",
+        /// The evidence does not decide.
+        Undetermined = "undetermined",
+    }
 }
 
 impl Regime {
-    /// All of them, in the order of legends.
-    pub const ALL: [Self; 11] = [
-        Self::Motionless,
-        Self::Straight,
-        Self::PulsatingStraight,
-        Self::Circular,
-        Self::Spinning,
-        Self::Rectangular,
-        Self::QuasiPeriodic,
-        Self::Zigzag,
-        Self::Chaotic,
-        Self::BlowUp,
-        Self::Undetermined,
-    ];
-
-    /// Its name in files and on the command line.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Motionless => "motionless",
-            Self::Straight => "straight",
-            Self::PulsatingStraight => "pulsating-straight",
-            Self::Circular => "circular",
-            Self::Spinning => "spinning",
-            Self::Rectangular => "rectangular",
-            Self::QuasiPeriodic => "quasi-periodic",
-            Self::Zigzag => "zigzag",
-            Self::Chaotic => "chaotic",
-            Self::BlowUp => "blow-up",
-            Self::Undetermined => "undetermined",
-        }
-    }
-
     /// The motion of a body in this regime, in one sentence.
     #[must_use]
     pub const fn meaning(self) -> &'static str {
@@ -98,74 +67,29 @@ impl Regime {
             Self::Undetermined => "The evidence does not decide.",
         }
     }
-
-    /// The regime of this name.
-    #[must_use]
-    pub fn find(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|regime| regime.name() == name)
-    }
 }
 
-impl std::fmt::Display for Regime {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-/// The kind of set that the reduced orbit ends on: what the mathematics decides, before it is called a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Attractor {
-    /// A stable relative equilibrium: a fixed point of the reduced dynamics.
-    Equilibrium,
-    /// An unstable relative equilibrium, on which only an orbit of exact symmetry stays. No attractor: a typical start leaves it.
-    Unstable,
-    /// A relative periodic orbit.
-    Periodic,
-    /// A torus of the reduced dynamics.
-    Torus,
-    /// A cycle of saddles and the orbits that connect them.
-    Heteroclinic,
-    /// A chaotic set.
-    Chaotic,
-    /// None: the orbit leaves every bound.
-    Escape,
-    /// Not decided.
-    Unknown,
-}
-
-impl Attractor {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::Equilibrium,
-        Self::Unstable,
-        Self::Periodic,
-        Self::Torus,
-        Self::Heteroclinic,
-        Self::Chaotic,
-        Self::Escape,
-        Self::Unknown,
-    ];
-
-    /// Its name in files.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Equilibrium => "equilibrium",
-            Self::Unstable => "unstable",
-            Self::Periodic => "periodic",
-            Self::Torus => "torus",
-            Self::Heteroclinic => "heteroclinic",
-            Self::Chaotic => "chaotic",
-            Self::Escape => "escape",
-            Self::Unknown => "unknown",
-        }
-    }
-
-    /// The kind of this name.
-    #[must_use]
-    pub fn find(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|attractor| attractor.name() == name)
+motiform_dynamics::named! {
+    /// The kind of set that the reduced orbit ends on: what the mathematics decides, before it is called a motion.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Attractor by name {
+        /// A stable relative equilibrium: a fixed point of the reduced dynamics.
+        Equilibrium = "equilibrium",
+        /// An unstable relative equilibrium, on which only an orbit of exact symmetry stays. No attractor: a typical start leaves it.
+        Unstable = "unstable",
+        /// A relative periodic orbit.
+        Periodic = "periodic",
+        /// A torus of the reduced dynamics.
+        Torus = "torus",
+        /// A cycle of saddles and the orbits that connect them.
+        Heteroclinic = "heteroclinic",
+        /// A chaotic set.
+        Chaotic = "chaotic",
+        /// None: the orbit leaves every bound.
+        Escape = "escape",
+        /// Not decided.
+        Unknown = "unknown",
     }
 }
 

@@ -7,7 +7,7 @@ use crate::common;
 use common::{Random, cell, full};
 use motiform_analysis::Isotropy;
 use motiform_dynamics::steppers::DOP853;
-use motiform_dynamics::{Equivariant, Orbit, Request, StepControl, drive::drive};
+use motiform_dynamics::{Equivariant, Integration, Orbit, Request, StepControl, drive::drive};
 
 const TOLERANCE: f64 = 1e-12;
 

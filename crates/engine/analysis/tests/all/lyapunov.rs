@@ -8,7 +8,7 @@ use common::{Random, cell, full, near, reduced};
 use motiform_analysis::lyapunov::separates;
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings, lyapunov, lyapunov_followed, series_mean};
 use motiform_dynamics::steppers::{DOP853, Method};
-use motiform_dynamics::{Equivariant, Orbit, Outcome, Request, StepControl, drive::drive};
+use motiform_dynamics::{Equivariant, Integration, Orbit, Outcome, Request, StepControl, drive::drive};
 use motiform_models::tensor::Tensor;
 use motiform_models::zoo::{Hopf, Linear, Lorenz, Rossler, Torus};
 

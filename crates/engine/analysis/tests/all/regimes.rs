@@ -9,7 +9,7 @@ use common::{Random, cell, full, letter, named, reduced, settings};
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::regime::{Settings, Verdict};
 use motiform_dynamics::steppers::RK4;
-use motiform_dynamics::{Model, Orbit, Request, StepControl, Trajectory, drive::drive};
+use motiform_dynamics::{Integration, Model, Orbit, Request, StepControl, Trajectory, drive::drive};
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 

@@ -7,7 +7,7 @@ use crate::common;
 use common::{Random, cell, full, reduced};
 use motiform_analysis::symmetry::{MovingFrame, align};
 use motiform_dynamics::steppers::DOP853;
-use motiform_dynamics::{Equivariant, InPlane, Orbit, Request, StepControl, drive::drive};
+use motiform_dynamics::{Equivariant, InPlane, Integration, Orbit, Request, StepControl, drive::drive};
 use motiform_models::tensor::Tensor;
 use proptest::prelude::*;
 

@@ -6,7 +6,7 @@ use crate::common;
 
 use common::{Cubic, Growth, Oscillator, Quadratic};
 use motiform_dynamics::steppers::{DOP853, EULER, RK4, STEPPERS, Tableau};
-use motiform_dynamics::{Orbit, Outcome, Request, StepControl, VectorField, drive::drive};
+use motiform_dynamics::{Integration, Orbit, Outcome, Request, StepControl, VectorField, drive::drive};
 
 fn run<F: VectorField<f64>>(
     field: &F,

@@ -6,7 +6,7 @@ use crate::common;
 
 use common::{Lorentzian, Oscillator, StuartLandau, slope, stuart_landau};
 use motiform_dynamics::steppers::{STEPPERS, Tableau};
-use motiform_dynamics::{Orbit, StepControl, VectorField};
+use motiform_dynamics::{Integration, Orbit, StepControl, VectorField};
 
 /// Largest error at the ends of the steps, and its root mean square inside them, for one fixed step size.
 fn errors<F: VectorField<f64>>(

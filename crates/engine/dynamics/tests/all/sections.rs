@@ -8,7 +8,7 @@ use common::{Arenstorf, Oscillator};
 use motiform_dynamics::section::Crossing;
 use motiform_dynamics::steppers::{DOP853, DOPRI5, STEPPERS};
 use motiform_dynamics::{
-    Direction, Orbit, Outcome, Request, Section, Sink, StepControl, Trajectory, drive::drive,
+    Direction, Integration, Orbit, Outcome, Request, Section, Sink, StepControl, Trajectory, drive::drive,
 };
 use std::f64::consts::{PI, TAU};
 

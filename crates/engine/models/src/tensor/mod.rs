@@ -28,7 +28,7 @@ const GRID: usize = 32;
 /// The tensor model for one set of parameters.
 ///
 /// ```
-/// use motiform_dynamics::{InPlane, Orbit, Request, StepControl, drive::drive, steppers::DOP853};
+/// use motiform_dynamics::{InPlane, Integration, Orbit, Request, StepControl, drive::drive, steppers::DOP853};
 /// use motiform_models::tensor::{Tensor, TensorParameters};
 ///
 /// // A circle with gamma = 1 accelerates to speed 1 and swims straight.

@@ -4,7 +4,7 @@
 
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::{DOP853, DOPRI5};
-use motiform_dynamics::{InPlane, Model, Orbit, Outcome, Request, StepControl};
+use motiform_dynamics::{InPlane, Integration, Model, Orbit, Outcome, Request, StepControl};
 use motiform_models::parameters::Parameters;
 use motiform_models::tensor::indices::{Tensors, rate};
 use motiform_models::tensor::{Tensor, TensorParameters};

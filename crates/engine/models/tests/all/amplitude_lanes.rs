@@ -7,7 +7,7 @@ use motiform_dynamics::ensemble::{InLanes, Member, Propagation, Queue, propagate
 use motiform_dynamics::simd::{InstructionSet, LaneKernel, run_lanes_on};
 use motiform_dynamics::steppers::DOP853;
 use motiform_dynamics::{
-    Bundle, Dual, InPlane, Orbit, Outcome, Request, Scalar, Shape, StepControl, VectorField,
+    Bundle, Dual, InPlane, Integration, Orbit, Outcome, Request, Scalar, Shape, StepControl, VectorField,
 };
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::{Amplitudes, AmplitudesField, Definition, ParameterDefinition, info};

@@ -5,30 +5,17 @@ use motiform_tracks::Tracks;
 use serde::Serialize;
 use std::str::FromStr;
 
-/// A motion of the stage or of the images that can be subtracted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Correction {
-    /// A velocity that all cells have.
-    Drift,
-    /// Jumps from one frame to the next.
-    Jumps,
-    /// Displacements of single frames.
-    Jitter,
-}
-
-impl Correction {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Drift, Self::Jumps, Self::Jitter];
-
-    /// Its name in options.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Drift => "drift",
-            Self::Jumps => "jumps",
-            Self::Jitter => "jitter",
-        }
+motiform_dynamics::named! {
+    /// A motion of the stage or of the images that can be subtracted.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Correction by name {
+        /// A velocity that all cells have.
+        Drift = "drift",
+        /// Jumps from one frame to the next.
+        Jumps = "jumps",
+        /// Displacements of single frames.
+        Jitter = "jitter",
     }
 }
 
@@ -36,8 +23,7 @@ impl FromStr for Correction {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, String> {
-        let known = Self::ALL.into_iter().find(|one| one.name() == name);
-        known.ok_or_else(|| {
+        Self::find(name).ok_or_else(|| {
             format!("there is no correction {name:?}: give drift, jumps or jitter, separated by commas")
         })
     }

@@ -3,8 +3,9 @@
 use super::walk::{OfWalk, TOO_FEW};
 use super::{FormNumber, Numbers};
 use crate::Observation;
+use motiform_analysis::regime::Regime;
 use motiform_statistics::{Answer, Measured, four_digits};
-use motiform_store::columns::{Column, Values};
+use motiform_store::columns::Column;
 use motiform_study::Quantity;
 use motiform_study::quantity::cell;
 
@@ -123,23 +124,20 @@ pub(super) fn without_steps(seen: usize) -> String {
 #[must_use]
 pub fn number_columns(found: &[Observation]) -> Vec<Column> {
     let rows: Vec<Vec<Row>> = found.iter().map(|one| one.numbers.rows()).collect();
-    let names = Values::Text(found.iter().map(|one| one.cell.clone()).collect());
-    let seen = found.iter().map(|one| i64::try_from(one.numbers.seen).unwrap_or(i64::MAX)).collect();
-    let motion = |one: &Observation| one.motion.regime.map_or("undecided", |regime| regime.name()).to_owned();
+    let motion = |one: &Observation| one.motion.regime.map_or("undecided", Regime::name);
     let mut columns = vec![
-        Column::of_data(&cell::CELL, names),
-        Column::of_data(&cell::MOTION, Values::Text(found.iter().map(motion).collect())),
-        Column::of_data(&cell::SEEN, Values::Whole(seen)),
+        Column::of_data(&cell::CELL, found.iter().map(|one| one.cell.clone()).collect()),
+        Column::of_data(&cell::MOTION, found.iter().map(motion).collect()),
+        Column::of_data(&cell::SEEN, found.iter().map(|one| one.numbers.seen).collect()),
     ];
     for (place, row) in rows.first().into_iter().flatten().enumerate() {
-        let value = |of: &dyn Fn(Measured) -> f64| {
-            Values::Number(rows.iter().map(|all| all[place].value.known().map_or(f64::NAN, of)).collect())
-        };
+        let value =
+            |of: fn(Measured) -> f64| rows.iter().map(|all| all[place].value.known().map(of)).collect();
         let name = row.quantity.name;
         let end = |end: &str, meaning, values| Column::new(&format!("{name}_{end}"), meaning, values);
-        columns.push(Column::of_data(row.quantity, value(&|found| found.value)));
-        columns.push(end("low", "lower end of its 95 % interval", value(&|found| found.lower())));
-        columns.push(end("high", "upper end of its 95 % interval", value(&|found| found.upper())));
+        columns.push(Column::of_data(row.quantity, value(|found| found.value)));
+        columns.push(end("low", "lower end of its 95 % interval", value(|found| found.lower())));
+        columns.push(end("high", "upper end of its 95 % interval", value(|found| found.upper())));
     }
     columns
 }

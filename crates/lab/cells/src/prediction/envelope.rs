@@ -8,27 +8,17 @@ const LEVELS: [f64; 2] = [0.01, 0.05];
 /// Share of the simulated curves within the band, point by point.
 const BAND: f64 = 0.95;
 
-/// `true` if the observed cell could be one of the simulated ones, by one statistic.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Agreement {
-    /// p above 0.05.
-    Agrees,
-    /// p from 0.01 to 0.05.
-    Doubtful,
-    /// p up to 0.01.
-    Differs,
-}
-
-impl Agreement {
-    /// The verdict as a word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Agrees => "agrees",
-            Self::Doubtful => "doubtful",
-            Self::Differs => "differs",
-        }
+motiform_dynamics::named! {
+    /// `true` if the observed cell could be one of the simulated ones, by one statistic.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Agreement by name {
+        /// p above 0.05.
+        Agrees = "agrees",
+        /// p from 0.01 to 0.05.
+        Doubtful = "doubtful",
+        /// p up to 0.01.
+        Differs = "differs",
     }
 }
 

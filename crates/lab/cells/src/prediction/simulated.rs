@@ -64,8 +64,7 @@ fn start(
     errors.add(0, &mut y, normal);
     errors.add(0, &mut end, normal);
     let coordinates = coordinates([&y, &end], later.t - first.t, units.0);
-    let mut state = vec![0.0; model.dim()];
-    model.encode(&coordinates, &mut state);
+    let mut state = model.encoded(&coordinates);
     state.extend([y[0] / units.0.length(), y[1] / units.0.length()]);
     Some(state)
 }

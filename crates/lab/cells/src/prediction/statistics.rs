@@ -29,53 +29,37 @@ pub enum Axis {
     Share,
 }
 
-/// The statistics. Definitions: docs/cells.md.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// Mean-square displacement; errors of measurement are in it (length^2).
-    Displacement,
-    /// Autocorrelation of the velocity.
-    Velocity,
-    /// Autocorrelation of z2.
-    SecondMode,
-    /// Autocorrelation of z3, of models with z3.
-    ThirdMode,
-    /// Autocorrelation of z4, of models with z4.
-    FourthMode,
-    /// Elongation along (1) or across (-1) the motion, at times before or after it.
-    Elongation,
-    /// Quantiles of the speed (length/time).
-    Speed,
-    /// Quantiles of the turning angle (rad).
-    Turning,
-    /// Quantiles of |z2| (length).
-    SecondSize,
-    /// Quantiles of |z3| (length), of models with z3.
-    ThirdSize,
-    /// Quantiles of |z4| (length), of models with z4.
-    FourthSize,
+motiform_dynamics::named! {
+    /// The statistics. Definitions: docs/cells.md.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Kind by name {
+        /// Mean-square displacement; errors of measurement are in it (length^2).
+        Displacement = "mean-square displacement",
+        /// Autocorrelation of the velocity.
+        Velocity = "autocorrelation of the velocity",
+        /// Autocorrelation of z2.
+        SecondMode = "autocorrelation of z2",
+        /// Autocorrelation of z3, of models with z3.
+        ThirdMode = "autocorrelation of z3",
+        /// Autocorrelation of z4, of models with z4.
+        FourthMode = "autocorrelation of z4",
+        /// Elongation along (1) or across (-1) the motion, at times before or after it.
+        Elongation = "elongation along the motion",
+        /// Quantiles of the speed (length/time).
+        Speed = "speed",
+        /// Quantiles of the turning angle (rad).
+        Turning = "turning angle",
+        /// Quantiles of |z2| (length).
+        SecondSize = "size of z2",
+        /// Quantiles of |z3| (length), of models with z3.
+        ThirdSize = "size of z3",
+        /// Quantiles of |z4| (length), of models with z4.
+        FourthSize = "size of z4",
+    }
 }
 
 impl Kind {
-    /// Its name in results and on pages.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Displacement => "mean-square displacement",
-            Self::Velocity => "autocorrelation of the velocity",
-            Self::SecondMode => "autocorrelation of z2",
-            Self::ThirdMode => "autocorrelation of z3",
-            Self::FourthMode => "autocorrelation of z4",
-            Self::Elongation => "elongation along the motion",
-            Self::Speed => "speed",
-            Self::Turning => "turning angle",
-            Self::SecondSize => "size of z2",
-            Self::ThirdSize => "size of z3",
-            Self::FourthSize => "size of z4",
-        }
-    }
-
     /// The variable that it runs over.
     #[must_use]
     pub fn axis(self) -> Axis {

@@ -193,7 +193,7 @@ fn summed(between: Pair, names: &[Option<&str>], renamed: &[[Regime; 2]]) -> Bou
     }
     let kinds = descending(kinds, |kind| kind.1);
     let unnamed = names.iter().filter(|name| name.is_none()).count();
-    let crossing = |kind: &(String, usize)| CrossingKind::ALL.iter().any(|one| kind.0 == one.words());
+    let crossing = |kind: &(String, usize)| CrossingKind::find(&kind.0).is_some();
     let why = (unnamed > 0).then(|| match kinds.iter().any(crossing) {
         true => "a crossing of branches without a symmetry that the model states has no curve here: it is known on the lines alone",
         false => why(&differing(&between), renamed),

@@ -29,28 +29,16 @@ pub enum EndKind {
     Crossing(CrossingKind),
 }
 
-/// A crossing of branches that breaks no symmetry which the model states: its curve over two parameters is not followed, for equations in
-/// general have none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum CrossingKind {
-    /// One branch turns back there.
-    Pitchfork,
-    /// Both go on.
-    Transcritical,
-}
-
-impl CrossingKind {
-    /// Both kinds.
-    pub const ALL: [Self; 2] = [Self::Pitchfork, Self::Transcritical];
-
-    /// Its name.
-    #[must_use]
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Pitchfork => "pitchfork",
-            Self::Transcritical => "crossing of branches",
-        }
+motiform_dynamics::named! {
+    /// A crossing of branches that breaks no symmetry which the model states: its curve over two parameters is not followed, for equations
+    /// in general have none.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum CrossingKind by words {
+        /// One branch turns back there.
+        Pitchfork = "pitchfork",
+        /// Both go on.
+        Transcritical = "crossing of branches",
     }
 }
 
@@ -249,7 +237,7 @@ fn limits(found: &Branches) -> Vec<(CurveKind, [usize; 3], Regime)> {
         for (leg, done) in followed.legs.iter().enumerate() {
             for (point, sample) in done.samples.iter().enumerate() {
                 let Some(special) = sample.point.special else { continue };
-                let kind = CurveKind::ALL.into_iter().find(|kind| kind.name() == special.name());
+                let kind = CurveKind::find(special.name());
                 let before = point.checked_sub(1).and_then(|place| done.samples.get(place));
                 let beside = before.into_iter().chain(done.samples.get(point + 1));
                 let stable = beside.clone().find(|near| is_stable(near, sample));

@@ -2,13 +2,10 @@
 
 use crate::atlas::grid::{Grid, NUMBERS};
 use crate::atlas::line::Line;
-use motiform_store::columns::{Column, Values};
+use motiform_continuation::Degenerate;
+use motiform_store::columns::Column;
 use motiform_study::AtlasPlan;
 use motiform_study::quantity::{motion, special};
-
-fn whole(values: impl Iterator<Item = usize>) -> Values {
-    Values::Whole(values.map(|value| i64::try_from(value).unwrap_or(i64::MAX)).collect())
-}
 
 /// A row per cell and motion.
 #[must_use]
@@ -20,19 +17,18 @@ pub fn cell_columns(plan: &AtlasPlan, grid: &Grid) -> Vec<Column> {
         .enumerate()
         .flat_map(|(cell, place)| place.motions.iter().map(move |found| (cell, place, found)))
         .collect();
-    let mut all = vec![Column::of(&motion::CELL, whole(rows.iter().map(|row| row.0)))];
+    let mut all = vec![Column::of(&motion::CELL, rows.iter().map(|row| row.0).collect())];
     for (side, axis) in scan.computation.axes.iter().enumerate() {
         let values = rows.iter().map(|row| scan.axis_values(row.0)[side]).collect();
-        all.push(Column::new(&axis.name, "the parameter", Values::Number(values)));
+        all.push(Column::new(&axis.name, "the parameter", values));
     }
-    let names = rows.iter().map(|row| row.2.regime.name().to_owned()).collect();
-    all.push(Column::of(&motion::REGIME, Values::Text(names)));
-    all.push(Column::of(&motion::ROWS, whole(rows.iter().map(|row| row.2.rows))));
-    let is_computed = rows.iter().map(|row| usize::from(row.1.like.is_none()));
-    all.push(Column::of(&motion::COMPUTED, whole(is_computed)));
+    all.extend([
+        Column::of(&motion::REGIME, rows.iter().map(|row| row.2.regime.name()).collect()),
+        Column::of(&motion::ROWS, rows.iter().map(|row| row.2.rows).collect()),
+        Column::of(&motion::COMPUTED, rows.iter().map(|row| row.1.like.is_none()).collect()),
+    ]);
     for (place, quantity) in NUMBERS.into_iter().enumerate() {
-        let values = rows.iter().map(|row| row.2.numbers[place].unwrap_or(f64::NAN)).collect();
-        all.push(Column::of(quantity, Values::Number(values)));
+        all.push(Column::of(quantity, rows.iter().map(|row| row.2.numbers[place]).collect()));
     }
     all
 }
@@ -44,24 +40,18 @@ pub fn curve_columns(plan: &AtlasPlan, lines: &[Line]) -> Vec<Column> {
     let rows: Vec<_> = curves
         .flat_map(|(number, one)| one.curve.samples().map(move |sample| (number, one, sample)))
         .collect();
-    let text = |read: &dyn Fn(usize) -> &'static str| {
-        Values::Text((0..rows.len()).map(|row| read(row).to_owned()).collect())
-    };
+    let degenerate = rows.iter().map(|row| row.2.degenerate.map_or("", Degenerate::name)).collect();
     let mut all = vec![
-        Column::of(&special::CURVE, whole(rows.iter().map(|row| row.0))),
-        Column::of(&special::KIND, text(&|row| rows[row].1.curve.kind.name())),
-        Column::of(&special::MOTION, text(&|row| rows[row].1.motion.name())),
-        Column::of(
-            &special::CODIMENSION_2,
-            text(&|row| rows[row].2.degenerate.map_or("", |kind| kind.name())),
-        ),
-        Column::of(&special::UNSTABLE, whole(rows.iter().map(|row| row.2.unstable))),
+        Column::of(&special::CURVE, rows.iter().map(|row| row.0).collect()),
+        Column::of(&special::KIND, rows.iter().map(|row| row.1.curve.kind.name()).collect()),
+        Column::of(&special::MOTION, rows.iter().map(|row| row.1.motion.name()).collect()),
+        Column::of(&special::CODIMENSION_2, degenerate),
+        Column::of(&special::UNSTABLE, rows.iter().map(|row| row.2.unstable).collect()),
     ];
     for (side, along) in plan.plane().iter().enumerate() {
         let values = rows.iter().map(|row| row.2.parameters[side]).collect();
-        all.push(Column::new(&along.name, "the parameter", Values::Number(values)));
+        all.push(Column::new(&along.name, "the parameter", values));
     }
-    let periods = rows.iter().map(|row| row.2.period.unwrap_or(f64::NAN)).collect();
-    all.push(Column::of(&special::PERIOD, Values::Number(periods)));
+    all.push(Column::of(&special::PERIOD, rows.iter().map(|row| row.2.period).collect()));
     all
 }

@@ -28,8 +28,7 @@ pub(super) fn first(bodies: &Bodies<'_>, watch: &dyn Watch) -> Result<Option<(St
     let settled = || Ok(settle(bodies.plan, watch)?.map(|found| (found.0, settings)));
     let Some(given) = c.given else { return settled() };
     let model = bodies.model(bodies.plan.start_value())?;
-    let mut shape = vec![0.0; model.dim()];
-    model.encode(&c.start.initial.values()[..model.dim()], &mut shape);
+    let shape = model.encoded(&c.start.initial.values()[..model.dim()]);
     let at_rest = |shape: &[f64]| steady(model.as_ref(), shape, bodies.units);
     let found = match given {
         Given::Equilibrium => at_rest(&shape)

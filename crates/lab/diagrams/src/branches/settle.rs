@@ -23,8 +23,7 @@ pub enum Start {
 pub fn settle(plan: &BranchPlan, watch: &dyn Watch) -> Result<Option<(Start, Verdict)>, Error> {
     let bodies = Bodies::new(plan)?;
     let model = bodies.model(plan.start_value())?;
-    let mut shape = vec![0.0; model.dim()];
-    model.encode(&plan.computation.start.initial.values()[..model.dim()], &mut shape);
+    let shape = model.encoded(&plan.computation.start.initial.values()[..model.dim()]);
     let found = settled(model.as_ref(), &shape, &bodies.looks(), &StopOnly(watch))?;
     let Some((verdict, shape)) = found else { return Ok(None) };
     check(plan, &verdict)?;

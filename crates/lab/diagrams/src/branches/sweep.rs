@@ -96,9 +96,7 @@ fn sweep(
 }
 
 fn start(plan: &BranchPlan, model: &dyn Model) -> Vec<f64> {
-    let mut shape = vec![0.0; model.dim()];
-    model.encode(&plan.computation.start.initial.values()[..model.dim()], &mut shape);
-    shape
+    model.encoded(&plan.computation.start.initial.values()[..model.dim()])
 }
 
 /// Moves a shape by different parts of its size in all coordinates.

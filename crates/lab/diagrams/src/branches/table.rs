@@ -3,7 +3,9 @@
 use super::family::Bodies;
 use super::result::{Branches, Sample};
 use super::sweep::{SweepPoint, Sweeps};
-use motiform_store::columns::{Column, Values};
+use motiform_analysis::regime::{Course, Form};
+use motiform_continuation::Point;
+use motiform_store::columns::Column;
 use motiform_study::quantity::motion;
 use motiform_study::{BranchPlan, Error, Quantity};
 
@@ -26,7 +28,7 @@ pub fn columns(plan: &BranchPlan, found: &Branches) -> Result<Vec<Column>, Error
     let model = Bodies::new(plan)?.model(plan.start_value())?;
     for (place, coordinate) in model.coordinates().iter().enumerate() {
         let values = rows.iter().map(|row| row.2.reading.state[place]).collect();
-        all.push(Column::new(coordinate.name, coordinate.meaning, Values::Number(values)));
+        all.push(Column::new(coordinate.name, coordinate.meaning, values));
     }
     Ok(all)
 }
@@ -34,33 +36,26 @@ pub fn columns(plan: &BranchPlan, found: &Branches) -> Result<Vec<Column>, Error
 type Rows<'r> = [(usize, usize, &'r Sample)];
 
 fn places(plan: &BranchPlan, rows: &Rows<'_>) -> Vec<Column> {
-    let whole = |read: &dyn Fn(usize, usize) -> usize| {
-        Values::Whole(rows.iter().map(|row| i64::try_from(read(row.0, row.1)).unwrap_or(i64::MAX)).collect())
-    };
     let parameters = rows.iter().map(|row| row.2.point.parameter).collect();
-    let name = &plan.computation.along.name;
     vec![
-        Column::of(&motion::BRANCH, whole(&|branch, _| branch)),
-        Column::of(&motion::POINT, whole(&|_, point| point)),
-        Column::new(name, "the parameter that is varied", Values::Number(parameters)),
+        Column::of(&motion::BRANCH, rows.iter().map(|row| row.0).collect()),
+        Column::of(&motion::POINT, rows.iter().map(|row| row.1).collect()),
+        Column::new(&plan.computation.along.name, "the parameter that is varied", parameters),
     ]
 }
 
 fn motions(rows: &Rows<'_>) -> Vec<Column> {
-    let text = |read: &dyn Fn(&Sample) -> &'static str| {
-        Values::Text(rows.iter().map(|row| read(row.2).to_owned()).collect())
-    };
-    let whole = |read: &dyn Fn(&Sample) -> i64| Values::Whole(rows.iter().map(|row| read(row.2)).collect());
-    let special = |sample: &Sample| sample.point.special.map_or("", |special| special.name());
-    let (form, course) = (|s: &Sample| s.reading.form, |s: &Sample| s.reading.direction.course);
-    let unstable = |sample: &Sample| i64::try_from(sample.point.unstable).unwrap_or(i64::MAX);
+    let (points, readings) =
+        (|| rows.iter().map(|row| &row.2.point), || rows.iter().map(|row| &row.2.reading));
+    let special = points().map(|point| point.special.map_or("", |special| special.name()));
+    let course = readings().map(|reading| reading.direction.course.map_or("", Course::name));
     vec![
-        Column::of(&motion::MOTION, text(&|sample| sample.reading.motion.name())),
-        Column::of(&motion::FORM, text(&|sample| form(sample).map_or("", |form| form.name()))),
-        Column::of(&motion::COURSE, text(&|sample| course(sample).map_or("", |course| course.name()))),
-        Column::of(&motion::SPECIAL, text(&special)),
-        Column::of(&motion::STABLE, whole(&|sample| i64::from(sample.point.is_stable()))),
-        Column::of(&motion::UNSTABLE, whole(&unstable)),
+        Column::of(&motion::MOTION, readings().map(|reading| reading.motion.name()).collect()),
+        Column::of(&motion::FORM, readings().map(|reading| reading.form.map_or("", Form::name)).collect()),
+        Column::of(&motion::COURSE, course.collect()),
+        Column::of(&motion::SPECIAL, special.collect()),
+        Column::of(&motion::STABLE, points().map(Point::is_stable).collect()),
+        Column::of(&motion::UNSTABLE, points().map(|point| point.unstable).collect()),
     ]
 }
 
@@ -82,8 +77,8 @@ const NUMBERS: [Number; 11] = [
 ];
 
 fn numbers(rows: &Rows<'_>) -> Vec<Column> {
-    let values = |read: fn(&Sample) -> f64| Values::Number(rows.iter().map(|row| read(row.2)).collect());
-    NUMBERS.iter().map(|&(quantity, read)| Column::of(quantity, values(read))).collect()
+    let of = |&(quantity, read): &Number| Column::of(quantity, rows.iter().map(|row| read(row.2)).collect());
+    NUMBERS.iter().map(of).collect()
 }
 
 /// The samples of both sweeps: a row per value of the parameter and direction.
@@ -92,18 +87,16 @@ pub(crate) fn sweep_columns(plan: &BranchPlan, sweeps: &Sweeps) -> Vec<Column> {
         .into_iter()
         .flat_map(|(up, all)| all.iter().map(move |p| (up, p)))
         .collect();
-    let number = |read: &dyn Fn(&SweepPoint) -> Option<f64>| {
-        Values::Number(all.iter().map(|entry| read(entry.1).unwrap_or(f64::NAN)).collect())
-    };
-    let name = &plan.computation.along.name;
-    let speed = |place: usize| move |point: &SweepPoint| point.speed.map(|speed| speed[place]);
+    let points = || all.iter().map(|entry| entry.1);
+    let speed = |place: usize| points().map(|point| point.speed.map(|speed| speed[place])).collect();
+    let parameters = points().map(|point| point.parameter).collect();
     vec![
-        Column::of(&motion::UP, Values::Whole(all.iter().map(|entry| entry.0).collect())),
-        Column::new(name, "the parameter that is varied", number(&|point| Some(point.parameter))),
-        Column::of(&motion::SPEED, number(&speed(0))),
-        Column::of(&motion::SPEED_MIN, number(&speed(1))),
-        Column::of(&motion::SPEED_MAX, number(&speed(2))),
-        Column::of(&motion::TURNING_RATE, number(&|point| point.turning_rate)),
-        Column::of(&motion::SIZE, number(&|point| point.size)),
+        Column::of(&motion::UP, all.iter().map(|entry| entry.0).collect()),
+        Column::new(&plan.computation.along.name, "the parameter that is varied", parameters),
+        Column::of(&motion::SPEED, speed(0)),
+        Column::of(&motion::SPEED_MIN, speed(1)),
+        Column::of(&motion::SPEED_MAX, speed(2)),
+        Column::of(&motion::TURNING_RATE, points().map(|point| point.turning_rate).collect()),
+        Column::of(&motion::SIZE, points().map(|point| point.size).collect()),
     ]
 }

@@ -221,8 +221,7 @@ pub(super) fn target(plan: &CurvePlan, at: [f64; 2], period: Option<f64>) -> Tar
 
 fn sample(plane: &PlaneBodies<'_>, point: &CurvePoint) -> Result<CurveSample, Error> {
     let model = plane.model(point.parameters)?;
-    let mut state = vec![0.0; model.coordinates().len()];
-    model.decode(point.motion.shape(), &mut state);
+    let state = model.decoded(point.motion.shape());
     let oriented = |pair| PlaneBodies::oriented(plane.plan, pair);
     Ok(CurveSample {
         parameters: oriented(point.parameters),

@@ -2,8 +2,8 @@
 
 use super::family::PlaneBodies;
 use super::result::{CurveSample, Curves, FollowedCurve};
-use motiform_continuation::{Coefficient, Special};
-use motiform_store::columns::{Column, Values};
+use motiform_continuation::{Coefficient, Degenerate, Special};
+use motiform_store::columns::Column;
 use motiform_study::quantity::special;
 use motiform_study::{CurvePlan, Error, Quantity};
 
@@ -27,35 +27,25 @@ pub fn curve_columns(plan: &CurvePlan, found: &Curves) -> Result<Vec<Column>, Er
     let model = PlaneBodies::new(plan)?.model([plan.branches().start_value(), plan.fixed_value()])?;
     for (place, coordinate) in model.coordinates().iter().enumerate() {
         let values = rows.iter().map(|row| row.3.state[place]).collect();
-        all.push(Column::new(coordinate.name, coordinate.meaning, Values::Number(values)));
+        all.push(Column::new(coordinate.name, coordinate.meaning, values));
     }
     Ok(all)
 }
 
 fn places(plan: &CurvePlan, rows: &Rows<'_>) -> Vec<Column> {
-    let whole = |values: Vec<usize>| {
-        Values::Whole(values.into_iter().map(|value| i64::try_from(value).unwrap_or(i64::MAX)).collect())
-    };
-    let text = |read: &dyn Fn(&FollowedCurve, &CurveSample) -> &'static str| {
-        Values::Text(rows.iter().map(|row| read(row.2, row.3).to_owned()).collect())
-    };
+    let degenerate = rows.iter().map(|row| row.3.degenerate.map_or("", Degenerate::name)).collect();
     let mut all = vec![
-        Column::of(&special::CURVE, whole(rows.iter().map(|row| row.0).collect())),
-        Column::of(&special::POINT, whole(rows.iter().map(|row| row.1).collect())),
-        Column::of(&special::KIND, text(&|curve, _| curve.kind.name())),
-        Column::of(
-            &special::CODIMENSION_2,
-            text(&|_, sample| sample.degenerate.map_or("", |kind| kind.name())),
-        ),
+        Column::of(&special::CURVE, rows.iter().map(|row| row.0).collect()),
+        Column::of(&special::POINT, rows.iter().map(|row| row.1).collect()),
+        Column::of(&special::KIND, rows.iter().map(|row| row.2.kind.name()).collect()),
+        Column::of(&special::CODIMENSION_2, degenerate),
     ];
-    for (side, (along, meaning)) in
-        plan.computation.plane.iter().zip(["the parameter across", "the parameter upwards"]).enumerate()
-    {
+    let meanings = ["the parameter across", "the parameter upwards"];
+    for (side, (along, meaning)) in plan.computation.plane.iter().zip(meanings).enumerate() {
         let values = rows.iter().map(|row| row.3.parameters[side]).collect();
-        all.push(Column::new(&along.name, meaning, Values::Number(values)));
+        all.push(Column::new(&along.name, meaning, values));
     }
-    let unstable = rows.iter().map(|row| row.3.unstable).collect();
-    all.push(Column::of(&special::UNSTABLE, whole(unstable)));
+    all.push(Column::of(&special::UNSTABLE, rows.iter().map(|row| row.3.unstable).collect()));
     all
 }
 
@@ -85,6 +75,6 @@ fn first_lyapunov(sample: &CurveSample) -> Option<Coefficient> {
 }
 
 fn numbers(rows: &Rows<'_>) -> Vec<Column> {
-    let values = |read: fn(&CurveSample) -> f64| Values::Number(rows.iter().map(|row| read(row.3)).collect());
-    NUMBERS.iter().map(|&(quantity, read)| Column::of(quantity, values(read))).collect()
+    let of = |&(quantity, read): &Number| Column::of(quantity, rows.iter().map(|row| read(row.3)).collect());
+    NUMBERS.iter().map(of).collect()
 }

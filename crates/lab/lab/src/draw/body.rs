@@ -104,9 +104,7 @@ impl<'d> Body<'d> {
     /// The shape at a row.
     pub(super) fn shape(&self, row: usize) -> Vec<f64> {
         let named: Vec<f64> = self.model.coordinates().iter().map(|c| self.column(c.name)[row]).collect();
-        let mut shape = named.clone();
-        self.model.encode(&named, &mut shape);
-        shape
+        self.model.encoded(&named)
     }
 
     /// The outline at a row, in the plane, at `scale` times its size; `None` if the shape is not a curve.

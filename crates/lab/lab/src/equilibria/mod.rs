@@ -99,8 +99,7 @@ fn patience(starts: usize, dim: usize) -> usize {
 
 fn describe(model: &dyn Model, found: Found, starts: usize) -> Equilibrium {
     let Found { equilibrium: found, by, hits, family } = found;
-    let mut values = vec![0.0; model.coordinates().len()];
-    model.decode(&found.shape, &mut values);
+    let values = model.decoded(&found.shape);
     let names = model.coordinates().iter().map(|coordinate| coordinate.name.to_owned());
     let steady = SteadyMotion::of(model, &found);
     Equilibrium {

@@ -10,7 +10,7 @@ use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::Propagation;
 use motiform_dynamics::escape::norm;
 use motiform_dynamics::simd::has_lanes;
-use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly, VectorField, Watch};
+use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly, Watch};
 use motiform_kernels::{Kernel, Start, propagate_bodies};
 use motiform_study::{Error, ScanPlan};
 use serde::{Deserialize, Serialize};
@@ -211,8 +211,7 @@ impl<'p> Follower<'p> {
 
     /// The slowest rate (inverse model time) of the stable steady motion that a shape has come close to.
     fn captured(&self, model: &dyn Model, shape: &[f64]) -> Option<f64> {
-        let mut rate = vec![0.0; shape.len()];
-        VectorField::<f64>::eval(model, 0.0, shape, &mut rate);
+        let rate = model.rates(shape);
         let size = norm(shape).max(0.1 * self.size);
         if reduced_speed(model, shape, &rate) > SLOW * size {
             return None;

@@ -63,8 +63,7 @@ pub fn dataset(
 /// A state `(shape, x, y)` by its names.
 fn named(model: &dyn Model, state: &[f64]) -> Named {
     let (shape, position) = state.split_at(state.len() - 2);
-    let mut values = vec![0.0; shape.len()];
-    model.decode(shape, &mut values);
+    let mut values = model.decoded(shape);
     values.extend(position);
     let names = model.coordinates().iter().map(|coordinate| coordinate.name).chain(["x", "y"]);
     Named(names.map(str::to_owned).zip(values).collect())

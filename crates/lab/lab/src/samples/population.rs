@@ -34,8 +34,7 @@ impl<'c> Population<'c> {
         if sample > 0 {
             return Ok(self.samples.random.shape(self.plan.info()?, model, c.seed, sample as u64 + 1));
         }
-        let mut shape = vec![0.0; model.dim()];
-        model.encode(&c.initial.values()[..model.dim()], &mut shape);
+        let shape = model.encoded(&c.initial.values()[..model.dim()]);
         Ok(shape)
     }
 

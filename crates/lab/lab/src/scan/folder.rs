@@ -21,12 +21,7 @@ impl ScanFolder {
     /// # Errors
     /// [`Error::NoResult`] if it is missing or damaged.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        Ok(Self::of(path, ScanManifest::read(path)?))
-    }
-
-    /// A folder whose manifest was read.
-    pub(super) fn of(path: &Path, manifest: ScanManifest) -> Self {
-        Self { path: path.to_owned(), manifest }
+        Ok(Self { path: path.to_owned(), manifest: ScanManifest::read(path)? })
     }
 
     /// The path of the folder.

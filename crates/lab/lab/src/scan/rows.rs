@@ -124,27 +124,23 @@ impl Row {
 
 /// The columns of a part, in file order.
 pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
-    let whole = |of: fn(&Row) -> usize| -> Values {
-        Values::Whole(rows.iter().map(|row| i64::try_from(of(row)).unwrap_or(i64::MAX)).collect())
-    };
-    let text = |of: fn(&Row) -> &str| Values::Text(rows.iter().map(|row| of(row).to_owned()).collect());
     let mut columns = vec![
-        Column::of(&motion::CELL, whole(|row| row.cell)),
-        Column::of(&motion::SAMPLE, whole(|row| row.sample)),
+        Column::of(&motion::CELL, rows.iter().map(|row| row.cell).collect()),
+        Column::of(&motion::SAMPLE, rows.iter().map(|row| row.sample).collect()),
     ];
     for (place, axis) in plan.computation.axes.iter().enumerate() {
         let values = rows.iter().map(|row| plan.axis_values(row.cell)[place]).collect();
-        let meaning = "the parameter, or the coordinate of the start";
-        columns.push(Column::new(&axis.name, meaning, Values::Number(values)));
+        columns.push(Column::new(&axis.name, "the parameter, or the coordinate of the start", values));
     }
-    columns.push(Column::of(&motion::REGIME, text(|row| row.regime.name())));
-    columns.push(Column::of(&motion::ATTRACTOR, text(|row| row.attractor.name())));
-    columns.push(Column::of(&motion::COURSE, text(|row| row.course.map_or("", Course::name))));
+    columns.extend([
+        Column::of(&motion::REGIME, rows.iter().map(|row| row.regime.name()).collect()),
+        Column::of(&motion::ATTRACTOR, rows.iter().map(|row| row.attractor.name()).collect()),
+        Column::of(&motion::COURSE, rows.iter().map(|row| row.course.map_or("", Course::name)).collect()),
+    ]);
     for (place, quantity) in NUMBERS.into_iter().enumerate() {
-        let values = rows.iter().map(|row| row.numbers[place]).collect();
-        columns.push(Column::of(quantity, Values::Number(values)));
+        columns.push(Column::of(quantity, rows.iter().map(|row| row.numbers[place]).collect()));
     }
-    columns.push(Column::of(&motion::WHY, text(|row| &row.why)));
+    columns.push(Column::of(&motion::WHY, rows.iter().map(|row| row.why.clone()).collect()));
     columns
 }
 

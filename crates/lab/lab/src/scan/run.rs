@@ -6,10 +6,8 @@ use super::part::PartError;
 use super::work::{Ended, Store, compute};
 use super::{Row, ScanPlan, Shard};
 use motiform_dynamics::Watch;
-use motiform_store::{Error as StoreError, Inventory};
-use motiform_store::{Folder, Kind, Opening};
-use motiform_study::scan::ScanComputation;
-use motiform_study::{Error, Question as _};
+use motiform_store::{Error as StoreError, Folder, Opening};
+use motiform_study::Error;
 use std::path::Path;
 
 /// A scan that is being computed. While it lives, no other process computes in its folder.
@@ -32,12 +30,6 @@ impl Scan {
     /// [`Error::Store`] where it exists, is not ours, is used by others or cannot be written;
     /// [`Error::NoResult`], [`Error::OtherPlan`].
     pub fn open(path: &Path, plan: &ScanPlan, shard: Shard, opening: Opening) -> Result<Self, Error> {
-        if opening == Opening::Resume && path.exists() {
-            let manifest = plan.check_folder(path)?;
-            if Inventory::read(path)?.is_none() {
-                adopt(&ScanFolder::of(path, manifest))?;
-            }
-        }
         let (files, earlier) = plan.open(path, opening, None)?;
         let folder = ScanFolder::read(path)?;
         let (mut whole, mut damaged) = (vec![false; plan.parts()], Vec::new());
@@ -172,15 +164,4 @@ fn survey(folder: &ScanFolder, shard: Shard) -> Result<(Vec<bool>, Vec<String>),
         }
     }
     Ok((whole, damaged))
-}
-
-/// Gives a scan of an earlier version its inventory: its manifest gives the hash of its plan, and whole parts
-/// give their own digests.
-fn adopt(folder: &ScanFolder) -> Result<(), Error> {
-    let parts = folder.parts();
-    let whole = (0..folder.plan().parts()).filter(|&part| parts.check(part).is_ok());
-    let names: Vec<String> = std::iter::once(ScanComputation::MANIFEST.to_owned())
-        .chain(whole.map(|part| parts.name(part)))
-        .collect();
-    Ok(Folder::adopt(folder.path(), Kind::Scan, &names)?)
 }

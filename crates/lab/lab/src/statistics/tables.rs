@@ -1,8 +1,7 @@
 //! The statistics as tables.
 
 use motiform_statistics::{Autocorrelation, Histogram, Measured, PowerSpectrum, Statistics, furth};
-use motiform_store::Quantity;
-use motiform_store::columns::{Column, Values};
+use motiform_store::columns::Column;
 use motiform_store::quantity::statistic;
 
 /// A table and its name.
@@ -26,35 +25,20 @@ pub fn tables(found: &Statistics) -> Vec<Named> {
     ]
 }
 
-fn number(quantity: &Quantity, values: impl Iterator<Item = f64>) -> Column {
-    Column::of(quantity, Values::Number(values.collect()))
-}
-
-fn whole(quantity: &Quantity, values: impl Iterator<Item = usize>) -> Column {
-    let values = values.map(|value| i64::try_from(value).unwrap_or(i64::MAX));
-    Column::of(quantity, Values::Whole(values.collect()))
-}
-
-fn text(quantity: &Quantity, values: impl Iterator<Item = String>) -> Column {
-    Column::of(quantity, Values::Text(values.collect()))
-}
-
 fn msd(found: &Statistics) -> Vec<Column> {
     let points = found.displacement.points();
-    let exponent = |of: fn(&Measured) -> f64| {
-        points.iter().map(move |p| p.exponent.as_ref().map_or(f64::NAN, of)).collect::<Vec<_>>().into_iter()
-    };
+    let exponent = |of: fn(&Measured) -> f64| points.iter().map(move |p| p.exponent.as_ref().map(of));
     let fit = points.iter().map(|p| found.walk.curve.map_or(f64::NAN, |[s, time]| furth(s, time, p.lag)));
     vec![
-        number(&statistic::LAG, points.iter().map(|p| p.lag)),
-        number(&statistic::MSD, points.iter().map(|p| p.value.value)),
-        number(&statistic::LOWER, points.iter().map(|p| p.value.lower())),
-        number(&statistic::UPPER, points.iter().map(|p| p.value.upper())),
-        number(&statistic::EXPONENT, exponent(|m| m.value)),
-        number(&statistic::EXPONENT_LOWER, exponent(Measured::lower)),
-        number(&statistic::EXPONENT_UPPER, exponent(Measured::upper)),
-        number(&statistic::FIT, fit),
-        number(&statistic::WINDOWS, points.iter().map(|p| p.windows)),
+        Column::of(&statistic::LAG, points.iter().map(|p| p.lag).collect()),
+        Column::of(&statistic::MSD, points.iter().map(|p| p.value.value).collect()),
+        Column::of(&statistic::LOWER, points.iter().map(|p| p.value.lower()).collect()),
+        Column::of(&statistic::UPPER, points.iter().map(|p| p.value.upper()).collect()),
+        Column::of(&statistic::EXPONENT, exponent(|m| m.value).collect()),
+        Column::of(&statistic::EXPONENT_LOWER, exponent(Measured::lower).collect()),
+        Column::of(&statistic::EXPONENT_UPPER, exponent(Measured::upper).collect()),
+        Column::of(&statistic::FIT, fit.collect()),
+        Column::of(&statistic::WINDOWS, points.iter().map(|p| p.windows).collect()),
     ]
 }
 
@@ -62,11 +46,11 @@ fn autocorrelations(all: &[Autocorrelation]) -> Vec<Column> {
     let rows = || all.iter().flat_map(|found| (0..found.lags.len()).map(move |place| (found, place)));
     let rho = |of: fn(&Measured) -> f64| rows().map(move |(found, place)| of(&found.correlation[place]));
     vec![
-        text(&statistic::QUANTITY, rows().map(|row| row.0.quantity.name().to_owned())),
-        number(&statistic::LAG, rows().map(|(found, place)| found.lags[place])),
-        number(&statistic::CORRELATION, rho(|m| m.value)),
-        number(&statistic::LOWER, rho(Measured::lower)),
-        number(&statistic::UPPER, rho(Measured::upper)),
+        Column::of(&statistic::QUANTITY, rows().map(|row| row.0.quantity.name().to_owned()).collect()),
+        Column::of(&statistic::LAG, rows().map(|(found, place)| found.lags[place]).collect()),
+        Column::of(&statistic::CORRELATION, rho(|m| m.value).collect()),
+        Column::of(&statistic::LOWER, rho(Measured::lower).collect()),
+        Column::of(&statistic::UPPER, rho(Measured::upper).collect()),
     ]
 }
 
@@ -82,14 +66,14 @@ fn distributions(found: &Statistics) -> Vec<Column> {
         all.iter().flat_map(|(name, lag, histogram)| histogram.bins.iter().map(move |bin| (*name, *lag, bin)))
     };
     vec![
-        text(&statistic::QUANTITY, rows().map(|row| row.0.to_owned())),
-        number(&statistic::LAG, rows().map(|row| row.1)),
-        number(&statistic::FROM, rows().map(|row| row.2.from)),
-        number(&statistic::TO, rows().map(|row| row.2.to)),
-        whole(&statistic::COUNT, rows().map(|row| row.2.count)),
-        number(&statistic::DENSITY, rows().map(|row| row.2.density)),
-        number(&statistic::LOWER, rows().map(|row| row.2.lower)),
-        number(&statistic::UPPER, rows().map(|row| row.2.upper)),
+        Column::of(&statistic::QUANTITY, rows().map(|row| row.0).collect()),
+        Column::of(&statistic::LAG, rows().map(|row| row.1).collect()),
+        Column::of(&statistic::FROM, rows().map(|row| row.2.from).collect()),
+        Column::of(&statistic::TO, rows().map(|row| row.2.to).collect()),
+        Column::of(&statistic::COUNT, rows().map(|row| row.2.count).collect()),
+        Column::of(&statistic::DENSITY, rows().map(|row| row.2.density).collect()),
+        Column::of(&statistic::LOWER, rows().map(|row| row.2.lower).collect()),
+        Column::of(&statistic::UPPER, rows().map(|row| row.2.upper).collect()),
     ]
 }
 
@@ -99,30 +83,25 @@ fn spectra(all: &[PowerSpectrum]) -> Vec<Column> {
         rows().map(move |(found, place)| factor(found) * found.power[place])
     };
     vec![
-        text(&statistic::QUANTITY, rows().map(|row| row.0.quantity.name().to_owned())),
-        number(&statistic::FREQUENCY, rows().map(|(found, place)| found.frequencies[place])),
-        number(&statistic::POWER, power(|_| 1.0)),
-        number(&statistic::LOWER, power(|found| found.band[0])),
-        number(&statistic::UPPER, power(|found| found.band[1])),
+        Column::of(&statistic::QUANTITY, rows().map(|row| row.0.quantity.name().to_owned()).collect()),
+        Column::of(&statistic::FREQUENCY, rows().map(|(found, place)| found.frequencies[place]).collect()),
+        Column::of(&statistic::POWER, power(|_| 1.0).collect()),
+        Column::of(&statistic::LOWER, power(|found| found.band[0]).collect()),
+        Column::of(&statistic::UPPER, power(|found| found.band[1]).collect()),
     ]
 }
 
 fn passages(found: &Statistics) -> Vec<Column> {
     let all = &found.passages;
-    let mean = |of: fn(&Measured) -> f64| {
-        all.iter()
-            .map(move |p| p.time.mean.known().as_ref().map_or(f64::NAN, of))
-            .collect::<Vec<_>>()
-            .into_iter()
-    };
+    let mean = |of: fn(&Measured) -> f64| all.iter().map(move |p| p.time.mean.known().as_ref().map(of));
     vec![
-        number(&statistic::RADIUS, all.iter().map(|p| p.radius)),
-        number(&statistic::MEAN, mean(|m| m.value)),
-        number(&statistic::LOWER, mean(Measured::lower)),
-        number(&statistic::UPPER, mean(Measured::upper)),
-        number(&statistic::RESTRICTED, all.iter().map(|p| p.time.restricted.value)),
-        number(&statistic::LIMIT, all.iter().map(|p| p.time.limit)),
-        number(&statistic::CENSORED, all.iter().map(|p| p.time.censored)),
-        whole(&statistic::STARTS, all.iter().map(|p| p.time.count)),
+        Column::of(&statistic::RADIUS, all.iter().map(|p| p.radius).collect()),
+        Column::of(&statistic::MEAN, mean(|m| m.value).collect()),
+        Column::of(&statistic::LOWER, mean(Measured::lower).collect()),
+        Column::of(&statistic::UPPER, mean(Measured::upper).collect()),
+        Column::of(&statistic::RESTRICTED, all.iter().map(|p| p.time.restricted.value).collect()),
+        Column::of(&statistic::LIMIT, all.iter().map(|p| p.time.limit).collect()),
+        Column::of(&statistic::CENSORED, all.iter().map(|p| p.time.censored).collect()),
+        Column::of(&statistic::STARTS, all.iter().map(|p| p.time.count).collect()),
     ]
 }

@@ -207,17 +207,6 @@ fn only_datasets_are_replaced() {
     assert_eq!(listing(place.path()), [ours, theirs]);
 }
 
-/// A dataset of an earlier version has no inventory: it is read.
-#[test]
-fn datasets_of_earlier_versions_are_read() {
-    let place = TempDir::new().unwrap();
-    let folder = place.path().join("run");
-    write(&SHORT, Format::Csv, &folder);
-    fs::remove_file(folder.join("_inventory.jsonl")).unwrap();
-    assert_eq!(read_dataset(&folder).unwrap().trajectory.rows(), SHORT.trajectory.rows());
-    assert_eq!(motiform_store::kind_of(&folder), Some(Kind::Dataset));
-}
-
 /// Each count of a Parquet file changed alone: its columns then differ in length from each other or from the footer.
 #[test]
 fn a_changed_count_is_no_other_table() {

@@ -6,8 +6,8 @@ use crate::replace::{replaced, retires};
 use crate::staged::{is_empty, owned};
 use crate::survey::{Survey, kept, remove_partials};
 use crate::target::Target;
-use crate::{Error, INVENTORY, Inventory, Kind, Staged, disk, lock, mend};
-use std::fs::{self, File};
+use crate::{Error, INVENTORY, Inventory, Kind, Staged, lock, mend};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -96,24 +96,6 @@ impl Folder {
         }
         let lock = File::open(&target.path).map_err(Error::unwritable(shown))?;
         Ok(Self::with(shown, target.path, lock, Inventory::default(), None))
-    }
-
-    /// Gives a folder of an earlier version its inventory: it lists `names`, which the caller knows to be ours and unchanged.
-    ///
-    /// # Errors
-    /// [`Error::Unwritable`].
-    pub fn adopt(shown: &Path, kind: Kind, names: &[String]) -> Result<(), Error> {
-        let unwritable = Error::unwritable(shown);
-        let mut inventory = Inventory::new(kind);
-        for name in names {
-            let digest = crate::sha256_file(&shown.join(name)).map_err(&unwritable)?;
-            inventory.list(name, &digest);
-        }
-        let new = shown.join(format!("{}0.partial", start()));
-        disk::write(&new, inventory.text().as_bytes()).map_err(&unwritable)?;
-        disk::rename_new(&new, &shown.join(INVENTORY))
-            .inspect_err(|_| drop(fs::remove_file(&new)))
-            .map_err(unwritable)
     }
 
     fn begin(shown: &Path, path: PathBuf, lock: File, notes: Vec<String>) -> Result<Self, Error> {

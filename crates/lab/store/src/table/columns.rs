@@ -32,6 +32,27 @@ pub enum Values {
     Text(Vec<String>),
 }
 
+/// Values are collected from what rows hold.
+macro_rules! collected {
+    ($($entry:ty => $Kind:ident, $value:expr;)*) => {$(
+        impl FromIterator<$entry> for Values {
+            fn from_iter<I: IntoIterator<Item = $entry>>(entries: I) -> Self {
+                Self::$Kind(entries.into_iter().map($value).collect())
+            }
+        }
+    )*};
+}
+
+collected! {
+    f64 => Number, |number| number;
+    Option<f64> => Number, |number| number.unwrap_or(f64::NAN);
+    i64 => Whole, |number| number;
+    usize => Whole, |number| i64::try_from(number).unwrap_or(i64::MAX);
+    bool => Whole, i64::from;
+    String => Text, |text| text;
+    &'static str => Text, str::to_owned;
+}
+
 /// The values of a column, borrowed.
 #[derive(Clone, Copy, Debug)]
 pub enum View<'c> {

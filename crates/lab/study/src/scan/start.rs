@@ -37,8 +37,7 @@ impl ScanPlan {
         for (name, value) in given.iter().chain(&on_axes) {
             coordinates[self.info()?.coordinate(&parameters, name)?] = *value;
         }
-        let mut shape = vec![0.0; model.dim()];
-        model.encode(&coordinates, &mut shape);
+        let shape = model.encoded(&coordinates);
         check_closed(model, &shape)?;
         Ok(shape)
     }

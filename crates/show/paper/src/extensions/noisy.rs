@@ -3,9 +3,9 @@
 use super::with;
 use crate::claims::check;
 use crate::context::Context;
+use motiform_analysis::symmetry::wrap;
 use motiform_figures::report::Claim;
 use motiform_study::Error;
-use std::f64::consts::PI;
 
 /// Amplitude of the noise: small, so that the speed hardly changes.
 const NOISE: f64 = 0.05;
@@ -23,7 +23,7 @@ pub(super) fn claims(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
     let headings: Vec<f64> =
         column("v1").iter().zip(column("v2")).map(|(x, y)| libm::atan2(*y, *x)).collect();
     let squares: Vec<f64> =
-        headings.windows(2).map(|pair| wrapped(pair[1] - pair[0])).map(|turn| turn * turn).collect();
+        headings.windows(2).map(|pair| wrap(pair[1] - pair[0])).map(|turn| turn * turn).collect();
     let count = squares.len() as f64;
     let mean = squares.iter().sum::<f64>() / count;
     // increments of a Brownian motion are independent: the variance of a variance
@@ -37,9 +37,4 @@ pub(super) fn claims(context: &Context<'_>) -> Result<Vec<Claim>, Error> {
     let how = "*η* = 0.05, *γ* = 1, one long run; within 3 standard errors and *η*^2/*γ* of the value";
     let close = (mean - expected).abs() < 3.0 * error + expected * expected;
     Ok(vec![check(says, finds, how, close && count > 1000.0)])
-}
-
-/// An angle in -pi to pi.
-fn wrapped(angle: f64) -> f64 {
-    angle - 2.0 * PI * libm::round(angle / (2.0 * PI))
 }

@@ -2,10 +2,11 @@
 
 use super::{Claim, Context, claim};
 use motiform_analysis::regime::{Attractor, Regime};
+use motiform_analysis::symmetry::wrap;
 use motiform_models::tensor::reduced::Reduced;
 use motiform_study::titles::number;
 use motiform_study::{Dataset, Error};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// States are compared with formulas to this.
 const CLOSE: f64 = 1e-6;
@@ -43,8 +44,7 @@ fn end(context: &Context<'_>, kappa2: f64, gamma: f64) -> Result<Polar, Error> {
 fn polar(dataset: &Dataset) -> Polar {
     let of = |name: &str| dataset.manifest.state.get(name).unwrap_or(f64::NAN);
     let (v1, v2, s11, s12) = (of("v1"), of("v2"), of("s11"), of("s12"));
-    let psi = libm::atan2(-s12, s11) - 2.0 * libm::atan2(-v2, v1);
-    let psi = psi - TAU * (psi / TAU).round();
+    let psi = wrap(libm::atan2(-s12, s11) - 2.0 * libm::atan2(-v2, v1));
     Polar { r1: libm::hypot(v1, v2), r2: 0.5 * libm::hypot(s11, s12), psi }
 }
 

@@ -29,8 +29,7 @@ pub(super) fn follow(context: &Context<'_>, start: &Study) -> Result<Approach, E
     let plan = RunPlan::new(&study)?;
     let c = &plan.computation;
     let model = plan.body()?;
-    let mut shape = vec![0.0; model.dim()];
-    model.encode(&c.initial.values()[..model.dim()], &mut shape);
+    let shape = model.encoded(&c.initial.values()[..model.dim()]);
     let mut orbit = plan.method()?.shape_orbit(model.as_ref(), c.control.into(), 0.0, &shape)?;
     let watch = &context.quiet();
     let request = Request { escape_norm: bound, watch, ..Request::until(c.t_end, shape.len()) };

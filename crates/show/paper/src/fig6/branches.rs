@@ -30,8 +30,7 @@ impl Branch {
         (study.run.t_end, study.run.dt_out) = (1.0, 1.0);
         let last = context.simulate(&study)?.manifest.state.values();
         let cell = cell(length, modes)?;
-        let mut guess = vec![0.0; last.len()];
-        cell.encode(&last, &mut guess);
+        let guess = cell.encoded(&last);
         let shape = RelativeEquilibrium::find(cell.as_ref(), &guess).ok_or_else(|| Error::Setting {
             key: "length",
             value: length.to_string(),

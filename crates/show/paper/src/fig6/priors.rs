@@ -199,9 +199,7 @@ pub(super) fn shapes_of(dataset: &Dataset) -> Result<Shapes, Error> {
         model.coordinates().iter().filter_map(|one| dataset.trajectory.get(one.name)).collect();
     let shape = |row: usize| {
         let state: Vec<f64> = columns.iter().map(|column| column[row]).collect();
-        let mut shape = vec![0.0; model.dim()];
-        model.encode(&state, &mut shape);
-        shape
+        model.encoded(&state)
     };
     let shapes = (0..dataset.trajectory.rows()).map(shape).collect();
     Ok(Shapes { length, shapes })

@@ -2,51 +2,26 @@
 
 use super::Reduced;
 
-/// A line of Fig. 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Line {
-    /// `gamma = 0`, `kappa2 > 0`: the circle starts to move. The paper's solid line.
-    CircleToStraight,
-    /// `gamma = -2 a1 r2`, `kappa2 = -8 b3 r2^2`: the ellipse starts to move. The paper's solid line.
-    EllipseToStraight,
-    /// `kappa2 = 0`, `gamma < 0`: the circle becomes an ellipse; both are motionless.
-    CircleToEllipse,
-    /// `gamma = (16 a1/b1) s^2 + 2 a1 s`, `kappa2 = 4 a1 s - 8 b3 s^2`, `s > 0`: the path bends. The paper's broken line.
-    StraightToCircular,
-    /// `kappa2 = -(8 b3 s^3 + 12 b3 B s^2)/(s + B/2)`, `gamma = 2 a1 s - kappa2/2 - 12 b3 s^2`, `-B/2 < s < 0`, `B = b1/4`:
-    /// Hopf bifurcation of straight motion; its kind is [`Reduced::straight_hopf_criticality`]. The paper's dotted line.
-    StraightHopf,
-    /// Hopf bifurcation of circular motion (of the circle's radius and the ellipse): `c2 c1 = c0` (Routh and Hurwitz). For
-    /// the paper's couplings exactly `gamma = -(2/5) kappa2`.
-    CircularToQuasiPeriodic,
-    /// `gamma = 0`, `kappa2 < 0`: `lambda_+ + lambda_- = 0`, the cycle between ellipses starts to repel.
-    QuasiPeriodicToRectangular,
-}
-
-impl Line {
-    /// All lines.
-    pub const ALL: [Self; 7] = [
-        Self::CircleToStraight,
-        Self::EllipseToStraight,
-        Self::CircleToEllipse,
-        Self::StraightToCircular,
-        Self::StraightHopf,
-        Self::CircularToQuasiPeriodic,
-        Self::QuasiPeriodicToRectangular,
-    ];
-
-    /// Description of the transition.
-    #[must_use]
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::CircleToStraight => "circle at rest to straight",
-            Self::EllipseToStraight => "ellipse at rest to straight",
-            Self::CircleToEllipse => "circle to ellipse, both at rest",
-            Self::StraightToCircular => "straight to circular",
-            Self::StraightHopf => "straight motion loses its stability (Hopf)",
-            Self::CircularToQuasiPeriodic => "circular to quasi-periodic",
-            Self::QuasiPeriodicToRectangular => "quasi-periodic to rectangular",
-        }
+motiform_dynamics::named! {
+    /// A line of Fig. 1.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Line by title {
+        /// `gamma = 0`, `kappa2 > 0`: the circle starts to move. The paper's solid line.
+        CircleToStraight = "circle at rest to straight",
+        /// `gamma = -2 a1 r2`, `kappa2 = -8 b3 r2^2`: the ellipse starts to move. The paper's solid line.
+        EllipseToStraight = "ellipse at rest to straight",
+        /// `kappa2 = 0`, `gamma < 0`: the circle becomes an ellipse; both are motionless.
+        CircleToEllipse = "circle to ellipse, both at rest",
+        /// `gamma = (16 a1/b1) s^2 + 2 a1 s`, `kappa2 = 4 a1 s - 8 b3 s^2`, `s > 0`: the path bends. The paper's broken line.
+        StraightToCircular = "straight to circular",
+        /// `kappa2 = -(8 b3 s^3 + 12 b3 B s^2)/(s + B/2)`, `gamma = 2 a1 s - kappa2/2 - 12 b3 s^2`, `-B/2 < s < 0`, `B = b1/4`:
+        /// Hopf bifurcation of straight motion; its kind is [`Reduced::straight_hopf_criticality`]. The paper's dotted line.
+        StraightHopf = "straight motion loses its stability (Hopf)",
+        /// Hopf bifurcation of circular motion (of the circle's radius and the ellipse): `c2 c1 = c0` (Routh and Hurwitz). For
+        /// the paper's couplings exactly `gamma = -(2/5) kappa2`.
+        CircularToQuasiPeriodic = "circular to quasi-periodic",
+        /// `gamma = 0`, `kappa2 < 0`: `lambda_+ + lambda_- = 0`, the cycle between ellipses starts to repel.
+        QuasiPeriodicToRectangular = "quasi-periodic to rectangular",
     }
 }
 

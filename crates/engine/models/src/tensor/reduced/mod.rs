@@ -40,32 +40,20 @@ pub struct Reduced {
     pub b3: f64,
 }
 
-/// A motion of the reduced model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
-    /// A circle or an ellipse at rest.
-    Motionless,
-    /// `sin psi = 0`: the ellipse lies along or across the path.
-    Straight,
-    /// `sin psi != 0`, constant.
-    Circular,
-    /// The shape repeats, turned.
-    QuasiPeriodic,
-    /// A heteroclinic cycle between motionless ellipses.
-    Rectangular,
-}
-
-impl Motion {
-    /// Its name, that of the regime.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Motionless => "motionless",
-            Self::Straight => "straight",
-            Self::Circular => "circular",
-            Self::QuasiPeriodic => "quasi-periodic",
-            Self::Rectangular => "rectangular",
-        }
+motiform_dynamics::named! {
+    /// A motion of the reduced model.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Motion by name {
+        /// A circle or an ellipse at rest.
+        Motionless = "motionless",
+        /// `sin psi = 0`: the ellipse lies along or across the path.
+        Straight = "straight",
+        /// `sin psi != 0`, constant.
+        Circular = "circular",
+        /// The shape repeats, turned.
+        QuasiPeriodic = "quasi-periodic",
+        /// A heteroclinic cycle between motionless ellipses.
+        Rectangular = "rectangular",
     }
 }
 

@@ -1,4 +1,4 @@
-//! Scans that are damaged, missing, of another plan or of an earlier version.
+//! Scans that are damaged, missing or of another plan.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
@@ -57,23 +57,6 @@ fn damaged_parts_are_computed_again() {
     assert_eq!(std::fs::read(&aside).unwrap(), b"PAR1");
     assert!(scan.notes().iter().any(|note| note.contains("_damaged-part-00003.parquet")));
     std::fs::remove_file(aside).unwrap();
-    assert!(contents(&at("scan")) == whole);
-}
-
-/// A scan of an earlier version has no inventory; what its plan and the digests of its parts prove is continued.
-#[test]
-fn scans_of_earlier_versions_go_on() {
-    let ((_keep, at), plan) = (folder(), plan());
-    compute(&at("scan"), &plan, "1/1", 2);
-    let whole = contents(&at("scan"));
-    let parts = ScanFolder::read(&at("scan")).unwrap().parts();
-    std::fs::remove_file(parts.path(3)).unwrap();
-    std::fs::remove_file(at("scan").join("_inventory.jsonl")).unwrap();
-    let replaced = open(&at("scan"), &plan, "1/1", Opening::Replace);
-    assert!(matches!(replaced, Err(Error::Store(StoreError::NotOurs { .. }))));
-    let scan = open(&at("scan"), &plan, "1/1", Opening::Resume).unwrap();
-    assert_eq!(scan.cells_left(), plan.cells_of(3).len());
-    scan.run(&Toy, 2, &()).unwrap();
     assert!(contents(&at("scan")) == whole);
 }
 
