@@ -1,12 +1,15 @@
 //! The fit of one cell, with everything that follows from it.
 
 use crate::fitted::{Members, fitted};
+use crate::one_law::{doubted, no_law};
 use crate::stages::Stages;
 use crate::{
     CellTrack, Companions, Error, Fitted, NearBifurcation, Prediction, Result, near_bifurcations, predict,
 };
 use motiform_dynamics::{StopOnly, Watch};
-use motiform_inference::{LEAST_FRAMES, Library, Settings, Track, Warning, between_cells, with_stage};
+use motiform_inference::{
+    LEAST_FRAMES, Library, Settings, Track, Warning, between_cells, senses, with_stage,
+};
 use motiform_lab::pool;
 use serde::{Deserialize, Serialize};
 
@@ -221,9 +224,9 @@ pub(crate) fn fit_in_stages(
     if let Some((cell, reason)) = cells.iter().find_map(|cell| Some((cell, cell.modes.inconsistent()?))) {
         return Ok(refused(TOGETHER, 0, format!("cell {}: {reason}", cell.name)));
     }
-    let long = cells.iter().filter(|cell| cell.frames() >= LEAST_FRAMES);
-    let tracks: Vec<Track> =
-        long.map(|cell| cell.path()).filter(|path| path.0.len() >= LEAST_FRAMES).collect();
+    let paths = cells.iter().map(|cell| (cell.name.as_str(), cell.path()));
+    let (names, tracks): (Vec<&str>, Vec<Track>) =
+        paths.filter(|(_, path)| path.0.len() >= LEAST_FRAMES).unzip();
     let frames = tracks.iter().map(|track| track.0.len()).sum();
     if tracks.len() < 2 {
         let why = format!("{} cells have {LEAST_FRAMES} frames or more; give two at least", tracks.len());
@@ -249,3 +252,12 @@ pub(crate) fn fit_in_stages(
         bifurcations: Vec::new(),
     })
 }
+    let model = &fitted.selection.fit;
+    let found = stages.get("senses", watch, |watch| Ok(senses(&tracks, model, watch)?))?;
+    let joint = fitted.handedness.symmetry;
+    if let Some(why) = no_law(&found, &names, joint) {
+        return Ok(refused(TOGETHER, frames, why));
+    }
+    if let Some(doubt) = doubted(&found, joint) {
+        fitted.doubt(&doubt);
+    }
