@@ -58,7 +58,7 @@ pub(crate) fn fitted(
         false => Ok(None),
     };
     let (beside_stage, beside_stretch) = (beside(Beside::Stage)?, beside(Beside::Stretch)?);
-    let mut doubts = doubts(tracks, &warnings, &handedness, [beside_stage, beside_stretch]);
+    let mut doubts = doubts(&warnings, &handedness, [beside_stage, beside_stretch]);
     let mut regime = stages.get("regime", watch, |watch| {
         if !known.identifiable || !doubts.is_empty() {
             return Ok(None);
