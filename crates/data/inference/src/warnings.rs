@@ -86,6 +86,12 @@ pub enum Warning {
         velocity: Option<[[f64; 2]; 2]>,
         /// Its significance.
         p_value: f64,
+        /// The unit of the velocity; empty where the caller did not say it.
+        #[serde(default)]
+        unit: String,
+        /// The remedy, as a clause.
+        #[serde(default)]
+        remedy: String,
     },
     /// Robust standard errors are much larger than expected ones.
     ErrorsDiffer {
@@ -143,14 +149,15 @@ impl std::fmt::Display for Warning {
                 100.0 * share,
                 PValue(*p_value)
             ),
-            Self::Carried { velocity, p_value } => {
+            Self::Carried { velocity, p_value, unit, remedy } => {
+                let unit = if unit.is_empty() { "in the units of the record" } else { unit };
                 let size = velocity.map_or_else(String::new, |[[x, y], [dx, dy]]| {
-                    format!(" of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}), in the units of the record,")
+                    format!(" of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) {unit}")
                 });
                 write!(
                     f,
                     "a velocity{size} does not turn with the cell ({}): the stage drifts, a flow carries it, or it is held \
-                    near a place; the correction 'drift' subtracts a drift",
+                    near a place; {remedy}",
                     PValue(*p_value)
                 )
             }
@@ -240,7 +247,12 @@ fn carried(tracks: &[Track], fit: &Fit) -> Result<Option<Warning>> {
     };
     let warning = |StageVelocity { velocity, errors, p_value }: StageVelocity| {
         let is_small = libm::hypot(velocity[0], velocity[1]) <= fit.scales.amplitudes[0];
-        Warning::Carried { velocity: is_small.then_some([velocity, errors]), p_value }
+        Warning::Carried {
+            velocity: is_small.then_some([velocity, errors]),
+            p_value,
+            unit: String::new(),
+            remedy: "the correction 'drift' subtracts a drift".to_owned(),
+        }
     };
     Ok(clearest.filter(is_clear).map(warning))
 }
