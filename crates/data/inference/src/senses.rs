@@ -44,8 +44,8 @@ impl Senses {
     }
 }
 
-/// Tests each cell of a joint fit with real coefficients by itself, with the terms of that fit and real parts of its own, as a single cell is
-/// tested, at [`HANDED_RATE`] over the number of cells.
+/// Tests each cell of a joint fit with real coefficients by itself, with the terms of that fit and real parts of its own, as a single cell
+/// is tested, at [`HANDED_RATE`] over the number of cells.
 ///
 /// # Errors    of the input, as [`handedness()`]; [`crate::Error::Interrupted`]
 /// # Checked by  `tests/all/together.rs`: cells and their mirror images, and mirror-symmetric ones

@@ -23,8 +23,8 @@ pub(crate) fn no_law(found: &Senses, names: &[&str], joint: Symmetry) -> Option<
     }
     (joint != Symmetry::Handed).then(|| {
         format!(
-            "cells do not follow one law: real coefficients are rejected in {one}, each by itself ({p} or below, number of cells counted), and \
-             not in all together; fit the cells one by one (without --together), or those of one sense together (--cell)"
+            "cells do not follow one law: real coefficients are rejected in {one}, each by itself ({p} or below, number of cells counted), \
+             and not in all together; fit the cells one by one (without --together), or those of one sense together (--cell)"
         )
     })
 }

@@ -93,8 +93,8 @@ fn turning_bodies_have_none() {
     assert!(found.is_possible(1) && !found.is_clear(1), "{found:?}");
 }
 
-/// Circling cells of one sense in square images: p values are not smaller than by chance, and none of 400 has a stretch. One of this many
-/// is below 2.5e-3 on average, so that 1e-3 would take names of a thousand cells. Both sides of the threshold: 1e-4 times the number of cells.
+/// Circling cells in square images: p values are not smaller than by chance, and none of 400 has a stretch. Both sides of the threshold,
+/// 1e-4 over the number of cells.
 #[test]
 fn circles_in_square_images_have_none() {
     let p: Vec<Stretch> = (0..400)

@@ -184,7 +184,7 @@ fn cells_of_a_mirror_symmetric_law_are_not_handed_by_themselves() {
             let cell = |k: u64| {
                 let experiment = Experiment::new(full(0.5, kappa3), noise, 300 + 10 * seed + k);
                 let track = Experiment { frames: 200, ..experiment }.track();
-                if k % 2 == 0 { track } else { mirrored(&track) }
+                if k.is_multiple_of(2) { track } else { mirrored(&track) }
             };
             let (found, _) = sides(&[cell(0), cell(1), cell(2), cell(3)], &FULL);
             assert!(found.handed.is_empty(), "{found:?}");

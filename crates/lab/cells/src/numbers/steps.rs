@@ -31,7 +31,8 @@ pub struct Steps {
     pub net: f64,
     /// Net displacement over path, between 0 and 1; it falls with the length of the record. `None` where nothing moved.
     pub directionality: Option<f64>,
-    /// Mean cosine of the angle between displacements in a row, each over one sampling interval: 1 straight on, 0 no memory, below 0 back (errors of the places do that).
+    /// Mean cosine of the angle between displacements in a row, each over one sampling interval: 1 straight on, 0 no memory,
+    /// below 0 back (errors of the places do that).
     pub turning_cosine: Option<Measured>,
     /// Mean turning rate of the displacements (rad per time), anticlockwise in the coordinates of the data: each angle over its own time.
     /// Of all steps up to one and a half sampling intervals.

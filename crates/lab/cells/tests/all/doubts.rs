@@ -258,7 +258,7 @@ fn cells_of_both_senses_have_no_law_together() {
     assert_eq!(fitted.handedness.symmetry, Symmetry::Handed);
 }
 
-/// A stage that drifts by much of the speed: the correction leaves nothing of it, of handed cells and others, and the cell keeps its symmetry.
+/// A stage that drifts by much of the speed: the correction leaves nothing of it, of handed cells and others, which keep their symmetry.
 /// Of one that turns back in the middle no velocity is subtracted that explains it, and the warning says that the correction was given.
 #[test]
 fn a_drift_is_subtracted_until_none_is_seen() {
