@@ -27,6 +27,7 @@ mod observation;
 mod p_value;
 mod place;
 mod scales;
+mod senses;
 mod stage;
 mod subsets;
 mod walk;
@@ -53,6 +54,7 @@ pub use observation::{LEAST_FRAMES, Observation, Track};
 pub use p_value::PValue;
 pub use place::{Coordinate, Place, Placement, Plane, coordinates, place, place_among};
 pub use scales::Scales;
+pub use senses::{HandedCell, Senses, senses};
 pub use stage::{Beside, StageVelocity, WithStage, handed_beside, stage_velocities, with_stage};
 pub use subsets::{
     Averaged, Selection, Subset, Subsets, TIE, averaged, refit_tied, refit_with, select, subsets,

@@ -31,6 +31,12 @@ const CARRIED: f64 = 1e-3;
 /// Its least size, as a part of the root mean square of the speed: a record without noise shows the errors of
 /// the filter (zigzag of Fig. 5(a): 3e-4).
 const LEAST_CARRIED: f64 = 0.005;
+/// Noises of a fit.
+const NOISES: [&str; 3] = [
+    "s (the factor of the stated errors of the outlines)",
+    "eta_v (noise of the velocity)",
+    "eta_shape (noise of the shape)",
+];
 /// Frames whose rates are computed.
 const RATES: usize = 60;
 
@@ -48,7 +54,7 @@ pub enum Warning {
         /// Their names.
         names: Vec<String>,
     },
-    /// Process or measurement noise at a bound of the search.
+    /// Process or measurement noise at the upper bound of the search. At the lower one there is none to be seen, which is no fault.
     NoiseAtBound {
         /// The names of the noises.
         names: Vec<String>,
@@ -80,6 +86,12 @@ pub enum Warning {
         velocity: Option<[[f64; 2]; 2]>,
         /// Its significance.
         p_value: f64,
+        /// The unit of the velocity; empty where the caller did not say it.
+        #[serde(default)]
+        unit: String,
+        /// The remedy, as a clause.
+        #[serde(default)]
+        remedy: String,
     },
     /// Robust standard errors are much larger than expected ones.
     ErrorsDiffer {
@@ -112,7 +124,11 @@ impl std::fmt::Display for Warning {
                 )
             }
             Self::Unbounded { names } => write!(f, "the data do not bound {}", names.join(", ")),
-            Self::NoiseAtBound { names } => write!(f, "at a bound of the search: {}", names.join(", ")),
+            Self::NoiseAtBound { names } => write!(
+                f,
+                "at the upper bound of the search: {}; the equations describe little of the record, or the stated errors are far too small",
+                names.join(", ")
+            ),
             Self::Coloured { channels } => {
                 let names: Vec<&str> = channels.iter().map(|channel| channel.name.as_str()).collect();
                 write!(
@@ -133,14 +149,15 @@ impl std::fmt::Display for Warning {
                 100.0 * share,
                 PValue(*p_value)
             ),
-            Self::Carried { velocity, p_value } => {
+            Self::Carried { velocity, p_value, unit, remedy } => {
+                let unit = if unit.is_empty() { "in the units of the record" } else { unit };
                 let size = velocity.map_or_else(String::new, |[[x, y], [dx, dy]]| {
-                    format!(" of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}), in the units of the record,")
+                    format!(" of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) {unit}")
                 });
                 write!(
                     f,
                     "a velocity{size} does not turn with the cell ({}): the stage drifts, a flow carries it, or it is held \
-                    near a place; the correction 'drift' subtracts a drift",
+                    near a place; {remedy}",
                     PValue(*p_value)
                 )
             }
@@ -187,8 +204,9 @@ pub fn warnings(tracks: &[Track], fit: &Fit, drift: Option<&Drift>) -> Result<Ve
     if !names.is_empty() {
         all.push(Warning::Unbounded { names });
     }
-    let noises = ["s", "eta_v", "eta_shape"].into_iter().zip(fit.noise.at_bound);
-    let names: Vec<String> = noises.filter(|(_, at)| *at).map(|(name, _)| name.to_owned()).collect();
+    let at_bound = fit.noise.at_bound.iter().zip(fit.natural.logs).map(|(at, log)| *at && log > 0.0);
+    let names: Vec<String> =
+        NOISES.into_iter().zip(at_bound).filter(|(_, at)| *at).map(|(name, _)| name.to_owned()).collect();
     if !names.is_empty() {
         all.push(Warning::NoiseAtBound { names });
     }
@@ -229,7 +247,12 @@ fn carried(tracks: &[Track], fit: &Fit) -> Result<Option<Warning>> {
     };
     let warning = |StageVelocity { velocity, errors, p_value }: StageVelocity| {
         let is_small = libm::hypot(velocity[0], velocity[1]) <= fit.scales.amplitudes[0];
-        Warning::Carried { velocity: is_small.then_some([velocity, errors]), p_value }
+        Warning::Carried {
+            velocity: is_small.then_some([velocity, errors]),
+            p_value,
+            unit: String::new(),
+            remedy: "the correction 'drift' subtracts a drift".to_owned(),
+        }
     };
     Ok(clearest.filter(is_clear).map(warning))
 }

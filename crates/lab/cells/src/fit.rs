@@ -1,14 +1,21 @@
 //! The fit of one cell, with everything that follows from it.
 
 use crate::fitted::{Members, fitted};
+use crate::one_law::{doubted, no_law};
 use crate::stages::Stages;
 use crate::{
     CellTrack, Companions, Error, Fitted, NearBifurcation, Prediction, Result, near_bifurcations, predict,
 };
 use motiform_dynamics::{StopOnly, Watch};
-use motiform_inference::{LEAST_FRAMES, Library, Settings, Track, Warning, between_cells, with_stage};
+use motiform_inference::{
+    LEAST_FRAMES, Library, Settings, Track, Warning, between_cells, senses, with_stage,
+};
 use motiform_lab::pool;
+use motiform_study::Dimension;
 use serde::{Deserialize, Serialize};
+
+/// Most fits after a velocity of the stage was subtracted.
+const MOST_ROUNDS: usize = 4;
 
 /// Settings of a fit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -154,7 +161,8 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
         return Ok(without_fit(cell, &why));
     }
     let settings = Settings { library: library.seen(&pieces), ..Settings::default() };
-    let (mut fitted, path) = match on_stage(&pieces, cell.path(), (&settings, options), watch) {
+    let unit = cell.units.unit(Dimension::SPEED);
+    let (mut fitted, path) = match on_stage(pieces, cell.path(), (&settings, options, &unit), watch) {
         Err(Error::Inference(error)) => return Ok(without_fit(cell, &error)),
         found => found?,
     };
@@ -181,22 +189,34 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
 }
 
 /// The fit of the pieces of a record, and the path that it describes: with [`FitOptions::stage`] both without the velocity of the
-/// stage, where there is one.
+/// stage, where there is one. The terms that are chosen depend on what was subtracted, so this is repeated while one is seen.
 fn on_stage(
-    pieces: &[Track],
+    pieces: Vec<Track>,
     path: Track,
-    (settings, options): (&Settings, &FitOptions),
+    asked: (&Settings, &FitOptions, &str),
     watch: &dyn Watch,
 ) -> Result<(Box<Fitted>, Track)> {
-    let found = fitted(pieces, Members::Pieces, (settings, options), &Stages::default(), watch)?;
-    if !(options.stage && found.shows_stage()) {
+    let fit = |tracks: &[Track]| fitted(tracks, Members::Pieces, asked, &Stages::default(), watch);
+    let (mut found, mut tracks) = (fit(&pieces)?, pieces);
+    for _ in 0..MOST_ROUNDS {
+        if !(asked.1.stage && found.shows_stage()) {
+            break;
+        }
+        let still = with_stage(&tracks, found.model_beside_stage(), watch)?;
+        if still.velocities.iter().flatten().all(|v| *v == 0.0) {
+            break;
+        }
+        let before = found.stage.iter().copied().chain(std::iter::repeat([0.0; 2]));
+        let sum = before.zip(&still.velocities).map(|(a, b)| [0, 1].map(|k| a[k] + b[k])).collect();
+        tracks = still.tracks;
+        found = fit(&tracks)?;
+        found.stage = sum;
+    }
+    if found.stage.is_empty() {
         return Ok((found, path));
     }
-    let still = with_stage(pieces, &found.selection.fit, watch)?;
-    let mut again = fitted(&still.tracks, Members::Pieces, (settings, options), &Stages::default(), watch)?;
-    again.stage = still.velocities;
-    let longest = still.tracks.into_iter().max_by_key(|piece| piece.0.len());
-    Ok((again, longest.unwrap_or(path)))
+    let longest = tracks.into_iter().max_by_key(|piece| piece.0.len());
+    Ok((found, longest.unwrap_or(path)))
 }
 
 /// Name of the fit of several cells together.
@@ -221,19 +241,29 @@ pub(crate) fn fit_in_stages(
     if let Some((cell, reason)) = cells.iter().find_map(|cell| Some((cell, cell.modes.inconsistent()?))) {
         return Ok(refused(TOGETHER, 0, format!("cell {}: {reason}", cell.name)));
     }
-    let long = cells.iter().filter(|cell| cell.frames() >= LEAST_FRAMES);
-    let tracks: Vec<Track> =
-        long.map(|cell| cell.path()).filter(|path| path.0.len() >= LEAST_FRAMES).collect();
+    let paths = cells.iter().map(|cell| (cell.name.as_str(), cell.path()));
+    let (names, tracks): (Vec<&str>, Vec<Track>) =
+        paths.filter(|(_, path)| path.0.len() >= LEAST_FRAMES).unzip();
     let frames = tracks.iter().map(|track| track.0.len()).sum();
     if tracks.len() < 2 {
         let why = format!("{} cells have {LEAST_FRAMES} frames or more; give two at least", tracks.len());
         return Ok(refused(TOGETHER, frames, why));
     }
     let settings = Settings { library: library.seen(&tracks), ..Settings::default() };
-    let mut fitted = match fitted(&tracks, Members::Cells, (&settings, options), stages, watch) {
+    let unit = cells[0].units.unit(Dimension::SPEED);
+    let mut fitted = match fitted(&tracks, Members::Cells, (&settings, options, &unit), stages, watch) {
         Err(Error::Inference(error)) => return Ok(refused(TOGETHER, frames, error.to_string())),
         found => found?,
     };
+    let model = &fitted.selection.fit;
+    let found = stages.get("senses", watch, |watch| Ok(senses(&tracks, model, watch)?))?;
+    let joint = fitted.handedness.symmetry;
+    if let Some(why) = no_law(&found, &names, joint) {
+        return Ok(refused(TOGETHER, frames, why));
+    }
+    if let Some(doubt) = doubted(&found, joint) {
+        fitted.doubt(&doubt);
+    }
     let between = between_cells(&tracks, fitted.model())?;
     let differing = between.differing(fitted.model());
     if let Some(p_value) = differing.iter().map(|one| one.1).reduce(f64::min) {

@@ -18,6 +18,7 @@ mod names;
 mod natural;
 mod numbers;
 mod observe;
+mod one_law;
 mod outlines;
 mod own_axes;
 mod packed;

@@ -8,13 +8,14 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// The stages of a fit, by name, with the share of the work that is done when each ends: rough values, for the display of progress.
-const STAGES: [(&str, f64); 6] = [
-    ("whole", 0.35),
-    ("selection", 0.4),
-    ("handedness", 0.75),
-    ("drift", 0.85),
-    ("regime", 0.99),
-    ("ladder", 1.0),
+const STAGES: [(&str, f64); 7] = [
+    ("whole", 0.3),
+    ("selection", 0.35),
+    ("handedness", 0.6),
+    ("drift", 0.7),
+    ("regime", 0.8),
+    ("ladder", 0.81),
+    ("senses", 1.0),
 ];
 
 /// Where the results of stages are kept, if they are.

@@ -10,10 +10,8 @@ const LEAST_IN_BLOCK: usize = 5;
 /// Largest order of headings: the mean outline of a cell that keeps a direction, or has legs in two of them,
 /// is elongated without a stretch.
 const MOST_ORDER: f64 = 1.0 / 3.0;
-/// Significance.
-const LEVEL: f64 = 1e-3;
-/// Significance at which a stretch is not excluded as the reason of something else.
-const SUSPICION: f64 = 0.01;
+/// Significance: rare enough for a thousand cells.
+const LEVEL: f64 = 1e-4;
 /// Smaller shares of the elongation are no matter.
 const LEAST_SHARE: f64 = 0.05;
 
@@ -57,13 +55,6 @@ impl Stretch {
     #[must_use]
     pub fn is_clear(&self, cells: usize) -> bool {
         self.is_possible(cells) && self.order <= MOST_ORDER
-    }
-
-    /// Returns `true` if there may be one of any size: at a significance of 1 %. A stretch too small for a
-    /// warning makes a circling cell look handed.
-    #[must_use]
-    pub fn is_suspected(&self, cells: usize) -> bool {
-        self.p_value * cells as f64 <= SUSPICION
     }
 
     /// Returns `true` if there is one, or the directions that the cell keeps look like one.

@@ -137,3 +137,21 @@ fn a_drift_is_no_handedness() {
     assert_eq!(found.symmetry, Symmetry::Handed);
     assert!(p < HANDED_RATE, "{p:.1e}");
 }
+
+/// Cells that turn by themselves on a stage that drifts by an eighth of their speed: the velocity is that of the stage beside handed terms.
+#[test]
+fn the_stage_of_a_handed_cell_is_found_beside_handed_terms() {
+    let mut handed = full(0.5, 0.1);
+    handed[0].1 = Complex::new(1.0, 0.15);
+    for seed in [9, 10] {
+        let still = cell(handed.clone(), 400, seed);
+        let before = handedness(std::slice::from_ref(&still), &fitted(&still), &()).expect("a fit").fit;
+        let added = [0.12, -0.05];
+        let tracks = [still.without_velocity(added.map(|v: f64| -v))];
+        let model = handedness(&tracks, &fitted(&tracks[0]), &()).expect("a fit").fit;
+        let errors = stage_velocities(&[still], &before).expect("a track")[0].expect("told").errors;
+        let found = with_stage(&tracks, &model, &()).expect("a fit").velocities[0];
+        println!("{found:?} {errors:?}");
+        assert!((0..2).all(|k| (found[k] - added[k]).abs() < 4.0 * errors[k]), "{found:?} {errors:?}");
+    }
+}

@@ -3,9 +3,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use super::common::{Experiment, FULL, full};
-use motiform_dynamics::Normal;
-use motiform_inference::{Fit, Library, Settings, Track, averaged, between_cells, fit, subsets};
+use super::common::{Equations, Experiment, FULL, full};
+use motiform_dynamics::{Complex, Normal};
+use motiform_inference::{
+    Fit, HANDED_RATE, Library, Senses, Settings, Symmetry, Track, averaged, between_cells, fit, handedness,
+    senses, subsets,
+};
 
 fn settings() -> Settings {
     Settings { library: Library::tensor().select(&FULL).unwrap(), ..Settings::default() }
@@ -104,4 +107,90 @@ fn cells_of_one_law_do_not_differ() {
     }
     println!("cells differ in {seen} of 6 experiments");
     assert!(seen <= 1, "{seen} of 6"); // 1 % each
+}
+
+/// A cell that turns at this rate by itself, with a shape that follows its velocity.
+fn turning(rate: f64) -> Equations {
+    let term = |equation, re, factors: &[i32]| (equation, Complex::new(re, 0.0), factors.to_vec());
+    vec![
+        (1, Complex::new(0.3, rate), vec![1]),
+        term(1, -1.2, &[1, 1, -1]),
+        term(2, -0.4, &[2]),
+        term(2, 0.8, &[1, 1]),
+        term(3, -0.5, &[3]),
+        term(3, 0.3, &[1, 1, 1]),
+    ]
+}
+
+/// The same cell in a mirror: y to -y.
+fn mirrored(track: &Track) -> Track {
+    let mut frames = track.0.clone();
+    for frame in &mut frames {
+        frame.y.iter_mut().skip(1).step_by(2).for_each(|y| *y = -*y);
+    }
+    Track(frames)
+}
+
+/// What is found in cells by themselves, with these terms, and in all of them together.
+fn sides(tracks: &[Track], terms: &[&str]) -> (Senses, Symmetry) {
+    let settings = Settings { library: Library::tensor().select(terms).unwrap(), ..Settings::default() };
+    let whole = fit(tracks, &settings, &()).unwrap();
+    (senses(tracks, &whole, &()).unwrap(), handedness(tracks, &whole, &()).unwrap().symmetry)
+}
+
+/// Cells that turn to one side and others to the other one: a mirror-symmetric law that circles either way takes the place of both, and
+/// real coefficients are not rejected in all together. Each by itself is handed, and those of one sense are told from the others. In a
+/// mirror the same is found.
+#[test]
+fn cells_of_both_senses_are_handed_by_themselves() {
+    let cell = |seed: u64| {
+        let experiment = Experiment::new(turning(0.2), 0.03, 60 + seed);
+        Experiment { frames: 250, interval: 1.0, eta: [0.03; 2], ..experiment }.track()
+    };
+    let terms = [
+        "z1: z1",
+        "z1: z1* z2",
+        "z1: |z1|^2 z1",
+        "z1: |z2|^2 z1",
+        "z2: z2",
+        "z2: z1^2",
+        "z3: z3",
+        "z3: z1^3",
+    ];
+    let both = [cell(0), mirrored(&cell(1)), cell(2), mirrored(&cell(3))];
+    let (found, joint) = sides(&both, &terms);
+    println!("{joint:?} {found:?}");
+    assert_ne!(joint, Symmetry::Handed);
+    assert!(found.are_both() && found.handed.len() == 4 && found.p_value < 1e-20);
+    let of = |cell: usize| found.handed.iter().find(|one| one.cell == cell).unwrap().opposite;
+    assert_eq!([of(0), of(1)], [of(2), of(3)]);
+    assert_ne!(of(0), of(1));
+    let (image, _) = sides(&[0, 1, 2, 3].map(|k: usize| mirrored(&both[k])), &terms);
+    for (one, other) in found.handed.iter().zip(&image.handed) {
+        assert_eq!((one.cell, one.opposite), (other.cell, other.opposite));
+        assert!((libm::log(one.p_value) / libm::log(other.p_value) - 1.0).abs() < 1e-3, "{one:?} {other:?}");
+    }
+    // one sense alone is one law
+    let (found, joint) = sides(&[cell(0), cell(1), cell(2)], &terms);
+    assert!(joint == Symmetry::Handed && found.handed.len() == 3 && !found.are_both(), "{joint:?} {found:?}");
+}
+
+/// Mirror-symmetric laws, chaotic and circling either way: no cell is handed by itself, and all of them together say nothing.
+#[test]
+fn cells_of_a_mirror_symmetric_law_are_not_handed_by_themselves() {
+    let mut p_values = Vec::new();
+    for (kappa3, noise) in [(0.1, 0.02), (0.3, 0.02)] {
+        for seed in 0..4 {
+            let cell = |k: u64| {
+                let experiment = Experiment::new(full(0.5, kappa3), noise, 300 + 10 * seed + k);
+                let track = Experiment { frames: 200, ..experiment }.track();
+                if k.is_multiple_of(2) { track } else { mirrored(&track) }
+            };
+            let (found, _) = sides(&[cell(0), cell(1), cell(2), cell(3)], &FULL);
+            assert!(found.handed.is_empty(), "{found:?}");
+            p_values.push(found.p_value);
+        }
+    }
+    println!("p-values {p_values:.3?}");
+    assert!(p_values.iter().all(|p| *p > HANDED_RATE) && p_values.iter().any(|p| *p > 0.2), "{p_values:?}");
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{Experiment, FULL, full};
+use crate::common::{Experiment, FULL, VERTEX_NOISE, full};
 use motiform_inference::{
     DriftPoint, Library, Observation, Settings, Track, Warning, drift, fit, warnings, whiteness,
 };
@@ -33,6 +33,33 @@ fn coarse_sampling() {
     println!("{found:?}");
     assert!(found.iter().any(|warning| matches!(warning, Warning::CoarseSampling { .. })));
     assert!(found[0].to_string().contains("sample more often") || found.len() > 1);
+}
+
+/// Outlines without any error, whose stated errors are those of vertices: the factor of these is 0, at the lower bound of the search, and
+/// that is no fault. Stated errors that are 1000 times too small are one.
+#[test]
+fn errors_that_are_not_there_are_no_fault() {
+    let stated = |errors: [f64; 2], factor: f64| {
+        let mut track =
+            Experiment { frames: 300, errors, ..Experiment::new(full(0.5, 0.1), 0.02, 31) }.track();
+        let variances = [0, 0, 1, 1, 1, 1].map(|i: usize| (factor * VERTEX_NOISE[i]).powi(2));
+        for frame in &mut track.0 {
+            let of = |i: usize, j: usize| if i == j { variances[i] } else { 0.0 };
+            frame.covariance = (0..6).map(|i| (0..6).map(|j| of(i, j)).collect()).collect();
+        }
+        let found = fit(std::slice::from_ref(&track), &settings(), &()).unwrap();
+        (found.noise.at_bound[0], warnings(&[track], &found, None).unwrap())
+    };
+    let (at_bound, found) = stated([0.0; 2], 1.0);
+    println!("{at_bound} {found:?}");
+    assert!(at_bound && found.iter().all(|one| !matches!(one, Warning::NoiseAtBound { .. })), "{found:?}");
+    let (at_bound, found) = stated(VERTEX_NOISE, 1e-3);
+    println!("{at_bound} {found:?}");
+    let said = found.iter().find(|one| matches!(one, Warning::NoiseAtBound { .. })).unwrap().to_string();
+    assert!(
+        at_bound && said.contains("upper bound") && said.contains("factor of the stated errors"),
+        "{said}"
+    );
 }
 
 /// Errors of observation with a memory of some frames.

@@ -1,12 +1,11 @@
 //! Doubts that leave a fit without motion, place and symmetry.
 
 use crate::regime::FittedRegime;
-use motiform_inference::{COLOURED, HANDED_RATE, Handedness, PValue, Stretch, Symmetry, Track, Warning};
+use motiform_inference::{COLOURED, HANDED_RATE, Handedness, PValue, Symmetry, Warning};
 
 /// Serious warnings, and what speaks against the test of handedness; `beside`: its p-values beside a velocity of the stage, and in
 /// stretched images.
 pub(super) fn doubts(
-    tracks: &[Track],
     warnings: &[Warning],
     handedness: &Handedness,
     [beside_stage, beside_stretch]: [Option<f64>; 2],
@@ -41,15 +40,6 @@ pub(super) fn doubts(
             "it is handed, or the images are stretched: beside a strain of the path and an elongation \
          that do not turn with the cell, a mirror-symmetric one has such a likelihood ratio with {}",
             PValue(p)
-        ));
-    }
-    let suspected = |found: &Stretch| found.is_suspected(tracks.len()) && !found.is_clear(tracks.len());
-    if let Some(found) = tracks.iter().filter_map(Stretch::of).find(suspected).filter(|_| handed) {
-        doubts.push(format!(
-            "it is handed, or the images are stretched: beside what turns with the cell, outlines have a constant \
-             elongation of {:.1} % of the mean size of z2 ({} without a stretch)",
-            100.0 * found.share,
-            PValue(found.p_value)
         ));
     }
     doubts

@@ -23,14 +23,38 @@ pub(crate) enum Members {
     Cells,
 }
 
-/// Fits these tracks, stage by stage.
+impl Members {
+    /// What to do about a velocity that does not turn with the cell, where the correction 'drift' was given or not.
+    fn remedy(self, given: bool) -> &'static str {
+        match (self, given) {
+            (_, false) => "the correction 'drift' subtracts a drift",
+            (Self::Pieces, true) => {
+                "the correction 'drift' was given, and no velocity that stays the same over the record explains it: the fit finds none \
+                 that raises the likelihood further; fit a part of the record in which the stage does not change"
+            }
+            (Self::Cells, true) => {
+                "the correction 'drift' subtracts from cells together only what all of the field of view have in common: fit this one by \
+                 itself"
+            }
+        }
+    }
+}
+
+/// Says the unit and the remedy of a warning where it has them.
+fn explain(warning: &mut Warning, of: &str, what: &str) {
+    if let Warning::Carried { unit, remedy, .. } = warning {
+        (*unit, *remedy) = (of.to_owned(), what.to_owned());
+    }
+}
+
+/// Fits these tracks, stage by stage; `unit`: of their velocities.
 ///
 /// # Errors
 /// [`crate::Error::Inference`]: why there is no fit; [`motiform_study::Error::Interrupted`]; stages that cannot be written.
 pub(crate) fn fitted(
     tracks: &[Track],
     members: Members,
-    (settings, options): (&Settings, &FitOptions),
+    (settings, options, unit): (&Settings, &FitOptions, &str),
     stages: &Stages<'_>,
     watch: &dyn Watch,
 ) -> Result<Box<Fitted>> {
@@ -51,14 +75,15 @@ pub(crate) fn fitted(
         false => Ok(None),
     })?;
     let checks = Checks::of(tracks, model);
-    let warnings = warnings(tracks, model, drift.as_ref())?;
+    let mut warnings = warnings(tracks, model, drift.as_ref())?;
+    warnings.iter_mut().for_each(|warning| explain(warning, unit, members.remedy(options.stage)));
     // no stage that is kept: few cells are handed
     let beside = |what| match handed {
         true => handed_beside(what, tracks, [&selection.fit, &handedness.fit], watch).map(Some),
         false => Ok(None),
     };
     let (beside_stage, beside_stretch) = (beside(Beside::Stage)?, beside(Beside::Stretch)?);
-    let mut doubts = doubts(tracks, &warnings, &handedness, [beside_stage, beside_stretch]);
+    let mut doubts = doubts(&warnings, &handedness, [beside_stage, beside_stretch]);
     let mut regime = stages.get("regime", watch, |watch| {
         if !known.identifiable || !doubts.is_empty() {
             return Ok(None);

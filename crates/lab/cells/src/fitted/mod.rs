@@ -174,6 +174,14 @@ impl Fitted {
         self.warnings.iter().any(carried) || self.beside_stage.is_some_and(|p| p >= HANDED_RATE)
     }
 
+    /// The terms beside which a velocity of the stage is fitted: the handed ones where real coefficients are rejected beside it, too.
+    pub(crate) fn model_beside_stage(&self) -> &Fit {
+        match self.beside_stage {
+            Some(p) if p < HANDED_RATE => &self.handedness.fit,
+            _ => &self.selection.fit,
+        }
+    }
+
     /// Takes name and places back, for a reason that was found after the fit.
     pub(crate) fn doubt(&mut self, reason: &str) {
         self.doubts.push(reason.to_owned());

@@ -2,19 +2,24 @@
 
 use super::averaged;
 use super::places::Places;
+use motiform_dynamics::sample;
 use motiform_inference::Fix;
 use motiform_statistics::Measured;
 use serde::Serialize;
 
 /// Turning angles are counted in so many equal parts of the full turn.
 const PARTS: usize = 12;
+/// A step is of one sampling interval if its time differs from that by at most this part.
+const ALIKE: f64 = 0.25;
+/// Longest step without a gap, in sampling intervals.
+const NO_GAP: f64 = 1.5;
 
 /// Numbers of the displacements.
 ///
 /// # Units   of the data; angles in rad
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Steps {
-    /// Displacements over one sampling interval.
+    /// Displacements over one sampling interval, within a quarter of it.
     pub count: usize,
     /// Their mean length per time: the speed as it is seen at this sampling. Errors of the places raise it, turns between frames lower it.
     pub speed: Option<Measured>,
@@ -26,11 +31,13 @@ pub struct Steps {
     pub net: f64,
     /// Net displacement over path, between 0 and 1; it falls with the length of the record. `None` where nothing moved.
     pub directionality: Option<f64>,
-    /// Mean cosine of the angle between displacements in a row: 1 straight on, 0 no memory, below 0 back (errors of the places do that).
+    /// Mean cosine of the angle between displacements in a row, each over one sampling interval: 1 straight on, 0 no memory,
+    /// below 0 back (errors of the places do that).
     pub turning_cosine: Option<Measured>,
-    /// Mean turning rate of the displacements (rad per time), anticlockwise in the coordinates of the data.
+    /// Mean turning rate of the displacements (rad per time), anticlockwise in the coordinates of the data: each angle over its own time.
+    /// Of all steps up to one and a half sampling intervals.
     pub turning_rate: Option<Measured>,
-    /// Turning angles counted in twelve equal parts from -pi to pi.
+    /// Turning angles over one sampling interval, counted in twelve equal parts from -pi to pi.
     pub turning_angles: Vec<usize>,
 }
 
@@ -38,21 +45,24 @@ impl Steps {
     /// `error`: standard deviation of a coordinate's error, if it is known. `None` without a displacement.
     pub(super) fn of(places: &Places, error: Option<f64>) -> Option<Self> {
         let pairs = || places.pieces.iter().flat_map(|piece| piece.windows(2));
-        let whole = |pair: &&[Fix]| places.lag(pair[0].t, pair[1].t) == 1.0;
         pairs().next()?;
         let path: f64 = pairs().map(|pair| length(step(&pair[0], &pair[1]))).sum();
         let ends = places.pieces.iter().filter_map(|piece| Some(length(step(piece.first()?, piece.last()?))));
         let net = ends.sum();
         let rate = |pair: &[Fix]| length(step(&pair[0], &pair[1])) / (pair[1].t - pair[0].t);
-        let rates: Vec<f64> = pairs().filter(whole).map(rate).collect();
+        let whole = || pairs().filter(|pair| is_whole(places, pair));
+        let rates: Vec<f64> = whole().map(rate).collect();
         let squares: Vec<f64> = rates.iter().map(|rate| rate * rate).collect();
         let own = |error: f64| {
-            let noise = 4.0 * error * error / (places.interval * places.interval);
+            let inverse = whole().map(|pair| (pair[1].t - pair[0].t).powi(-2));
+            let noise = 4.0 * error * error * sample::mean(inverse)?;
             Some(reaching_up(averaged(&squares)?).map(|square| (square - noise).max(0.0).sqrt()))
         };
-        let angles = angles(places);
+        let no_gap = |pair: &[Fix]| pair[1].t - pair[0].t <= NO_GAP * places.interval;
+        // the directions of two displacements are those at their middles
+        let turning: Vec<f64> = turns(places, no_gap).map(|(angle, time)| angle / (0.5 * time)).collect();
+        let angles: Vec<f64> = turns(places, |pair| is_whole(places, pair)).map(|(angle, _)| angle).collect();
         let cosines: Vec<f64> = angles.iter().map(|angle| libm::cos(*angle)).collect();
-        let turning: Vec<f64> = angles.iter().map(|angle| angle / places.interval).collect();
         let mut counts = vec![0; PARTS];
         for angle in &angles {
             let part = (angle / std::f64::consts::TAU + 0.5) * PARTS as f64;
@@ -94,15 +104,18 @@ fn length(step: [f64; 2]) -> f64 {
     libm::hypot(step[0], step[1])
 }
 
-/// Angles between displacements in a row, each over one interval; displacements of length 0 have none.
-fn angles(places: &Places) -> Vec<f64> {
-    let one = |a: &Fix, b: &Fix| places.lag(a.t, b.t) == 1.0 && a.at != b.at;
+/// `true` of a step of one sampling interval.
+fn is_whole(places: &Places, pair: &[Fix]) -> bool {
+    ((pair[1].t - pair[0].t) / places.interval - 1.0).abs() <= ALIKE
+}
+
+/// Angles between displacements in a row, both of such steps, and the time of both together; displacements of length 0 have none.
+fn turns(places: &Places, is_meant: impl Fn(&[Fix]) -> bool) -> impl Iterator<Item = (f64, f64)> {
+    let one = move |pair: &[Fix]| is_meant(pair) && pair[0].at != pair[1].at;
     let triples = places.pieces.iter().flat_map(|piece| piece.windows(3));
-    let turns = triples.filter(|three| one(&three[0], &three[1]) && one(&three[1], &three[2]));
-    turns
-        .map(|three| {
-            let (a, b) = (step(&three[0], &three[1]), step(&three[1], &three[2]));
-            libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
-        })
-        .collect()
+    triples.filter(move |three| one(&three[..2]) && one(&three[1..])).map(|three| {
+        let (a, b) = (step(&three[0], &three[1]), step(&three[1], &three[2]));
+        let angle = libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+        (angle, three[2].t - three[0].t)
+    })
 }

@@ -6,11 +6,11 @@ use super::bodies::{RADIUS, cell_of, preset};
 use super::recordings::{Seen, Shape, Walker, tracks};
 use motiform_analysis::regime::Regime;
 use motiform_cells::{
-    CellTrack, FitOptions, FittedRegime, PERSISTENT_WALK, Sample, fit_cell, fit_together, observe,
+    CellTrack, FitOptions, Fitted, FittedRegime, PERSISTENT_WALK, Sample, fit_cell, fit_together, observe,
 };
-use motiform_inference::{Placement, Symmetry};
-use motiform_tracks::centroid;
+use motiform_inference::{Placement, Symmetry, Warning};
 use motiform_tracks::modes::ModeOptions;
+use motiform_tracks::{Tracks, centroid};
 
 /// Weakly handed cells: where the likelihood ratio is between both levels, nothing is said; beyond, they are handed; neither is ever
 /// called mirror symmetric with a ratio that speaks against it.
@@ -227,4 +227,75 @@ fn a_missing_name_has_its_reason() {
     }
     let named = FittedRegime { regime: Some(Chaotic), ..found(Chaotic, &[(Chaotic, 23)]) };
     assert_eq!(named.why_unnamed(), None);
+}
+
+/// A simulated cell of a preset with other parameters.
+fn cell_on(study: (&str, &[(&str, f64)]), seed: u64, frames: usize) -> Tracks {
+    let mut found = preset(study.0, 0.02, (0.5, frames));
+    study.1.iter().for_each(|(name, value)| found.set(name, *value).unwrap());
+    found.run.seed = seed;
+    cell_of(&found, RADIUS, 0.01).tracks
+}
+
+const HANDED: (&str, &[(&str, f64)]) = ("chiral", &[("kappa2", 0.5), ("omega", 0.1)]);
+
+/// Two handed cells and the mirror images of two more: one law of all has no coefficients, and those of one sense have one.
+#[test]
+fn cells_of_both_senses_have_no_law_together() {
+    let mut all: Vec<_> = (3..7).map(|seed| cell_on(HANDED, seed, 300).cells.remove(0).frames).collect();
+    for outline in all.iter_mut().skip(2).flatten() {
+        outline.points.iter_mut().for_each(|point| point[1] = -point[1]);
+        outline.points.reverse();
+    }
+    let sample = Sample::of_tracks(tracks(all), &ModeOptions::default());
+    let cells: Vec<&CellTrack> = sample.cells.iter().collect();
+    let options = FitOptions { drift: false, draws: 4, ..FitOptions::default() };
+    let why = fit_together(&cells, &options, &()).unwrap().fitted.unwrap_err();
+    println!("{why}");
+    assert!(why.contains("cells of both senses are handed") && why.contains("(--cell)"), "{why}");
+    assert!(["1, 2", "3, 4"].iter().all(|side| why.contains(side)), "{why}");
+    let fitted = fit_together(&cells[..2], &options, &()).unwrap().fitted.unwrap();
+    assert_eq!(fitted.handedness.symmetry, Symmetry::Handed);
+}
+
+/// A stage that drifts by much of the speed: the correction leaves nothing of it, of handed cells and others, which keep their symmetry.
+/// Of one that turns back in the middle no velocity is subtracted that explains it, and the warning says that the correction was given.
+#[test]
+fn a_drift_is_subtracted_until_none_is_seen() {
+    let fitted = |tracks: Tracks, stage: bool| {
+        let sample = Sample::of_tracks(tracks, &ModeOptions::default());
+        let options = FitOptions { drift: false, simulations: 0, draws: 4, stage, ..FitOptions::default() };
+        fit_cell(&sample.cells[0], &options, &()).unwrap().fitted.unwrap()
+    };
+    let carried = |fitted: &Fitted| {
+        let all = fitted.warnings.iter().filter(|one| matches!(one, Warning::Carried { .. }));
+        all.map(ToString::to_string).collect::<Vec<_>>()
+    };
+    for (study, part, handed) in [(HANDED, 0.3, true), (("fig5b", &[][..]), 0.5, false)] {
+        for seed in 3..5 {
+            let still = cell_on(study, seed, 300);
+            let speed = super::recordings::mean_speed(&still);
+            let found = fitted(still.drifting([part * speed, 0.0]), true);
+            println!("{} {speed} {:?} {:?} {:?}", study.0, found.stage, carried(&found), found.symmetry());
+            assert!(carried(&found).is_empty() && found.stage.len() == 1, "{:?}", found.warnings);
+            let [x, y] = found.stage[0].map(|v| v / speed);
+            assert!((x - part).abs() < 0.1 && y.abs() < 0.1, "{x} {y}");
+            assert_eq!(found.is_handed(), handed);
+        }
+    }
+    let mut back = cell_on(HANDED, 3, 300);
+    let speed = super::recordings::mean_speed(&back);
+    for outline in &mut back.cells[0].frames {
+        let by = 0.3 * speed * (outline.t - 75.0).abs();
+        outline.points.iter_mut().for_each(|point| point[0] += by);
+    }
+    let said = carried(&fitted(cell_on(HANDED, 3, 300).drifting([0.3 * speed, 0.0]), false)).concat();
+    assert!(
+        said.contains(") um/s does not turn") && said.ends_with("the correction 'drift' subtracts a drift"),
+        "{said}"
+    );
+    let found = fitted(back, true);
+    println!("{:?} {:?}", found.stage, found.doubts);
+    assert!(found.symmetry() == Symmetry::Undecided, "{:?}", found.doubts);
+    assert!(carried(&found).iter().all(|said| said.contains("the correction 'drift' was given")));
 }

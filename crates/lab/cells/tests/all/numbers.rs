@@ -331,3 +331,32 @@ fn centroids_that_shapes_move_have_a_remark() {
         );
     }
 }
+
+/// A circle whose frames are 1 apart, then twice that, then 4 of them missing: angles are divided by their own times, and numbers that
+/// depend on the step are of the usual one alone.
+#[test]
+fn a_circle_at_two_rates_has_one_turning_rate() {
+    let (rate, radius) = (std::f64::consts::TAU / 24.0, 6.0);
+    for (first, second, usual) in [(100, 101, 2.0), (102, 100, 1.0)] {
+        let before = (0..first).map(f64::from);
+        let end = f64::from(first - 1);
+        let times =
+            before.chain((1..=second).map(|k| end + 2.0 * f64::from(k) + if k > 50 { 8.0 } else { 0.0 }));
+        let frame = |(k, t): (usize, f64)| {
+            let (sin, cos) = libm::sincos(rate * t);
+            let body = Synthetic { centre: [radius * cos, radius * sin], r0: 2.0, z: vec![[0.2, 0.0]] };
+            Outline { frame: i64::try_from(k).expect("small"), t, points: body.vertices(48, 0.0), missing: 0 }
+        };
+        let found = of(tracks(vec![times.enumerate().map(frame).collect()]));
+        let value = |key: &str| known(&found, key).value;
+        let chord = 2.0 * radius * libm::sin(0.5 * rate * usual) / usual;
+        for (key, exact) in
+            [("turning_rate", rate), ("turning_cosine", libm::cos(rate * usual)), ("speed", chord)]
+        {
+            assert!((value(key) / exact - 1.0).abs() < 1e-9, "{key} at {usual}: {} for {exact}", value(key));
+        }
+        let steps = found.steps.expect("steps");
+        // the longer ones lack the one over the gap
+        assert_eq!(steps.count, if usual > 1.0 { second - 1 } else { first - 1 } as usize);
+    }
+}
