@@ -131,7 +131,7 @@ fn mirrored(track: &Track) -> Track {
     Track(frames)
 }
 
-/// What is found in cells by themselves, with these terms, and in all of them together.
+/// The findings in cells by themselves, with these terms, and in all of them together.
 fn sides(tracks: &[Track], terms: &[&str]) -> (Senses, Symmetry) {
     let settings = Settings { library: Library::tensor().select(terms).unwrap(), ..Settings::default() };
     let whole = fit(tracks, &settings, &()).unwrap();

@@ -24,7 +24,7 @@ pub(crate) enum Members {
 }
 
 impl Members {
-    /// What to do about a velocity that does not turn with the cell, where the correction 'drift' was given or not.
+    /// The remedy for a velocity that does not turn with the cell, where the correction 'drift' was given or not.
     fn remedy(self, given: bool) -> &'static str {
         match (self, given) {
             (_, false) => "the correction 'drift' subtracts a drift",
