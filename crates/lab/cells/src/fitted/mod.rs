@@ -79,8 +79,8 @@ impl Fitted {
         self.handedness.symmetry == Symmetry::Handed
     }
 
-    /// The combinations that the data determine, and of which coefficients: of all terms, or of a handed model's own, as real coefficients of all terms
-    /// are rejected.
+    /// The combinations that the data determine, and of which coefficients: of all terms, or of a handed model's own, as real coefficients
+    /// of all terms are rejected.
     #[must_use]
     pub fn determined(&self) -> (&Identifiability, &'static str) {
         match self.rejects_real() {
