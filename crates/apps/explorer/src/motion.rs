@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex};
 /// Exponents that are followed.
 const COUNT: usize = 3;
 
-/// They are averaged over this many looks of the model ([`motiform_models::ModelInfo::look`]) after some
+/// They are averaged over this many looks of the model ([`motiform_models::ModelInfo::look_at`]) after some
 /// initial ones, and reported at this many times.
 const LOOKS: (f64, f64) = (2.0, 40.0);
 const POINTS: f64 = 200.0;

@@ -6,6 +6,9 @@ use crate::{Quantity, Track, Tracks, four_digits};
 /// with four samples a period.
 const UNEXPLAINED: f64 = 0.1;
 
+/// Samples are too far apart, whatever the part is, where a quantity would change by so many times its size at its rate.
+const FAR: f64 = 5.0;
+
 /// A quantity and its rate of change along a track, component by component.
 type Pair = (Vec<[f64; 2]>, Vec<[f64; 2]>);
 
@@ -29,7 +32,9 @@ pub(crate) fn too_far_apart(tracks: &Tracks, quantity: &Quantity) -> Option<Stri
     let found = Sums::of(tracks, quantity, is_known);
     let (dt, size) = (tracks.dt(), if is_known { found.zz } else { tracks.dt() * tracks.dt() * found.ff });
     let part = found.predicted(is_known) / size;
-    (part > UNEXPLAINED).then(|| {
+    // where whole periods lie between samples the part may be small again
+    let is_far = is_known && dt * dt * found.ff > FAR * FAR * found.zz;
+    (is_far || part > UNEXPLAINED).then(|| {
         let resolved = if is_known { (found.zz / found.ff).sqrt() } else { dt };
         let enough = round_down(0.5 * resolved.min(dt));
         format!(

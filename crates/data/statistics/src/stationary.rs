@@ -39,7 +39,9 @@ fn changed(tracks: &Tracks, quantity: &Quantity) -> Option<String> {
     let steps = means[1..].windows(2).map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0]));
     let variance = steps.sum::<f64>() / (2 * (PARTS - 2)) as f64;
     let (first, rest, count) = (means[0], rest(None), (PARTS - 1) as f64);
-    let over_time = student_quantile(PARTS - 2) * (variance * (1.0 + 1.0 / count)).sqrt() / rest;
+    // at rest in all parts but the first there is no scatter
+    let scatter = student_quantile(PARTS - 2) * (variance * (1.0 + 1.0 / count)).sqrt();
+    let over_time = if scatter > 0.0 { scatter / rest } else { 0.0 };
     let half = libm::hypot(over_bodies, over_time);
     (change(None).abs() > LEAST + CLEAR * half).then(|| {
         format!(

@@ -10,7 +10,7 @@ use motiform_dynamics::Watch;
 /// Part of a step that solutions keep from a place where the equations are singular: what the branch bends on it is below [`TIGHT`].
 pub(super) const APART: f64 = 1e-4;
 
-/// Tolerances by which the equations may be off in the middle of two solutions.
+/// Errors of solutions by which the equations may be off in the middle of two of them.
 const UNSOLVED: f64 = 10.0;
 
 /// The step from `old` to `new`, and the place before it.
@@ -52,7 +52,7 @@ fn middle<P: Problem>(
     let tangent = scaled(mean(&low.tangent, &high.tangent), &problem.weights(&x)).ok_or_else(broken)?;
     let local = problem.local(&x, watch)?;
     // over a gap between two branches it is no solution
-    if norm(&problem.linear(&local).residual) > UNSOLVED * TIGHT {
+    if norm(&problem.linear(&local).residual) > UNSOLVED * problem.accuracy().max(TIGHT) {
         return Err(broken());
     }
     let levels = problem.levels(&x, &local).ok_or_else(broken)?;

@@ -36,7 +36,8 @@ pub(super) fn is_alone<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
     second(problem, at).is_some_and(|(second, next)| second > NEARLY * next && second > NOTHING * largest)
 }
 
-/// The same where the branch seems to turn back: the slope may be 0 within its error up to a distance from a crossing of high order.
+/// The same where the branch seems to turn back, or a level that seems to be that of a branch point vanishes: tests may be 0 within their
+/// errors up to a distance from a crossing of high order.
 const SUSPECT: f64 = 0.05;
 
 /// Returns `true` if the place where a branch turns back may be beside a crossing. Solutions are exact to about the tolerance of the
@@ -53,8 +54,8 @@ pub(super) fn nearly_crosses<P: Problem>(
     !crosses(problem, at) && second(problem, at).is_some_and(nearly) && may_cross()
 }
 
-/// Errors of a test by which it may change up to a crossing nearby that makes it vanish: of the slope the tolerance divided by the
-/// distance.
+/// If a test changes by at most this many of its errors between its zero and a crossing nearby, it vanishes because of the crossing. The
+/// error of the slope is the tolerance over the distance.
 const NOISE: f64 = 10.0;
 
 /// Part of the step by which a crossing may lie outside: about it the slope at the ends of steps may be that of round-off.

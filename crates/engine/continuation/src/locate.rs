@@ -135,9 +135,12 @@ fn certified<P: Problem>(
     };
     let width = problem.weights(&at.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
     let found = Certificate::of(kind, here, passing(&near), noise, problem.accuracy().max(TIGHT) * width);
-    // the test changes its sign between the ends of the step
+    // between the ends of the step the test changes its sign
     let far = [step.old, step.new].map(|end| (end.parameter() - at.parameter()).abs());
-    Some(Certificate { error: found.error.min(far[0].max(far[1])), ..found })
+    let is_between = (step.old.arclength..=step.new.arclength).contains(&at.arclength);
+    let error =
+        if is_between && found.error.is_finite() { found.error.min(far[0].max(far[1])) } else { found.error };
+    Some(Certificate { error, ..found })
 }
 
 /// The leading coefficient of the normal form at a special point.

@@ -1,6 +1,6 @@
 //! Checks beside a fit for the reader to judge it by: another estimate, and what the fit leaves unexplained.
 
-use motiform_inference::{Channel, Fit, Track, Weak, weak, whiteness};
+use motiform_inference::{Channel, Error, Fit, Track, Weak, weak, whiteness};
 use serde::{Deserialize, Serialize};
 
 /// Checks of a fit.
@@ -14,10 +14,13 @@ pub struct Checks {
 
 impl Checks {
     /// The checks of a model that was fitted to these tracks.
-    pub(crate) fn of(tracks: &[Track], model: &Fit) -> Self {
+    ///
+    /// # Errors
+    /// Tracks that the weak form cannot use.
+    pub(crate) fn of(tracks: &[Track], model: &Fit) -> Result<Self, Error> {
         let noise = [model.noise.eta_v.value, model.noise.eta_shape.value];
-        let weak = if model.handed { None } else { weak(tracks, &model.library, noise).ok() };
-        Self { weak, innovations: whiteness(model) }
+        let weak = if model.handed { None } else { Some(weak(tracks, &model.library, noise)?) };
+        Ok(Self { weak, innovations: whiteness(model) })
     }
 
     /// A coefficient by the weak form, by its number in the model; `None` where [`Checks::no_weak`] says why.

@@ -10,8 +10,8 @@ use motiform_study::{Error, RunPlan};
 type Start = (Box<dyn Model>, Vec<f64>);
 
 /// The motions of `plans`, in their order, on this thread; `None` if the watch stopped it. The plans are of one model with any parameters
-/// and starts, and have the numerics of the first one. Verdicts are those of [`analyse::classify`] to the last bit; they are found in the
-/// lanes of vector registers where there are kernels for the model.
+/// and starts, and have the numerics of the first one, its look and budget among them: for plans of one look verdicts are those of
+/// [`analyse::classify`] to the last bit. They are found in the lanes of vector registers where there are kernels for the model.
 ///
 /// # Errors
 /// Input that only the numerics can reject.

@@ -7,7 +7,7 @@ use motiform_dynamics::escape::norm;
 use motiform_dynamics::{Model, Outcome, Watch};
 use motiform_study::{Error, Manifest, Plan};
 
-/// Maximum model time, in looks of the model ([`motiform_models::ModelInfo::look`]): a motion that has
+/// Maximum model time, in looks of the model ([`motiform_models::ModelInfo::look_at`]): a motion that has
 /// settled is identified within the first.
 const LOOKS: f64 = 2.0;
 

@@ -12,7 +12,7 @@ pub struct NoiseSettings {
     pub velocity: f64,
     /// Amplitude eta on the shape (unit of its coordinates / sqrt(model time)).
     pub shape: f64,
-    /// Model time of a step of the noise, from the rates of the model alone ([`Noise::step_for`]).
+    /// Model time of a step of the noise, from the rates of the model, at most the time between samples ([`Noise::step_for`]).
     pub step: f64,
 }
 

@@ -16,7 +16,6 @@ const COUNT: usize = 6;
 
 pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let (plan, samples) = subject::plan(subject::motion(&options.motion)?, &options.many)?;
-    let info = plan.info()?;
     for (key, value) in [("t_end", options.t_end), ("transient", options.transient)] {
         if let Some(value) = value.filter(|&value| value < 0.0 || key == "t_end" && value == 0.0) {
             return Err(Error::Setting {
@@ -35,7 +34,8 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     if let Some(samples) = samples {
         return many(options, &plan, samples, count);
     }
-    let total = options.transient.unwrap_or(4.0 * info.look) + options.t_end.unwrap_or(20.0 * info.look);
+    let look = plan.look()?;
+    let total = options.transient.unwrap_or(4.0 * look) + options.t_end.unwrap_or(20.0 * look);
     let watch = Progress::new(total, "model time");
     let found = analyse::lyapunov(&plan, count, (options.transient, options.t_end), &watch);
     watch.finish();

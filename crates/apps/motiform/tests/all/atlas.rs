@@ -7,8 +7,8 @@ use serde_json::Value;
 #[test]
 fn both_kinds_of_branches_leave_a_shape_with_several_axes() {
     for (arguments, length) in [
-        ("--set length=22.6 --from motionless --along length=22.3:22.7", 22.415_619),
-        ("--set length=31 --from motionless --along length=29.8:31.2", 29.933_754),
+        ("--set length=22.6 --motion motionless --along length=22.3:22.7", 22.415_619),
+        ("--set length=31 --motion motionless --along length=29.8:31.2", 29.933_754),
     ] {
         let folder = Folder::new();
         let json = folder.run(&format!("continue cell {arguments} --steady --json")).expect(0).json();

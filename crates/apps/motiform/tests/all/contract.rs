@@ -148,7 +148,7 @@ fn check_prints_the_plan_that_simulate_carries_out() {
     assert!(told.contains("rtol 1e-9, atol 1e-12"), "{told}");
     assert!(
         told.contains(
-            "noise       amplitude 0.001 on the shape, 0.0 on the velocity, steps of 0.0625, seed 4"
+            "noise       amplitude 0.001 on the shape, 0.0 on the velocity, steps of 0.03125, seed 4"
         ),
         "{told}"
     );

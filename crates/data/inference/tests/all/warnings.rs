@@ -175,7 +175,6 @@ fn what_is_not_counted_is_no_agreement() {
     (experiment.frames, experiment.interval) = (400, 3.0);
     let tracks = [experiment.track()];
     let found = drift(&tracks, &fit(&tracks, &settings(), &()).unwrap(), &()).unwrap();
-    println!("{:?} {:?}", found.changes, found.points);
     let counted = found.points.iter().filter(|point| point.estimates.is_ok()).count();
     assert!(found.changes.iter().all(|change| change.is_some() == (counted > 0)));
     let reason =

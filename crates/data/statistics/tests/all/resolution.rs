@@ -34,7 +34,7 @@ fn seen(process: (f64, f64), dt: f64) -> motiform_statistics::Autocorrelation {
 /// A mode that turns with the period 1 and forgets in 20: seen one to three times a period it looks slow, or fast the other way.
 #[test]
 fn what_turns_between_samples_has_no_times() {
-    for dt in [0.26, 0.34, 0.5, 0.97, 1.0, 1.03, 2.0, 7.99] {
+    for dt in [0.26, 0.34, 0.5, 0.97, 1.0, 1.03, 1.43, 2.0, 2.459, 7.99] {
         let found = seen((0.05, TAU), dt);
         let told = found.time.reason().unwrap();
         assert!(told.starts_with("sampled too coarsely") && told.contains("every 0.07"), "{dt}: {told}");

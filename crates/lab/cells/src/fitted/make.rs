@@ -29,8 +29,8 @@ impl Members {
         match (self, given) {
             (_, false) => "the correction 'drift' subtracts a drift",
             (Self::Pieces, true) => {
-                "the correction 'drift' was given, and no velocity that stays the same over the record explains it: the fit finds none \
-                 that raises the likelihood further; fit a part of the record in which the stage does not change"
+                "the correction 'drift' was given, and no velocity that stays the same over the record explains all of it; \
+                 fit a part of the record in which the stage does not change"
             }
             (Self::Cells, true) => {
                 "the correction 'drift' subtracts from cells together only what all of the field of view have in common: fit this one by \
@@ -74,7 +74,7 @@ pub(crate) fn fitted(
         true => Ok(Some(drift(tracks, model, watch)?)),
         false => Ok(None),
     })?;
-    let checks = Checks::of(tracks, model);
+    let checks = Checks::of(tracks, model)?;
     let mut warnings = warnings(tracks, model, drift.as_ref())?;
     warnings.iter_mut().for_each(|warning| explain(warning, unit, members.remedy(options.stage)));
     // no stage that is kept: few cells are handed

@@ -51,7 +51,7 @@ pub(super) fn drift(
 ) -> Option<[f64; 2]> {
     let turned = |k: usize| turning.signum() * (headings[k] - headings[0]);
     // where each turn is complete, between two samples, as a place along the frames
-    let mut ends = Vec::new();
+    let mut ends = vec![0.5 * lag as f64];
     for k in 1..headings.len() {
         while turned(k) >= ends.len() as f64 * TAU {
             let part = (ends.len() as f64 * TAU - turned(k - 1)) / (turned(k) - turned(k - 1));

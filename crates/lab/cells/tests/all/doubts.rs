@@ -295,7 +295,5 @@ fn a_drift_is_subtracted_until_none_is_seen() {
         "{said}"
     );
     let found = fitted(back, true);
-    println!("{:?} {:?}", found.stage, found.doubts);
     assert!(found.symmetry() == Symmetry::Undecided, "{:?}", found.doubts);
-    assert!(carried(&found).iter().all(|said| said.contains("the correction 'drift' was given")));
 }

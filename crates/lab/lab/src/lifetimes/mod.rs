@@ -16,7 +16,7 @@ use std::path::Path;
 use std::time::Duration;
 
 /// The longest time of an orbit if the plan has no budget, in looks of the model
-/// ([`motiform_models::ModelInfo::look`]).
+/// (that of the first cell, [`ScanPlan::look_of`]).
 const LOOKS: f64 = 100.0;
 
 /// The time between savings: a killed run loses at most this, beside the orbits under way.

@@ -57,7 +57,7 @@ impl Work<'_> {
         let samples = plan.computation.samples;
         let mut candidate = || loop {
             let (cell, sample) = next()?;
-            match row_in_lanes(plan, kernel, cell, sample) {
+            match row_in_lanes((plan, &settings), kernel, cell, sample) {
                 Ok(Some(candidate)) => return Some(candidate),
                 Ok(None) => (done.borrow_mut())((cell, sample), single.evaluate(plan, cell, sample, stop)),
                 Err(error) => (done.borrow_mut())((cell, sample), Err(error)),
@@ -70,10 +70,16 @@ impl Work<'_> {
     }
 }
 
-/// A row for a lane of this kernel; `None` if it does not compute it.
-fn row_in_lanes(plan: &ScanPlan, kernel: Kernel, cell: usize, sample: usize) -> Result<Option<Row>, Error> {
+/// A row for a lane of this kernel; `None` if it does not compute it, or the body is looked at over other times.
+fn row_in_lanes(
+    (plan, settings): (&ScanPlan, &Settings),
+    kernel: Kernel,
+    cell: usize,
+    sample: usize,
+) -> Result<Option<Row>, Error> {
     let body = plan.model_of(cell)?;
     let start = plan.start(cell, sample, body.as_ref())?;
     let key = cell * plan.computation.samples + sample;
-    Ok(kernel.computes(body.as_ref()).then_some(Row { key, body, start }))
+    let suits = kernel.computes(body.as_ref()) && plan.look_of(cell)? == settings.first_look;
+    Ok(suits.then_some(Row { key, body, start }))
 }

@@ -8,7 +8,7 @@ use common::preset;
 use motiform_analysis::regime::{Regime, Verdict};
 use motiform_kernels::Kernel;
 use motiform_lab::scan::{Axis, Classify, Evaluate};
-use motiform_study::ScanPlan;
+use motiform_study::{ScanPlan, Study};
 use std::collections::BTreeSet;
 
 fn plan(name: &str, axes: [&str; 2], samples: u64) -> ScanPlan {
@@ -86,4 +86,22 @@ fn lanes_and_single_orbits_agree_on_all_terms() {
     for (row, (a, b)) in lanes.iter().zip(&single).enumerate() {
         assert_eq!(text(a), text(b), "row {row}");
     }
+}
+
+/// Rates over two decades: each body is looked at over its own times, in lanes as by itself.
+#[test]
+fn lanes_and_single_orbits_agree_on_equations_of_all_speeds() {
+    let equations = "[model.amplitudes]\nmodes = [1, 2]\n[model.amplitudes.parameters]\nk = 1\n[model.amplitudes.equations]\n\
+                     z1 = \"k*((0.3 + 0.2*i)*z1 - |z1|^2*z1 + 0.5*conj(z1)*z2)\"\nz2 = \"k*(-z2 + z1^2)\"\n\
+                     [initial]\nv1 = 0.4\nz2_re = 0.1\n";
+    let mut study = Study::parse(equations, "text", "test").unwrap();
+    study.scan.axes = vec![Axis::parse("k=0.01:1:3").unwrap()];
+    let plan = ScanPlan::new(&study).unwrap();
+    let (lanes, single) = (in_lanes(&plan), one_by_one(&plan));
+    for (row, (a, b)) in lanes.iter().zip(&single).enumerate() {
+        assert_eq!(text(a), text(b), "row {row}");
+    }
+    assert_eq!(regimes(&lanes).len(), 1, "{:?}", regimes(&lanes));
+    let looks: BTreeSet<String> = (0..3).map(|cell| plan.look_of(cell).unwrap().to_string()).collect();
+    assert_eq!(looks.len(), 3, "{looks:?}");
 }

@@ -24,8 +24,8 @@ const UNCLEAR: f64 = 0.3;
 pub struct ObservedLegs {
     /// Smallest turn that counts (rad): 0.3, and at least four errors of the heading of half a fast displacement.
     pub least_turn: f64,
-    /// Time over which displacements are taken: the least over which fast ones (95 % quantile) are twice as long as headings with four
-    /// errors of 0.3 rad need; at most a twentieth of the record.
+    /// Time over which displacements are taken: the least over which four errors of the heading of half a fast displacement (95 % quantile)
+    /// are below 0.3 rad; at most a twentieth of the record.
     pub step: f64,
     /// Number of corners.
     pub corners: usize,
@@ -62,7 +62,10 @@ pub(super) fn of(measures: &Measures) -> Finding<ObservedLegs> {
     let turns = legs.windows(2).map(|pair| wrap(angle(&pair[1]) - angle(&pair[0])).abs());
     let length = median(legs.iter().map(|leg| libm::hypot(leg[0], leg[1])));
     if let Some(length) = length.filter(|length| *length <= CLEAR * error) {
-        return Finding::missing(format!("legs are within {:.1} of their errors", length / error));
+        return Finding::missing(format!(
+            "the median leg is {:.1} of its errors long; more than 4 are needed",
+            length / error
+        ));
     }
     Finding::Found(ObservedLegs {
         least_turn,
