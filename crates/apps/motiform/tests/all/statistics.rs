@@ -31,7 +31,7 @@ fn text_json_and_folder_agree() {
     }
     assert!(folder.run(&format!("{SHORT} --out found")).expect(2).stderr.contains("--force"));
     folder.run(&format!("{SHORT} --out found --force")).expect(0);
-    let settings = format!("{SHORT} --json --radius 2 --radius 0.5 --threshold s=0.1");
+    let settings = format!("{SHORT} --json --disc 2 --disc 0.5 --threshold s=0.1");
     let json = folder.run(&settings).expect(0).json();
     assert_eq!(json["first_passage"][0]["radius"], 0.5);
     assert_eq!((&json["residence"]["quantity"], &json["residence"]["threshold"]), (&"s".into(), &0.1.into()));
