@@ -35,8 +35,8 @@ mod tests {
     use super::bound;
     use crate::Estimate;
 
-    /// A length that grows in proportion to the time t has the rate 1/t; the average from 1 to T is log(T)/(T - 1). An exponential one
-    /// beside it keeps its error.
+    /// A length that grows in proportion to the time t has the rate 1/t; the average from 1 to T is log(T)/(T - 1). The error of an
+    /// exponent of the same motion that does not fall with T stays as it is.
     #[test]
     fn growth_like_a_power_of_time_is_no_exponent() {
         let rates = |t: f64| vec![0.05 + 1e-4 * libm::sin(7.0 * t), 1.0 / t];

@@ -334,3 +334,31 @@ fn an_orbit_that_passes_a_saddle_and_its_image_ends_in_a_heteroclinic_connection
         }
     }
 }
+
+/// `x' = y, y' = x - x^2 - y (H - p) (1 + x)` with `H = y^2/2 - x^2/2 + x^3/3`: the orbit at p is the level H = p, and at p = 0 the
+/// loop of a saddle with the eigenvalues 1 and -1.
+struct Neutral(f64);
+motiform_models::plain!(Neutral, 2);
+impl<T: Scalar> VectorField<T> for Neutral {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let (x, y) = (u[0], u[1]);
+        let level = y * y * 0.5 - x * x * 0.5 + x * x * x * (1.0 / 3.0) - x.constant(self.0);
+        du[0] = y;
+        du[1] = x - x * x - y * level * (x + x.constant(1.0));
+    }
+}
+
+#[test]
+fn a_saddle_quantity_within_its_error_has_no_sign() {
+    let family = |p: f64| -> Body { Ok(Box::new(Neutral(p))) };
+    let guess = PeriodicGuess { shape: &[1.331, 0.0], time: 7.0, angle: 0.0, mirrored: false };
+    for (low, high) in [(-0.16, 0.1), (-0.12, 0.3)] {
+        let (_, found) = connection(&family, -0.1, &guess, &Settings::over(low, high));
+        near(found.parameter, 0.0, 1e-6);
+        assert!(found.quantity().unwrap().abs() < 1e-6, "{:?}", found.quantity());
+        assert!(
+            found.to_string().ends_with("saddle quantity 0 within its error: its sign is not known"),
+            "{found}"
+        );
+    }
+}

@@ -174,7 +174,8 @@ impl Fitted {
         self.warnings.iter().any(carried) || self.beside_stage.is_some_and(|p| p >= HANDED_RATE)
     }
 
-    /// The terms beside which a velocity of the stage is fitted: the handed ones where real coefficients are rejected beside it, too.
+    /// The model that is fitted together with a velocity of the stage: the handed one where real coefficients are rejected even with such a
+    /// velocity.
     pub(crate) fn model_beside_stage(&self) -> &Fit {
         match self.beside_stage {
             Some(p) if p < HANDED_RATE => &self.handedness.fit,

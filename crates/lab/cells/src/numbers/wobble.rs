@@ -15,8 +15,8 @@ const LEAST: usize = 20;
 pub struct Wobble {
     /// Root mean square distance of both.
     pub size: f64,
-    /// Share of the changes of the centroid's velocity from frame to frame that go with it, the square of their correlation: 0 of a
-    /// centroid that keeps to its path while the centre moves beside it.
+    /// Share of the changes of the centroid's velocity from frame to frame that go with it, the square of their correlation: 0 where the
+    /// path of the centroid does not depend on the distance of the centre from it.
     pub share: f64,
     /// Correlation of the displacement from the centre with that a frame later: errors of outlines have none.
     pub memory: f64,

@@ -65,7 +65,7 @@ fn intervals(fitted: &Fitted, units: &Units) -> Table {
         }
     }
     for why in fitted.checks.no_weak() {
-        caption += &format!(" No weak form, {}.", literal(&why));
+        caption += &format!(" No weak form: {}.", literal(&why));
     }
     Table { caption, head, rows: fitted.model().coefficients.iter().enumerate().map(row).collect() }
 }
