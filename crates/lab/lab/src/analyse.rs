@@ -41,15 +41,14 @@ impl Body<'_> {
         settings: &Settings,
         watch: &dyn Watch,
     ) -> Result<Option<Verdict>, Error> {
-        let watch = StopOnly(watch);
-        let Some((verdict, shape)) = settle(self.model, shape, settings, &watch)? else {
+        let Some((verdict, shape)) = settle(self.model, shape, settings, watch)? else {
             return Ok(None);
         };
         let Some(Finer { body, shape, parameter, value }) = self.finer(&shape)? else {
             return Ok(Some(verdict));
         };
         let finer = settings.tighter(FINER);
-        Ok(Some(verdict.resolved_by(body.as_ref(), &shape, (parameter, value), &finer, &watch)?))
+        Ok(Some(verdict.resolved_by(body.as_ref(), &shape, (parameter, value), &finer, &StopOnly(watch))?))
     }
 
     /// With half as many modes again; `None` for a model without a parameter for their number, or at its largest value.

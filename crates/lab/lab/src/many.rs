@@ -36,7 +36,7 @@ fn one_by_one(
 ) -> Result<Option<Vec<Verdict>>, Error> {
     let classify = |(plan, (model, shape)): (&RunPlan, &Start)| {
         let values = plan.computation.parameters.values();
-        Body { info: plan.info()?, values, model: model.as_ref() }.classify(shape, settings, watch)
+        Body { info: plan.info()?, values, model: model.as_ref() }.classify(shape, settings, &StopOnly(watch))
     };
     plans.iter().zip(starts).map(classify).collect()
 }

@@ -4,7 +4,7 @@ use crate::analyse;
 use motiform_analysis::regime::{Regime, Verdict};
 use motiform_analysis::{Lyapunov, RelativeEquilibrium, SteadyMotion};
 use motiform_dynamics::escape::norm;
-use motiform_dynamics::{Model, Outcome, Watch};
+use motiform_dynamics::{Model, Outcome, StopOnly, Watch};
 use motiform_study::{Error, Manifest, Plan};
 
 /// Maximum model time, in looks of the model ([`motiform_models::ModelInfo::look_at`]): a motion that has
@@ -22,7 +22,7 @@ const LOOKS: f64 = 2.0;
 pub fn name(manifest: &Manifest, watch: &dyn Watch) -> Result<Option<Verdict>, Error> {
     let Some(plan) = from_its_end(manifest).filter(|_| !watch.stopped()) else { return Ok(None) };
     let budget = LOOKS * plan.look()?;
-    let verdict = analyse::classify(&plan, budget, watch)?;
+    let verdict = analyse::classify(&plan, budget, &StopOnly(watch))?;
     Ok(verdict.filter(|verdict| verdict.regime != Regime::Undetermined))
 }
 

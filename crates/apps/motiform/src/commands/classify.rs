@@ -22,7 +22,8 @@ pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
     if let Some(samples) = samples {
         return many(options, &plan, samples, budget);
     }
-    let watch = Progress::new(analyse::settings(&plan, budget)?.budget, "model time");
+    let watch = Progress::staged(1);
+    watch.stage("the motion", [0.0, 1.0], ("of the budget of model time spent", false));
     let verdict = analyse::classify(&plan, budget, &watch);
     watch.finish();
     let Some(verdict) = verdict? else { return Ok(End::Interrupted) };

@@ -17,7 +17,7 @@ use super::search::Search;
 use super::settings::Settings;
 use super::verdict::Verdict;
 use crate::Result;
-use motiform_dynamics::{Equivariant, Watch};
+use motiform_dynamics::{Equivariant, StopOnly, Watch};
 
 /// Classifies the motion that starts from `start`; `None` if `stop` broke off.
 ///
@@ -45,6 +45,7 @@ pub fn classify(
 }
 
 /// As [`classify()`], with the shape that the orbit had when it was decided: one on the motion, or close to it; of a cycle that of a rest.
+/// The watch is told the part of the budget that is spent.
 ///
 /// # Errors
 /// As [`classify()`].
@@ -60,14 +61,15 @@ pub fn settle(
         ask = match ask {
             Ask::Look(span) => {
                 let request = settings.request(orbit.t() + span, body.dim());
+                let part = search.part(span, watch);
                 let mut ends = |seen: &Seen, shape: &[f64]| search.arrives(body, seen, shape);
-                let look = Look::take_until(body, orbit.as_mut(), (span, Some(&mut ends)), &request, watch)?;
-                search.looked(body, look, watch)?
+                let look = Look::take_until(body, orbit.as_mut(), (span, Some(&mut ends)), &request, &part)?;
+                search.looked(body, look, &StopOnly(watch))?
             }
             Ask::Exponent(span) => {
-                let run = chaos::exponent(body, orbit.state(), span, settings, watch)?;
+                let run = chaos::exponent(body, orbit.state(), span, settings, &search.part(span, watch))?;
                 orbit.restart(&run.shape);
-                search.measured(body, &run, watch)?
+                search.measured(body, &run, &StopOnly(watch))?
             }
             Ask::Nothing(verdict) => return Ok(verdict.map(|verdict| (*verdict, search.into_shape()))),
         };

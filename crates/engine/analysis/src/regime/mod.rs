@@ -15,6 +15,7 @@ mod lanes;
 mod lasting;
 mod legs;
 mod look;
+mod moments;
 mod motion;
 mod period;
 mod place;

@@ -3,14 +3,14 @@
 use super::family::within_family;
 use super::heteroclinic::attracting_saddle;
 use super::look::{Extreme, Look, Rest};
+use super::moments::is_a_point;
 use super::place::find_placed;
 use super::settings::Settings;
 use super::shortest::shortest;
 use crate::isotropy::Isotropy;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit, is_small};
 use crate::symmetry::{align, wrap};
-use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, Request, Watch};
+use motiform_dynamics::{Equivariant, Watch};
 
 /// Most returns to the section per period.
 const LONGEST: usize = 48;
@@ -28,9 +28,6 @@ const TRIES: usize = 2;
 /// tries of a look may take this part of its model time, and at least the time of a first look: three or four periods find an orbit,
 /// so every period up to a sixteenth of the look is found.
 const EFFORT: f64 = 0.25;
-
-/// Moments of a period at which the symmetry is looked at.
-const MOMENTS: usize = 8;
 
 /// A return of the reduced orbit to where it was.
 #[derive(Clone, Copy, Debug)]
@@ -141,7 +138,9 @@ pub(super) fn periodic(
         if away < ON && !orbit.is_stable() {
             return Returns::NotStable(Box::new(orbit));
         }
-        if orbit.is_stable() && away < NEAR && is_of_the_flow(body, &orbit, settings, watch) {
+        let is_orbit =
+            || is_of_the_flow(body, &orbit, settings, watch) && !is_a_point(body, &orbit, settings, watch);
+        if orbit.is_stable() && away < NEAR && is_orbit() {
             let (orbit, recurrence) = shortest(body, orbit, recurrence, settings, watch);
             let (orbit, recurrence) = unmirrored(body, orbit, recurrence, settings, watch);
             return Returns::Stable(Box::new(orbit), recurrence);
@@ -207,27 +206,6 @@ fn unmirrored(
         Some(found) => (found, Recurrence { mirrored: false, angle, ..recurrence }),
         None => (orbit, recurrence),
     }
-}
-
-/// The symmetry that every shape of the orbit has: that of some moments, spread over the period. (A zigzag
-/// that rests near a straight motion is nearly symmetric there, and only there.)
-pub(super) fn symmetry_of(
-    body: &dyn Equivariant,
-    orbit: &PeriodicOrbit,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Result<Isotropy, motiform_dynamics::Error> {
-    let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape)?;
-    let mut all = Isotropy::of(body, &orbit.shape, Isotropy::SAME);
-    for moment in 1..MOMENTS {
-        let t = orbit.time * moment as f64 / MOMENTS as f64;
-        drive(flow.as_mut(), &Request { watch, ..settings.request(t, body.dim()) }, &mut ())?;
-        let here = Isotropy::of(body, flow.state(), Isotropy::SAME);
-        all.mirror = all.mirror.filter(|_| here.mirror.is_some());
-        all.circle &= here.circle;
-        all.folds = if all.folds == here.folds { all.folds } else { 1 };
-    }
-    Ok(all)
 }
 
 /// Returns `true` if the orbit is one of the flow, and not of its tolerance: it passes no saddle that

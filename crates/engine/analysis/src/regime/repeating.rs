@@ -2,12 +2,12 @@
 
 use super::course::Direction;
 use super::form::Form;
+use super::moments::common_symmetry;
 use super::motion::Path;
 use super::period::Period;
 use super::settings::Settings;
 use super::verdict::{Regime, Spread};
 use super::words::{NO_TURN, SAMPLES};
-use crate::isotropy::Isotropy;
 use crate::periodic::PeriodicOrbit;
 use motiform_dynamics::{Equivariant, Watch};
 
@@ -53,7 +53,7 @@ pub fn repeating(
     let Some(path) = path else {
         return Err(crate::Error::Shape { what: "the list of nodes", expected: 1, got: 0 });
     };
-    let symmetry = symmetry(body, nodes);
+    let symmetry = common_symmetry(body, nodes);
     let no_turn = NO_TURN.max(settings.accuracy());
     let form = Form::of(&symmetry, orbit, &path, no_turn, body.symmetry());
     let period = Period::of(form, &symmetry, orbit, no_turn);
@@ -66,15 +66,4 @@ pub fn repeating(
     let (period, net_rotation) = (period.time, period.rotation);
     let (speed, size) = (path.speed(), path.largest);
     Ok(Repeating { form, period, net_rotation, speed, turning_rate, direction, size })
-}
-
-/// The symmetry that every node has.
-fn symmetry(body: &dyn Equivariant, nodes: &[Vec<f64>]) -> Isotropy {
-    let all = nodes.iter().map(|node| Isotropy::of(body, node, Isotropy::SAME));
-    let common = |a: Isotropy, b: Isotropy| Isotropy {
-        mirror: a.mirror.filter(|_| b.mirror.is_some()),
-        circle: a.circle && b.circle,
-        folds: if a.folds == b.folds { a.folds } else { 1 },
-    };
-    all.reduce(common).unwrap_or(Isotropy { folds: 1, circle: false, mirror: None })
 }

@@ -19,7 +19,7 @@ use crate::Result;
 use crate::equilibrium::{REACHED, RelativeEquilibrium};
 use crate::linear::norm;
 use crate::periodic::is_small;
-use motiform_dynamics::{Equivariant, Outcome, Watch};
+use motiform_dynamics::{Equivariant, Outcome, Part, Watch};
 
 /// An equilibrium is sought during a look where the reduced shape changes slower than this, against its fastest.
 const SETTLED: f64 = 1e-3;
@@ -106,6 +106,12 @@ impl Search {
     /// The shape that the orbit had when it was last seen; of a cycle that of its last rest.
     pub(super) fn into_shape(self) -> Vec<f64> {
         self.shape
+    }
+
+    /// The watch on the next look or run, a part of the budget.
+    pub(super) fn part<'w>(&self, span: f64, watch: &'w dyn Watch) -> Part<'w> {
+        let [from, to] = [self.time, self.time + span].map(|time| (time / self.budget).min(1.0));
+        Part { watch, from, to }
     }
 
     /// Asks for the next look, of length `span`.

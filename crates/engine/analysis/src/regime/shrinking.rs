@@ -5,6 +5,7 @@
 //! with what the multipliers say.
 
 use super::look::{Extreme, Look};
+use super::moments::is_a_point;
 use super::place::find_placed;
 use super::recurrence::Recurrence;
 use super::returns;
@@ -62,7 +63,8 @@ pub(super) fn shrinking_onto(
     if last.len() < RETURNS.0 {
         return None;
     }
-    let (orbit, recurrence) = inside(body, last, settings, watch).filter(|(orbit, _)| orbit.is_stable())?;
+    let is_orbit = |orbit: &PeriodicOrbit| orbit.is_stable() && !is_a_point(body, orbit, settings, watch);
+    let (orbit, recurrence) = inside(body, last, settings, watch).filter(|(orbit, _)| is_orbit(orbit))?;
     let centre = minimum_of(body, &orbit, last[last.len() - 1], settings, watch)?;
     let step = if recurrence.mirrored { 2 * recurrence.returns } else { recurrence.returns };
     let sizes: Vec<(f64, f64)> = last

@@ -3,9 +3,10 @@
 use super::course::Direction;
 use super::form::Form;
 use super::heteroclinic::Cycle;
+use super::moments::symmetry_of;
 use super::motion::Path;
 use super::period::Period;
-use super::recurrence::{Recurrence, symmetry_of};
+use super::recurrence::Recurrence;
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Spread, Verdict};
 use crate::equilibrium::RelativeEquilibrium;

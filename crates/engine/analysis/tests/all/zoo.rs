@@ -8,6 +8,7 @@ use common::{ORDINARY, named, near};
 use motiform_analysis::regime::Settings;
 use motiform_analysis::{Attractor, Verdict};
 use motiform_dynamics::{Equivariant, Scalar, VectorField};
+use motiform_models::amplitudes::{self, Definition, ParameterDefinition};
 use motiform_models::zoo::{Heteroclinic, Hopf, Linear, Lorenz, Rossler, Torus, VanDerPol};
 
 fn number(system: &str, key: &str) -> f64 {
@@ -140,5 +141,32 @@ fn linear_flows_contract_or_escape() {
         let t = seen.escape_time.unwrap();
         near(t, 138.0, 12.0);
         assert!(!seen.why.contains("singular"), "{}", seen.why);
+    }
+}
+
+/// `x' = mu - x^2, y' = -y` beside a variable that decays a million times more slowly: once x rests, its changes are the errors of steps,
+/// which swing, and come back to their section as an orbit does.
+#[test]
+fn errors_of_steps_are_no_orbit() {
+    let parameters = [("mu", 0.5), ("B", 1e-6)];
+    let info = amplitudes::info(&Definition {
+        modes: vec![2, 3],
+        velocity: Some("z2".to_owned()),
+        symmetry: Some("none".to_owned()),
+        parameters: parameters.map(|(name, value)| ParameterDefinition::new(name, value)).to_vec(),
+        equations: ["mu-re(z2)^2-i*im(z2)", "-B*re(z3)-i*B*im(z3)"].map(str::to_owned).to_vec(),
+        noise: std::collections::BTreeMap::new(),
+    })
+    .unwrap();
+    for (slow, start) in
+        [(1e-6, [0.1, 0.2, 0.01, 0.01]), (1e-6, [0.1, 0.0, 0.5, 0.0]), (1e-4, [0.1, 0.2, 0.01, 0.01])]
+    {
+        let values = [0.5, slow];
+        let body = info.build(&values).unwrap();
+        let settings =
+            Settings { first_look: info.look_at(&values), budget: info.budget_at(&values), ..ORDINARY };
+        let seen = named(body.as_ref(), &start, &settings);
+        assert_eq!(seen.attractor, Attractor::Equilibrium, "{slow} {start:?}: {}", seen.why);
+        near(seen.exponents[0].value, -slow, 1e-6 * slow);
     }
 }

@@ -268,10 +268,11 @@ impl Found<'_> {
         })
     }
 
-    /// -1 if the velocity is a vector where `z_n` turns by `exp(-i n angle)`, otherwise 1.
+    /// -1 if the velocity is a vector where `z_n` turns by `exp(-i n angle)`, otherwise 1. A term that is 0 has no index.
     fn sense(&self) -> i8 {
-        let first = self.velocity.0.keys().next();
-        let index = first.map_or(-1, |monomial| monomial.angular_index(&self.definition.modes));
+        let first =
+            self.velocity.0.iter().find(|(_, coefficient)| self.tape.number(**coefficient) != Some(0.0));
+        let index = first.map_or(-1, |(monomial, _)| monomial.angular_index(&self.definition.modes));
         if index > 0 { 1 } else { -1 }
     }
 

@@ -283,3 +283,23 @@ fn a_look_lasts_as_the_slow_amplitudes_ask() {
     };
     assert_eq!([shifted(3.0), shifted(50.0)], [200.0, 200.0]);
 }
+
+/// A velocity whose terms are 0 says nothing about the sense in which amplitudes turn.
+#[test]
+fn a_velocity_of_zero_leaves_the_sense_of_rotations() {
+    let turned = |velocity: Option<&str>| {
+        let text = Definition {
+            velocity: velocity.map(str::to_owned),
+            ..definition(&[1, 2], &["-z1", "(1+0.5*i-|z2|^2)*z2"], &[])
+        };
+        let model = info(&text).unwrap().build(&[]).unwrap();
+        let mut shape = vec![0.1, 0.2, 0.3, -0.4];
+        model.rotate(0.3, &mut shape);
+        shape
+    };
+    let usual = turned(None);
+    for velocity in ["conj(z1)", "0*z2", "0*z2*z1", "0*conj(z1)"] {
+        assert!(largest(&turned(Some(velocity)), &usual) < 1e-15, "{velocity}");
+    }
+    assert!(largest(&turned(Some("z1")), &usual) > 0.1);
+}

@@ -5,11 +5,15 @@ use crate::atlas::line::{CrossingKind, Line, LineEnd, StabilityCurve};
 use crate::branches::draw::curve_stretches;
 use motiform_analysis::Regime;
 use motiform_study::AtlasPlan;
+use motiform_study::curves::CurveKind;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// A curve explains an edge that it passes within so many cells.
-const REACH: f64 = 1.0;
+/// The first period doubling of a cascade explains an edge beside chaos that it passes within so many cells.
+const REACH_OF_CASCADES: f64 = 1.0;
+
+/// Part of the distance between two cells by which the place where a curve passes between them may be off.
+const OFF: f64 = 0.02;
 
 /// An end of a branch explains the edges of its motion within so many cells.
 const REACH_OF_ENDS: f64 = 2.5;
@@ -51,6 +55,17 @@ impl Edge {
     /// Its middle, in units of cells.
     pub(crate) fn centre(self, grid: &Grid) -> [f64; 2] {
         self.middle(grid).map(|half| 0.5 * half as f64)
+    }
+
+    /// Returns `true` if a curve passes between the two cells.
+    fn is_passed(self, grid: &Grid, points: &[[f64; 2]]) -> bool {
+        let [along, across] = [self.side, 1 - self.side];
+        let centre = self.centre(grid);
+        points.windows(2).any(|pair| {
+            let [from, to] = [0, 1].map(|end| [along, across].map(|side| pair[end][side] - centre[side]));
+            let part = from[1] / (from[1] - to[1]);
+            (0.0..=1.0).contains(&part) && (from[0] + part * (to[0] - from[0])).abs() <= 0.5 + OFF
+        })
     }
 
     fn pair(self, labels: &[Vec<Regime>]) -> Pair {
@@ -116,6 +131,8 @@ pub(crate) struct Atlas {
 /// A part of a curve that bounds a motion.
 struct Stretch {
     motion: Regime,
+    /// `true` for period doublings.
+    doubles: bool,
     label: String,
     points: Vec<[f64; 2]>,
 }
@@ -126,7 +143,8 @@ impl Atlas {
         for StabilityCurve { motion, curve } in lines.iter().flat_map(|line| &line.curves) {
             for stretch in curve_stretches(curve).into_iter().filter(|stretch| stretch.bounds) {
                 let points = stretch.points.iter().map(|at| grid.units(plan, *at)).collect();
-                found.stretches.push(Stretch { motion: *motion, label: stretch.label, points });
+                let doubles = curve.kind == CurveKind::PeriodDoubling;
+                found.stretches.push(Stretch { motion: *motion, doubles, label: stretch.label, points });
             }
         }
         for LineEnd { at, kind, motion } in lines.iter().flat_map(|line| &line.ends) {
@@ -135,13 +153,17 @@ impl Atlas {
         found
     }
 
-    /// The bifurcation of a motion that only one side of an edge has: the nearest curve, or else the nearest end of a branch.
+    /// The bifurcation of a motion that only one side of an edge has: the nearest curve that passes between its cells, or else the
+    /// nearest end of a branch. The doublings of a cascade accumulate: beside chaos the first one stands for all.
     pub(crate) fn name<'s>(&'s self, grid: &Grid, labels: &[Vec<Regime>], edge: Edge) -> Option<&'s str> {
         let (at, between) = (edge.centre(grid), differing(&edge.pair(labels)));
         let own = |motion: &Regime| between.contains(motion);
-        let curves = self.stretches.iter().filter(|stretch| own(&stretch.motion)).map(|stretch| {
+        let chaos = own(&Regime::Chaotic);
+        let curves = self.stretches.iter().filter(|stretch| own(&stretch.motion)).filter_map(|stretch| {
             let off = stretch.points.windows(2).map(|pair| distance(at, [pair[0], pair[1]]));
-            (off.fold(f64::INFINITY, f64::min), stretch.label.as_str())
+            let off = off.fold(f64::INFINITY, f64::min);
+            let begins_chaos = chaos && stretch.doubles && off <= REACH_OF_CASCADES;
+            (begins_chaos || edge.is_passed(grid, &stretch.points)).then_some((off, stretch.label.as_str()))
         });
         let ends =
             self.ends.iter().filter(|end| own(&end.0)).map(|end| (distance(at, [end.2; 2]), end.1.as_str()));
@@ -149,7 +171,7 @@ impl Atlas {
             Some(known) if known.0 <= one.0 => best,
             _ => Some(one),
         };
-        let curve = curves.filter(|one| one.0 <= REACH).fold(None, closer);
+        let curve = curves.fold(None, closer);
         let found = curve.or_else(|| ends.filter(|one| one.0 <= REACH_OF_ENDS).fold(None, closer));
         found.map(|one| one.1)
     }
@@ -277,6 +299,29 @@ mod tests {
         let line = grid(&["sscss", "sscss", "sscss"]);
         let labels = line.labels();
         assert!([2, 7, 12].iter().all(|&cell| labels[cell] == [Regime::Circular]), "{labels:?}");
+    }
+
+    /// A window that is narrower than a cell has two curves: the one on its other side is no end of it towards this neighbour.
+    #[test]
+    fn a_curve_beyond_a_cell_does_not_bound_it() {
+        let grid = grid(&["scc", "scc", "scc"]);
+        let labels = grid.labels();
+        let known = |x: f64, label: &str| Stretch {
+            motion: Regime::Circular,
+            doubles: label == "doubling",
+            label: label.to_owned(),
+            points: vec![[x, -1.0], [x, 0.5], [x, 3.0]],
+        };
+        let name = |stretches: Vec<Stretch>, row: usize| {
+            let edge = Edge { cells: [3 * row, 3 * row + 1], side: 0 };
+            Atlas { stretches, ends: Vec::new() }.name(&grid, &labels, edge).map(str::to_owned)
+        };
+        for row in 0..3 {
+            assert_eq!(name(vec![known(1.3, "doubling")], row), None);
+            assert_eq!(name(vec![known(1.3, "doubling"), known(0.9, "breaking")], row).unwrap(), "breaking");
+            assert_eq!(name(vec![known(0.1, "breaking")], row).unwrap(), "breaking");
+            assert_eq!(name(vec![known(-0.1, "breaking")], row), None);
+        }
     }
 
     #[test]

@@ -45,7 +45,7 @@ pub fn html(folder: &AtlasFolder, style: &Style) -> Result<String, Error> {
         },
         Section {
             title: "Boundaries".to_owned(),
-            about: "Edges of neighbouring cells with different motions, and the bifurcations that pass within one cell of them.".to_owned(),
+            about: "Edges of neighbouring cells with different motions, and the bifurcations between them.".to_owned(),
             tables: vec![boundary_table(folder)],
             ..Section::default()
         },

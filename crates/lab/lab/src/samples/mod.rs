@@ -58,7 +58,7 @@ pub fn classify(
     let body = Body { info, values, model: population.model.as_ref() };
     population.run(|asked| match kernel {
         Some(kernel) => classify_in_lanes(plan, kernel, &settings, asked),
-        None => asked.one_by_one(|start| body.classify(start, &settings, watch)),
+        None => asked.one_by_one(|start| body.classify(start, &settings, &StopOnly(watch))),
     })
 }
 

@@ -3,7 +3,7 @@
 use super::{ScanPlan, lanes};
 use crate::analyse::{Body, settings_of};
 use motiform_analysis::regime::Verdict;
-use motiform_dynamics::Watch;
+use motiform_dynamics::{StopOnly, Watch};
 use motiform_study::Error;
 
 /// Receives verdicts, each with its cell and initial state.
@@ -70,7 +70,7 @@ impl Evaluate for Classify {
         let (info, values) = (plan.info()?, plan.parameters_of(cell)?);
         let settings = settings_of((info, &values), plan.method()?, c.control, bounds, c.budget);
         let body = Body { info, values, model: model.as_ref() };
-        body.classify(&start, &settings, stop)
+        body.classify(&start, &settings, &StopOnly(stop))
     }
 
     /// In the lanes of vector registers, if there are such kernels for the model and the method.

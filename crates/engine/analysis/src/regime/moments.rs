@@ -1,0 +1,68 @@
+//! Shapes of a periodic orbit at moments that are spread over its period.
+
+use super::settings::Settings;
+use crate::isotropy::Isotropy;
+use crate::linear::norm;
+use crate::periodic::PeriodicOrbit;
+use crate::symmetry::align;
+use motiform_dynamics::drive::drive;
+use motiform_dynamics::{Equivariant, Request, Watch};
+
+/// Moments of a period.
+const MOMENTS: usize = 8;
+
+/// The symmetry that every shape of the orbit has: that of some moments, spread over the period. (A zigzag
+/// that rests near a straight motion is nearly symmetric there, and only there.)
+pub(super) fn symmetry_of(
+    body: &dyn Equivariant,
+    orbit: &PeriodicOrbit,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Result<Isotropy, motiform_dynamics::Error> {
+    let shapes = moments(body, orbit, settings, watch)?;
+    Ok(common_symmetry(body, std::iter::once(&orbit.shape).chain(&shapes)))
+}
+
+/// The symmetry that every one of these shapes has.
+pub(super) fn common_symmetry<'s>(
+    body: &dyn Equivariant,
+    shapes: impl IntoIterator<Item = &'s Vec<f64>>,
+) -> Isotropy {
+    let all = shapes.into_iter().map(|shape| Isotropy::of(body, shape, Isotropy::SAME));
+    let common = |a: Isotropy, b: Isotropy| Isotropy {
+        mirror: a.mirror.filter(|_| b.mirror.is_some()),
+        circle: a.circle && b.circle,
+        folds: if a.folds == b.folds { a.folds } else { 1 },
+    };
+    all.reduce(common).unwrap_or(Isotropy { folds: 1, circle: false, mirror: None })
+}
+
+/// Shapes at moments that are spread over the period, after the first one.
+fn moments(
+    body: &dyn Equivariant,
+    orbit: &PeriodicOrbit,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Result<Vec<Vec<f64>>, motiform_dynamics::Error> {
+    let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape)?;
+    (1..MOMENTS)
+        .map(|moment| {
+            let t = orbit.time * moment as f64 / MOMENTS as f64;
+            drive(flow.as_mut(), &Request { watch, ..settings.request(t, body.dim()) }, &mut ())?;
+            Ok(flow.state().to_vec())
+        })
+        .collect()
+}
+
+/// Returns `true` if the orbit is an equilibrium within the errors of the steps: these swing, too, and a deviation that decays more slowly
+/// than they do comes back to its section.
+pub(super) fn is_a_point(
+    body: &dyn Equivariant,
+    orbit: &PeriodicOrbit,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> bool {
+    let least = settings.hovering() * norm(&orbit.shape);
+    let near = |shape: &Vec<f64>| align(body, shape, &orbit.shape, false).distance <= least;
+    moments(body, orbit, settings, watch).is_ok_and(|shapes| shapes.iter().all(near))
+}
