@@ -7,7 +7,7 @@ use super::normal_form::{NormalForm, Order};
 use super::passages::Passages;
 use super::point::{Motion, Obstruction};
 use super::special::{Broken, Special};
-use motiform_analysis::{Error, RelativeEquilibrium};
+use motiform_analysis::Error;
 use motiform_dynamics::{Equivariant, Watch};
 use nalgebra::DMatrix;
 
@@ -136,8 +136,8 @@ pub(super) trait Problem: Equations {
         None
     }
 
-    /// The relative equilibrium that an orbit passes closest by.
-    fn saddle(&self, _x: &[f64], _local: &Self::Local) -> Option<Saddle> {
+    /// The relative equilibrium that an orbit passes closest by, at this value of the parameter.
+    fn saddle(&self, _x: &[f64], _local: &Self::Local, _parameter: f64) -> Option<Saddle> {
         None
     }
 
@@ -148,9 +148,4 @@ pub(super) trait Problem: Equations {
 
     /// The leading coefficient of the normal form at a special point; `doubled` where that of orbits of twice the time is meant.
     fn normal_form(&self, x: &[f64], order: Order, doubled: bool) -> NormalForm;
-
-    /// The relative equilibrium at another value of the parameter, near the place where an orbit is slowest.
-    fn equilibrium(&self, _x: &[f64], _local: &Self::Local, _parameter: f64) -> Option<RelativeEquilibrium> {
-        None
-    }
 }

@@ -33,6 +33,9 @@ const FINE: f64 = 100.0;
 /// shrinking steps do not come back to the same place.
 const SHORTER: f64 = 0.35;
 
+/// Steps from one fold to the next one beside a saddle-focus.
+const PER_FOLD: f64 = 4.0;
+
 /// Least cosine of the angle between successive tangents.
 const STRAIGHT: f64 = 0.9;
 
@@ -40,6 +43,7 @@ impl<P: Problem> Tracer<P> {
     /// The next solution and the length of the step to it.
     pub(super) fn reach(&mut self, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), End> {
         loop {
+            self.step = self.step.min(self.longest()).max(self.settings.smallest_step);
             let length = self.step;
             let why = match self.attempt(length, watch) {
                 Ok((place, first)) => {
@@ -57,6 +61,12 @@ impl<P: Problem> Tracer<P> {
                 return Err(End::StepUnderflow { step: length, why });
             }
         }
+    }
+
+    /// The longest step over which the folds of a branch beside a saddle-focus are seen.
+    fn longest(&self) -> f64 {
+        let Some((time, half_turn)) = self.problem.time().zip(self.half_turn) else { return f64::INFINITY };
+        half_turn / (PER_FOLD * self.place.tangent[time].abs())
     }
 
     pub(super) fn attempt(&self, length: f64, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), Failure> {

@@ -60,6 +60,8 @@ pub(super) struct Tracer<P: Problem> {
     pub(super) count: usize,
     end: Option<End>,
     pub(super) periods: Periods,
+    /// Beside a saddle-focus, the time between the folds of the branch.
+    pub(super) half_turn: Option<f64>,
     /// Special points handed out: unknowns, tangents, names, and the number of points before them.
     passed: Vec<(Vec<f64>, Vec<f64>, &'static str, usize)>,
 }
@@ -124,6 +126,7 @@ impl<P: Problem> Tracer<P> {
             count: 0,
             end: None,
             periods: Periods::default(),
+            half_turn: None,
             passed: Vec::new(),
         };
         let first = tracer.point(&tracer.place, None);

@@ -60,8 +60,9 @@ const BRANCHES: [&str; 25] = [
 ];
 
 /// Keys of the special points of branches, beside those of [`BRANCHES`]: the parameter is one more of them.
-const SPECIAL: [&str; 23] = [
+const SPECIAL: [&str; 26] = [
     "amplitude",
+    "amplitude_error",
     "attraction",
     "breaks",
     "coefficient",
@@ -78,9 +79,11 @@ const SPECIAL: [&str; 23] = [
     "on",
     "others",
     "rate",
+    "rate_error",
     "remaining",
     "saddle",
     "saddle_quantity",
+    "saddle_quantity_error",
     "saddles",
     "test",
     "undecided",

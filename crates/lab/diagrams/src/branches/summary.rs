@@ -282,9 +282,13 @@ fn put_connection(object: &mut Map<String, Value>, connection: &Connection) {
     numbers.iter().for_each(|(name, number)| {
         put(name, (*number).into());
     });
+    if let [(name, _)] = numbers {
+        put(&format!("{name}_error"), connection.law_error.into());
+    }
     put("remaining", connection.remaining.into());
     if let Some(quantity) = connection.quantity() {
         put("saddle_quantity", quantity.into());
+        put("saddle_quantity_error", connection.quantity_error().into());
     }
     if let Some([grows, decays]) = connection.sides() {
         put("leading_growing", json!(grows));
@@ -314,6 +318,7 @@ fn passed(passed: &Passed) -> Value {
     object["leading_growing"] = json!(passed.sides[0]);
     object["leading_decaying"] = json!(passed.sides[1]);
     object["saddle_quantity"] = passed.quantity().into();
+    object["saddle_quantity_error"] = passed.quantity_error().into();
     object["share"] = passed.share.into();
     object
 }
