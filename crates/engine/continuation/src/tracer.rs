@@ -62,6 +62,8 @@ pub(super) struct Tracer<P: Problem> {
     pub(super) periods: Periods,
     /// Beside a saddle-focus, the time between the folds of the branch.
     pub(super) half_turn: Option<f64>,
+    /// The last special point that was handed out, if it is a fold: its parameter and the error.
+    fold: Option<(f64, f64)>,
     /// Special points handed out: unknowns, tangents, names, and the number of points before them.
     passed: Vec<(Vec<f64>, Vec<f64>, &'static str, usize)>,
 }
@@ -127,6 +129,7 @@ impl<P: Problem> Tracer<P> {
             end: None,
             periods: Periods::default(),
             half_turn: None,
+            fold: None,
             passed: Vec::new(),
         };
         let first = tracer.point(&tracer.place, None);
@@ -280,10 +283,27 @@ impl<P: Problem> Tracer<P> {
                 .map(|last: f64| 0.5 * (last + at.arclength) - self.place.arclength)
                 .and_then(|s| between(&self.problem, &step, s, watch).ok());
             last = Some(at.arclength);
+            let special = self.decided(&at, special);
             self.passed.push((at.x.clone(), at.tangent.clone(), special.name(), self.count));
             let points =
                 [middle.map(|middle| self.point(&middle, None)), Some(self.point(&at, Some(special)))];
             self.queue.extend(points.into_iter().flatten());
+        }
+    }
+
+    /// The special point as it is, or undecided: a fold where since the last one the parameter has not changed by more than the errors of
+    /// both may be that of round-off.
+    fn decided(&mut self, at: &Place<P::Local>, special: Special) -> Special {
+        if special != Special::Fold {
+            self.fold = None;
+            return special;
+        }
+        let (place, error) = (at.parameter(), at.certificate.map_or(0.0, |shown| shown.error));
+        match self.fold.replace((place, error)) {
+            Some((from, before)) if (place - from).abs() <= error + before => {
+                Special::Unresolved { seen: special.name(), from, to: place }
+            }
+            _ => special,
         }
     }
 

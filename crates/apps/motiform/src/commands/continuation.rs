@@ -261,6 +261,9 @@ fn six(found: Coefficient) -> String {
 /// An error below this one is not shown: all nine decimals are right.
 const SHOWN: f64 = 5e-10;
 
+/// The same of periods, with six decimals.
+const SHOWN_OF_PERIODS: f64 = 5e-7;
+
 fn line(special: &SpecialEntry, units: &Shown) -> String {
     let value = match special.error {
         Some(error) if error > SHOWN => stated(special.parameter, error),
@@ -272,8 +275,11 @@ fn line(special: &SpecialEntry, units: &Shown) -> String {
     } else {
         String::new()
     };
-    let period =
-        special.period.map(|period| format!("period {:.6}{unit}", period * units.factor(PERIOD.dimension)));
+    let factor = units.factor(PERIOD.dimension);
+    let period = special.period.map(|period| match special.period_error.map(|error| error * factor) {
+        Some(error) if error > SHOWN_OF_PERIODS => format!("period {}{unit}", stated(period * factor, error)),
+        _ => format!("period {:.6}{unit}", period * factor),
+    });
     let words = special.criticality.map(|word| match &special.undecided {
         Some(why) => format!("{word} ({why})"),
         None => word.to_owned(),

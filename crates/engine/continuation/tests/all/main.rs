@@ -1,5 +1,6 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
+mod canards;
 mod classics;
 mod codimension_2;
 #[path = "../../../analysis/tests/all/common/mod.rs"]

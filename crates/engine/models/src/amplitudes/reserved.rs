@@ -60,7 +60,7 @@ const BRANCHES: [&str; 25] = [
 ];
 
 /// Keys of the special points of branches, beside those of [`BRANCHES`]: the parameter is one more of them.
-const SPECIAL: [&str; 26] = [
+const SPECIAL: [&str; 27] = [
     "amplitude",
     "amplitude_error",
     "attraction",
@@ -78,6 +78,7 @@ const SPECIAL: [&str; 26] = [
     "normal_form",
     "on",
     "others",
+    "period_error",
     "rate",
     "rate_error",
     "remaining",
