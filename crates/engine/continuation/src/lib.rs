@@ -40,6 +40,7 @@ mod dip;
 mod elimination;
 mod ends;
 mod equilibria;
+mod families;
 mod family;
 mod homoclinic;
 mod hopf;

@@ -1,6 +1,7 @@
 //! Steps along a branch.
 
 use super::correct::{correct, normal, product};
+use super::families::holds;
 use super::levels::Level;
 use super::place::{Before, Place, place};
 use super::point::{End, Obstruction};
@@ -76,7 +77,7 @@ impl<P: Problem> Tracer<P> {
         let guess = self.guess(length, &weights);
         let found = correct(&self.problem, guess, &row, self.settings.tolerance, watch)?;
         let first = found.first;
-        if first > ASTRAY * length {
+        if first > ASTRAY * length || !holds(&self.problem, &found, self.settings.tolerance) {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
         let mut new = place(&self.problem, found, &row, old.arclength + length)?;

@@ -206,6 +206,14 @@ fn branch(
         let [last, first] = [pair[0].to, pair[1].from].map(nine);
         write!(f, "\n           becomes {} between {last} and {first}", pair[1].motion.name())?;
     }
+    if followed.family() > 0 {
+        let dimensions = counted(followed.family(), "dimension");
+        write!(
+            f,
+            "\n           each motion is one of a family of {dimensions} with the same parameters (has the model a symmetry that it"
+        )?;
+        write!(f, " does not state?): stability is that of the family")?;
+    }
     let stable = stretches(&folder.found, followed);
     let neutral = neutral_stretches(followed);
     for [from, to] in &neutral {

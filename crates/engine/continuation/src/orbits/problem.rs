@@ -4,12 +4,12 @@ use super::{Local, Orbits, reduced_rates};
 use crate::allowance::Allowance;
 use crate::classes::{Classes, GAINED};
 use crate::homoclinic::Saddle;
-use crate::levels::Level;
+use crate::levels::{ALONG_FAMILY, Level, across_family};
 use crate::normal_form::{NormalForm, Order};
 use crate::normal_forms::of_orbit;
 use crate::passages::Passages;
 use crate::point::Motion;
-use crate::problem::Problem;
+use crate::problem::{Border, Problem};
 use crate::reduced_maps::reduced_maps;
 use crate::shooting::shape_after;
 use crate::special::{Broken, Special};
@@ -42,7 +42,21 @@ impl Problem for Orbits<'_> {
         if maps.iter().flatten().any(|map| !map.is_square()) {
             return None;
         }
-        maps.iter().map(|maps| logarithms_of_product(maps).map(|v| Level::of_pairs(&v))).collect()
+        let all: Option<Vec<Vec<Level>>> =
+            maps.iter().map(|maps| logarithms_of_product(maps).map(|v| Level::of_pairs(&v))).collect();
+        all.map(|levels| across_family(levels, self.family.len()))
+    }
+
+    fn borders(&self) -> Vec<Border> {
+        self.family.clone()
+    }
+
+    fn set_family(&mut self, borders: Vec<Border>) {
+        self.family = borders;
+    }
+
+    fn family(&self) -> usize {
+        self.family.len()
     }
 
     fn accuracy(&self) -> f64 {
@@ -76,7 +90,8 @@ impl Problem for Orbits<'_> {
             let modulus = libm::exp(level.growth);
             (modulus * cos, if level.angle.abs() == std::f64::consts::PI { 0.0 } else { modulus * sin })
         };
-        let mut all: Vec<&Level> = levels.iter().flatten().collect();
+        let along = std::iter::repeat_n(&ALONG_FAMILY, self.family.len());
+        let mut all: Vec<&Level> = levels.iter().flatten().chain(along).collect();
         all.sort_by(|a, b| b.growth.total_cmp(&a.growth).then(b.angle.total_cmp(&a.angle)));
         let orbit = PeriodicOrbit {
             shape: nodes[0].clone(),

@@ -9,4 +9,5 @@ mod connections;
 mod curves;
 mod ends;
 mod equilibria;
+mod families;
 mod flat;

@@ -118,6 +118,9 @@ fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Follo
     if !neutral.is_empty() {
         put("neutral", json!(neutral));
     }
+    if followed.family() > 0 {
+        put("family", followed.family().into());
+    }
     put("special", special.into());
     put("end", ends.last().cloned().unwrap_or_default().into());
     put("ends", json!(ends));
