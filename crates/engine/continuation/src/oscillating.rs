@@ -17,8 +17,8 @@ const FOLDS: usize = 3;
 const AGREE: f64 = 0.1;
 
 impl Periods {
-    /// The connection with a saddle-focus ahead, where a parameter of this unit has converged to [`NEAR`] over the last [`HALF_TURNS`] of its
-    /// leading pair `+-rate +- i frequency`, and there is
+    /// The connection with a saddle-focus ahead, where a parameter of this unit has converged to [`NEAR`] over the last [`HALF_TURNS`] of
+    /// its leading pair `+-rate +- i frequency`, and there is
     ///
     /// `p = p0 + exp(-rate T) (a cos(frequency T) + b sin(frequency T))`
     ///

@@ -36,8 +36,8 @@ pub(super) struct Linear {
     pub(super) family: Vec<Border>,
 }
 
-/// A direction along which solutions form a family: one row more, `row . dx = 0`, and one unknown more, a multiple of the combination `left`
-/// of the equations, which depend on each other there. At solutions that unknown is 0.
+/// A direction along which solutions form a family: one row more, `row . dx = 0`, and one unknown more, a multiple of the combination
+/// `left` of the equations, which depend on each other there. At solutions that unknown is 0.
 ///
 /// Source: Munoz-Almaraz, Freire, Galan, Doedel and Vanderbauwhede (2003), Physica D 181, 1 (there of conserved quantities).
 #[derive(Clone, Debug)]
