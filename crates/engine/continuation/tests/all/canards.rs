@@ -58,3 +58,14 @@ fn folds_of_mirror_images_within_canard_explosions_have_the_same_period() {
         assert!(a.2.time_error < 1e-3 * a.1, "{a:?}");
     }
 }
+
+/// Far from 1 a multiplier excludes a fold, whatever the sign of a slope of round-off.
+#[test]
+fn where_a_multiplier_is_far_from_1_there_is_no_fold() {
+    let points = orbits(0.001, &Settings::over(-0.5, 2.0), true, 400);
+    assert!(points.len() > 200, "{}", points.len());
+    for point in points.iter().filter(|point| point.special.is_some()) {
+        let multiplier = point.motion.orbit().unwrap().multipliers[0].0;
+        assert!((multiplier - 1.0).abs() < 1e-3, "{multiplier:e} {:?}", point.special);
+    }
+}
