@@ -105,13 +105,21 @@ impl<P: Problem> Stretch<'_, P> {
         for class in 0..self.low.1.levels.len() {
             self.add_class(class, out);
         }
-        if out.len() == before && is_level(self.problem, self.step) {
-            return; // where a branch turns back a level vanishes as well
+        // where a branch turns back a level vanishes as well: where the slope is that of round-off the level tells the place
+        if is_level(self.problem, self.step) && out[before..].iter().all(|found| self.is_fold(found)) {
+            return;
         }
         match self.bracket(Test::Slope) {
             Some(bracket) => out.push(bracket),
             None => self.twice(&|slope, _| number(slope), &[Test::Slope], out),
         }
+    }
+
+    /// Returns `true` if the level that changes its sign is one that vanishes where a branch turns back.
+    fn is_fold(&self, found: &Bracket) -> bool {
+        let Test::Level(class, rank) = found.test else { return false };
+        let real = |place: &Place<P::Local>| place.levels[class][rank].angle == 0.0;
+        class == 0 && (real(self.low.1) || real(self.high.1))
     }
 
     fn bracket(&self, test: Test) -> Option<Bracket> {
@@ -246,9 +254,9 @@ fn number(value: f64) -> Number {
 /// branch goes on.
 const LEVEL: f64 = 10.0;
 
-/// Returns `true` if the parameter of orbits hardly changes over a step.
+/// Returns `true` if the parameter of orbits hardly changes at an end of a step: a sign of the slope there may be that of round-off.
 fn is_level<P: Problem>(problem: &P, step: &Step<'_, P::Local>) -> bool {
-    let slope = step.old.slope().abs().max(step.new.slope().abs());
+    let slope = step.old.slope().abs().min(step.new.slope().abs());
     let width = problem.weights(&step.old.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
     problem.time().is_some() && slope < LEVEL * problem.accuracy() * width
 }

@@ -175,6 +175,7 @@ pub(super) fn shoot_nodes<'f>(
         size: nodes.iter().map(|node| norm(node)).fold(0.0, f64::max),
         length: units.length,
         widths: widths.to_vec(),
+        family: Vec::new(),
     };
     let mut x = nodes.concat();
     x.push(orbit.time);

@@ -26,6 +26,9 @@ pub struct Certificate {
     pub transversality: f64,
     /// Bound of the error of the parameter: from the residual, from the errors of the test function and of Newton's method.
     pub error: f64,
+    /// The same for the time of an orbit ([`motiform_analysis::PeriodicOrbit::time`]); 0 for steady motions.
+    #[serde(default)]
+    pub time_error: f64,
     /// The leading coefficient of the normal form, where the point is one at which it says what begins. (That of a Hopf bifurcation is in
     /// [`super::Hopf`].)
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -45,13 +48,20 @@ pub(super) struct Passing {
 
 impl Certificate {
     /// The certificate of the point `at`, from the solution `beside` it. The test function has the error `noise`, the parameter of each
-    /// solution the error `solved`.
-    pub(super) fn of(test: TestFunction, at: Passing, beside: Passing, noise: f64, solved: f64) -> Self {
+    /// solution the error `solved`; a time changes by `time` with the length along the branch.
+    pub(super) fn of(
+        test: TestFunction,
+        (at, time): (Passing, f64),
+        beside: Passing,
+        noise: f64,
+        solved: f64,
+    ) -> Self {
         let by = |change: f64| change / (beside.s - at.s);
         let (transversality, bend) = (by(beside.value - at.value), by(beside.slope - at.slope));
         let off = (at.value.abs() + noise) / transversality.abs();
         let error = off * (at.slope.abs() + 0.5 * bend.abs() * off) + solved;
-        Self { test, residual: at.value, transversality, error, normal_form: None }
+        let time_error = off * time.abs();
+        Self { test, residual: at.value, transversality, error, time_error, normal_form: None }
     }
 }
 
@@ -63,16 +73,17 @@ mod tests {
     fn the_error_at_a_fold_is_of_second_order() {
         // p = s^2, found at s = 1e-6
         let passing = |s: f64| Passing { s, value: 2.0 * s, slope: 2.0 * s };
-        let found = Certificate::of(TestFunction::Slope, passing(1e-6), passing(1e-3), 0.0, 0.0);
+        let found = Certificate::of(TestFunction::Slope, (passing(1e-6), 2.0), passing(1e-3), 0.0, 0.0);
         assert!((found.transversality - 2.0).abs() < 1e-9);
         assert!(found.error >= 1e-12 && found.error < 4e-12, "{found:?}");
+        assert!((found.time_error - 2e-6).abs() < 1e-9, "{found:?}");
     }
 
     #[test]
     fn the_error_of_a_growth_is_its_distance() {
         // growth 3 (s - 1), p = 5 s, found at s = 1.001
         let passing = |s: f64| Passing { s, value: 3.0 * (s - 1.0), slope: 5.0 };
-        let found = Certificate::of(TestFunction::Growth, passing(1.001), passing(1.1), 0.0, 1e-9);
+        let found = Certificate::of(TestFunction::Growth, (passing(1.001), 0.0), passing(1.1), 0.0, 1e-9);
         assert!((found.error - 5e-3).abs() < 1e-6, "{found:?}");
     }
 }

@@ -90,10 +90,16 @@ pub(super) fn directions(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
     seen(linear, weights).into_iter().map(|one| one.1).collect()
 }
 
-/// Directions that the equations do not see where branches cross, at least two; empty where one branch is alone. The unseen parts are
+/// Directions that the equations do not see where branches cross, at least two beside those of a family; empty where one branch is alone.
+pub(super) fn crossing(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
+    let found = unseen(linear, weights);
+    if found.len() > 1 + linear.family.len() { found } else { Vec::new() }
+}
+
+/// Directions that the equations do not see, where there are two at least; empty where there is one. The unseen parts are
 /// told from the others by the widest gap between them: a part that would be small beside the rates of fast modes is large beside those of
 /// slow ones.
-pub(super) fn crossing(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
+pub(super) fn unseen(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
     let all = seen(linear, weights);
     let round_off = all.last().map_or(0.0, |last| f64::EPSILON * last.0);
     let gap = |count: usize| all.get(count).map_or(0.0, |next| next.0 / all[count - 1].0.max(round_off));

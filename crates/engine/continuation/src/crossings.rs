@@ -16,10 +16,12 @@ pub(super) fn crosses<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
     !crossing(problem.linear(&at.local), &problem.weights(&at.x)).is_empty()
 }
 
-/// The second smallest part of the equations, and the next one: at a crossing the former vanishes, at a fold it does not.
+/// The second smallest part of the equations beside those that do not see a family, and the next one: at a crossing the former vanishes, at
+/// a fold it does not.
 fn second<P: Problem>(problem: &P, at: &Place<P::Local>) -> Option<(f64, f64)> {
     let all = seen(problem.linear(&at.local), &problem.weights(&at.x));
-    Some((all.get(1)?.0, all.get(2)?.0))
+    let family = problem.family();
+    Some((all.get(1 + family)?.0, all.get(2 + family)?.0))
 }
 
 /// Where the second part is smaller than this part of the next one, two branches may cross nearby.
@@ -132,7 +134,7 @@ pub(super) fn solved<P: Problem>(
     at: Place<P::Local>,
     watch: &dyn Watch,
 ) -> Place<P::Local> {
-    if problem.time().is_some() {
+    if problem.time().is_some() || problem.family() > 0 {
         return at;
     }
     let weights = problem.weights(&at.x);

@@ -10,13 +10,15 @@ struct Rows {
     values: Vec<f64>,
     width: usize,
     dim: usize,
+    /// Number of columns before the tail.
+    body: usize,
     /// One after the last entry before the tail that is not 0, row by row.
     ends: Vec<usize>,
 }
 
 /// `x` and `y` with `matrix x = -residual`, `row . x = 0` and `matrix y = 0`, `row . y = 1`: Gaussian elimination with partial
 /// pivoting that leaves out what is 0. The equations of the parts of an orbit meet only their own nodes, so that the work grows with the
-/// square of their number and not with its cube.
+/// square of their number and not with its cube. With the border of a family both are normal to it as well.
 ///
 /// `None` where the matrix is singular or not finite.
 pub(super) fn newton_step(linear: &Linear, row: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
@@ -24,13 +26,15 @@ pub(super) fn newton_step(linear: &Linear, row: &[f64]) -> Option<(Vec<f64>, Vec
     for column in 0..rows.dim {
         rows.eliminate(column)?;
     }
-    let (step, direction) = (rows.solution(0), rows.solution(1));
+    let (mut step, mut direction) = (rows.solution(0), rows.solution(1));
+    [&mut step, &mut direction].into_iter().for_each(|x| x.truncate(row.len()));
     step.iter().chain(&direction).all(|x| x.is_finite()).then_some((step, direction))
 }
 
 impl Rows {
     fn of(linear: &Linear, row: &[f64]) -> Self {
-        let dim = row.len();
+        let (count, unknowns) = (linear.family.len(), row.len());
+        let dim = unknowns + count;
         let width = dim + 2;
         let mut values = vec![0.0; dim * width];
         for (j, column) in linear.matrix.column_iter().enumerate() {
@@ -41,13 +45,18 @@ impl Rows {
         for (i, residual) in linear.residual.iter().enumerate() {
             values[i * width + dim] = -residual;
         }
+        for (k, border) in linear.family.iter().enumerate() {
+            border.left.iter().enumerate().for_each(|(i, value)| values[i * width + unknowns + k] = *value);
+            let from = (unknowns - 1 + k) * width;
+            values[from..from + unknowns].copy_from_slice(&border.row);
+        }
         let last = (dim - 1) * width;
-        values[last..last + dim].copy_from_slice(row);
+        values[last..last + unknowns].copy_from_slice(row);
         values[last + dim + 1] = 1.0;
-        let body = dim.saturating_sub(TAIL);
+        let body = dim.saturating_sub(TAIL + count);
         let end = |row: &[f64]| row[..body].iter().rposition(|x| *x != 0.0).map_or(0, |last| last + 1);
         let ends = values.chunks_exact(width).map(end).collect();
-        Self { values, width, dim, ends }
+        Self { values, width, dim, body, ends }
     }
 
     fn eliminate(&mut self, column: usize) -> Option<()> {
@@ -63,7 +72,7 @@ impl Rows {
             self.ends.swap(pivot, column);
         }
         let end = self.ends[column].max(column + 1);
-        let tail = dim.saturating_sub(TAIL).max(end);
+        let (body, tail) = (self.body, self.body.max(end));
         let (above, below) = self.values.split_at_mut((column + 1) * width);
         let above = &above[column * width..];
         for (row, row_end) in below.chunks_exact_mut(width).zip(&mut self.ends[column + 1..]) {
@@ -71,7 +80,7 @@ impl Rows {
                 continue;
             }
             let factor = row[column] / above[column];
-            *row_end = (*row_end).max(end.min(dim.saturating_sub(TAIL)));
+            *row_end = (*row_end).max(end.min(body));
             for range in [column + 1..end, tail..width] {
                 for (to, from) in row[range.clone()].iter_mut().zip(&above[range]) {
                     *to -= factor * from;
@@ -121,12 +130,17 @@ mod tests {
             residual.iter().enumerate().for_each(|(i, x)| right[(i, 0)] = -x);
             right[(dim - 1, 1)] = 1.0;
             let expected = square.lu().solve(&right).expect("it is regular");
-            let (x, y) = newton_step(&Linear { residual, matrix }, &row).expect("it is regular");
+            let (x, y) =
+                newton_step(&Linear { residual, matrix, family: Vec::new() }, &row).expect("it is regular");
             let (x, y) = (DVector::from_vec(x), DVector::from_vec(y));
             assert!((&x - expected.column(0)).norm() < 1e-9 * (1.0 + x.norm()));
             assert!((&y - expected.column(1)).norm() < 1e-9 * (1.0 + y.norm()));
         }
-        let singular = Linear { residual: vec![1.0], matrix: DMatrix::from_row_slice(1, 2, &[1.0, 1.0]) };
+        let singular = Linear {
+            residual: vec![1.0],
+            matrix: DMatrix::from_row_slice(1, 2, &[1.0, 1.0]),
+            family: Vec::new(),
+        };
         assert!(newton_step(&singular, &[2.0, 2.0]).is_none());
     }
 }

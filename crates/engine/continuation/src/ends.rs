@@ -3,11 +3,12 @@
 use super::certificate::TestFunction;
 use super::classes::GAINED;
 use super::copies::same_motion;
-use super::homoclinic::Connection;
+use super::homoclinic::{Connection, Saddle, leading_sides};
 use super::joins::Joins;
 use super::levels::CLEAR;
 use super::locate::Changes;
 use super::normal_form::Order;
+use super::oscillating::half_turn;
 use super::passages::Passages;
 use super::periods::Algebraic;
 use super::place::Place;
@@ -40,7 +41,21 @@ fn is_better<L>(found: &[(Place<L>, Special)], first: usize, other: usize, lengt
     by_slope(other) && !by_slope(first) && other.arclength - first.arclength < 1e-2 * length
 }
 
+/// The orbit passes a saddle that one of its nodes is closer to than this part of its extent.
+const PASSED: f64 = 0.1;
+
+/// The parameter of orbits has settled where it has not changed by so many errors of the solutions over so many half turns of the saddle.
+const SETTLED: f64 = 10.0;
+const HALF_TURNS: f64 = 6.0;
+
 impl<P: Problem> Tracer<P> {
+    /// Returns `true` if beside a saddle-focus the parameter has not changed by more than the errors of the solutions: what the branch does
+    /// from here on is that of round-off.
+    fn is_settled(&self) -> bool {
+        let error = SETTLED * self.problem.accuracy() * self.settings.width();
+        self.half_turn.is_some_and(|half_turn| self.periods.stays(HALF_TURNS * half_turn, error))
+    }
+
     /// The place on the way to `new` beyond which the branch does not go.
     pub(super) fn limit(&self, new: &Place<P::Local>, watch: &dyn Watch) -> Result<Limit<P::Local>, End> {
         let (low, high) = self.settings.range;
@@ -80,26 +95,45 @@ impl<P: Problem> Tracer<P> {
         if !matches!(end, End::StepUnderflow { .. } | End::PeriodLimit { .. }) {
             return end;
         }
-        let saddle = || self.problem.saddle(&self.place.x, &self.place.local);
         let resonant = || {
-            let found = self.periods.algebraic(Algebraic::Resonant)?.through(saddle())?;
+            let found = self.periods.algebraic(Algebraic::Resonant)?.through(self.saddle())?;
             Some(Connection { joins: self.joins(), ..found })
         };
         let on_a_circle = || {
             let found = self.periods.algebraic(Algebraic::SquareRoot)?;
             let side = (self.place.parameter() - found.parameter).signum();
-            found.at_fold(side, &|p| self.problem.equilibrium(&self.place.x, &self.place.local, p))
+            found.at_fold(side, &|p| Some(self.saddle_at(p)?.found))
         };
-        self.oscillates()
+        self.oscillates(self.saddle(), f64::INFINITY)
             .or_else(resonant)
             .or_else(on_a_circle)
-            .map_or(end, |found| End::Homoclinic(Box::new(found)))
+            .map_or(end, |found| self.homoclinic(found))
     }
 
-    /// The connection with a saddle-focus to which the parameter oscillates.
-    fn oscillates(&self) -> Option<Connection> {
-        let saddle = self.problem.saddle(&self.place.x, &self.place.local)?;
-        let found = self.periods.oscillating(&saddle.rates)?.through(Some(saddle))?;
+    /// The end at a connection, with the change of the saddle quantity up to there.
+    fn homoclinic(&self, mut found: Connection) -> End {
+        let quantity = |rates: &[(f64, f64)]| leading_sides(rates).map(|[grows, decays]| grows.0 + decays.0);
+        let there = self.saddle_at(found.parameter).and_then(|saddle| quantity(&saddle.rates));
+        if let (Some(here), Some(there)) = (quantity(&found.rates), there) {
+            found.quantity_change = there - here;
+        }
+        End::Homoclinic(Box::new(found))
+    }
+
+    /// The saddle that the orbit at the present place passes closest by.
+    fn saddle(&self) -> Option<Saddle> {
+        self.saddle_at(self.place.parameter())
+    }
+
+    /// The same at another value of the parameter.
+    fn saddle_at(&self, parameter: f64) -> Option<Saddle> {
+        self.problem.saddle(&self.place.x, &self.place.local, parameter)
+    }
+
+    /// The connection with this saddle-focus to which a parameter of this unit oscillates.
+    fn oscillates(&self, saddle: Option<Saddle>, unit: f64) -> Option<Connection> {
+        let saddle = saddle?;
+        let found = self.periods.oscillating(&saddle.rates, unit)?.through(Some(saddle))?;
         // all solutions that are fitted may be off by the same
         let error = found.error + self.problem.accuracy() * self.settings.width();
         // beside a saddle-focus the orbit passes it in turns that may look like other equilibria: these are no evidence
@@ -124,7 +158,7 @@ impl<P: Problem> Tracer<P> {
             return connection.past(several);
         }
         let joins = passages.as_ref().map(|passages| passages.joins);
-        let of_one = connection.clone().through(self.problem.saddle(&self.place.x, &self.place.local));
+        let of_one = connection.clone().through(self.saddle());
         let found = of_one.or_else(|| connection.past(passages.as_ref()?))?;
         Some(Connection { joins, ..found })
     }
@@ -188,12 +222,16 @@ impl<P: Problem> Tracer<P> {
         let unit = prefix(self.settings.width());
         self.periods.push(time, (parameter, self.place.slope()));
         if let Some(certain) = self.periods.connection(unit).and_then(|found| self.certain(found)) {
-            return Err(End::Homoclinic(Box::new(certain)));
+            return Err(self.homoclinic(certain));
         }
-        if self.periods.has_converged(unit)
-            && let Some(certain) = self.oscillates()
-        {
-            return Err(End::Homoclinic(Box::new(certain)));
+        let saddle = self.periods.is_growing().then(|| self.saddle()).flatten();
+        let passed = saddle.as_ref().filter(|saddle| saddle.near < PASSED);
+        self.half_turn = passed.and_then(|saddle| half_turn(&saddle.rates));
+        if let Some(certain) = self.oscillates(saddle, unit) {
+            return Err(self.homoclinic(certain));
+        }
+        if self.is_settled() {
+            return Err(End::Settles { period: time.0 });
         }
         if time.0 > self.settings.longest_time {
             return Err(End::PeriodLimit { time: time.0 });

@@ -4,12 +4,12 @@ use super::classes::Classes;
 use super::correct::{TIGHT, correct, normal, scaled};
 use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
-use super::levels::Level;
+use super::levels::{ALONG_FAMILY, Level, across_family};
 use super::normal_form::{NormalForm, Order};
 use super::normal_forms::of_equilibrium;
 use super::oscillation::Oscillation;
 use super::point::Motion;
-use super::problem::{Equations, Failure, Linear, Problem};
+use super::problem::{Border, Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
 use super::tracer::TOLERANCE;
 use motiform_analysis::RelativeEquilibrium;
@@ -47,6 +47,8 @@ pub(super) struct Equilibria<'f> {
     pub(super) units: Units,
     /// Units of the parameters.
     pub(super) widths: Vec<f64>,
+    /// A family of equilibria through each of a branch.
+    pub(super) family: Vec<Border>,
 }
 
 /// The equations at one place.
@@ -70,7 +72,15 @@ impl<'f> Equilibria<'f> {
         let classes = Classes::of(body.as_ref(), &[shape]);
         let units = bodies.units(body.as_ref(), parameters, widths);
         let size = units.size(norm(shape));
-        Ok(Self { bodies, classes, dim: shape.len(), size, units, widths: widths.to_vec() })
+        Ok(Self {
+            bodies,
+            classes,
+            dim: shape.len(),
+            size,
+            units,
+            widths: widths.to_vec(),
+            family: Vec::new(),
+        })
     }
 }
 
@@ -96,7 +106,7 @@ impl Equations for Equilibria<'_> {
         let Neighbours { body, sides, .. } = Neighbours::of(self.bodies, x, &self.widths, self.units.length)?;
         let matrix = linearisation(body.as_ref(), shape, omega);
         let neutral = neutral_direction(body.as_ref(), shape);
-        let linear = Linear { residual: Vec::new(), matrix: DMatrix::zeros(0, 0) };
+        let linear = Linear { residual: Vec::new(), matrix: DMatrix::zeros(0, 0), family: Vec::new() };
         let mut local = Local { body, linear, matrix, neutral };
         local.linear = self.fill(shape, omega, &sides, &local);
         Ok(local)
@@ -130,7 +140,20 @@ impl Problem for Equilibria<'_> {
         let of = |class: &Vec<Vec<f64>>| {
             eigenvalues(&restrict(class, |v| apply(&local.matrix, v))).map(|v| Level::of_pairs(&v))
         };
-        classes.iter().map(of).collect()
+        let all: Option<Vec<Vec<Level>>> = classes.iter().map(of).collect();
+        all.map(|levels| across_family(levels, self.family.len()))
+    }
+
+    fn borders(&self) -> Vec<Border> {
+        self.family.clone()
+    }
+
+    fn set_family(&mut self, borders: Vec<Border>) {
+        self.family = borders;
+    }
+
+    fn family(&self) -> usize {
+        self.family.len()
     }
 
     fn accuracy(&self) -> f64 {
@@ -173,8 +196,9 @@ impl Problem for Equilibria<'_> {
 
     fn motion(&self, x: &[f64], local: &Local, levels: &[Vec<Level>]) -> Motion {
         let shape = x[..self.dim].to_vec();
+        let along = std::iter::repeat_n(&ALONG_FAMILY, self.family.len());
         let mut eigenvalues: Vec<(f64, f64)> =
-            levels.iter().flatten().map(|level| (level.growth, level.angle)).collect();
+            levels.iter().flatten().chain(along).map(|level| (level.growth, level.angle)).collect();
         eigenvalues.sort_by(leading_first);
         let neutral = local.neutral.len();
         let scale = local.matrix.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
@@ -277,14 +301,15 @@ impl Equilibria<'_> {
             Some(direction) => direction.iter().enumerate().for_each(|(j, g)| all[(dim, j)] = *g / length),
             None => all[(dim, dim)] = 1.0 / pace,
         }
-        Linear { residual, matrix: all }
+        Linear { residual, matrix: all, family: self.family.clone() }
     }
 
     /// The equations of all motions nearby, whatever their symmetry.
     pub(super) fn free(&self, x: &[f64]) -> Option<Self> {
         let classes = Classes::of(self.bodies.at(x).ok()?.as_ref(), &[]);
         let widths = self.widths.clone();
-        Some(Self { bodies: self.bodies, classes, dim: self.dim, size: self.size, units: self.units, widths })
+        let (bodies, dim, size, units, family) = (self.bodies, self.dim, self.size, self.units, Vec::new());
+        Some(Self { bodies, classes, dim, size, units, widths, family })
     }
 
     /// Returns `true` if motions in the direction `vector` exist for the same parameter, at two distances: beside a pitchfork the parameter

@@ -1,6 +1,7 @@
 //! A connection of saddles, with themselves or one with the next, in which a branch of orbits ends.
 
-use super::joins::{Joins, Passed, words};
+use super::joins::{Joins, Passed};
+use super::oscillating;
 use super::passages::Passages;
 use motiform_analysis::RelativeEquilibrium;
 use serde::{Deserialize, Serialize};
@@ -73,12 +74,19 @@ pub struct Connection {
     pub error: f64,
     /// The law of the time of the orbit (half the period for a zigzag).
     pub law: PeriodLaw,
+    /// Error of the rate or of the amplitude of the law: the difference between fits to different points, and, for a rate, from the
+    /// eigenvalue of the saddle to which it belongs. 0 for an oscillating law, whose numbers are those of the saddle.
+    #[serde(default)]
+    pub law_error: f64,
     /// The relative equilibrium that the orbit passes closest by, at the last point.
     pub saddle: Option<RelativeEquilibrium>,
     /// The eigenvalues `(re, im)` of the saddle in the directions that keep the symmetry of the orbit's shapes, without those of
     /// coordinates in which the orbit rests; empty where these are not told from the others.
     #[serde(default)]
     pub rates: Vec<(f64, f64)>,
+    /// Change of the saddle quantity from the last point, to which `rates` belong, to the connection.
+    #[serde(default)]
+    pub quantity_change: f64,
     /// The relation of the saddles that the orbit passes; `None` where the orbit is not seen to pass any: at a saddle-node there is none on
     /// this side.
     #[serde(default)]
@@ -89,6 +97,22 @@ pub struct Connection {
 }
 
 impl Connection {
+    /// One of which the law alone is known.
+    pub(super) const fn at(parameter: f64, remaining: f64, law: PeriodLaw) -> Self {
+        Self {
+            parameter,
+            remaining,
+            error: 0.0,
+            law,
+            law_error: 0.0,
+            saddle: None,
+            rates: Vec::new(),
+            quantity_change: 0.0,
+            joins: None,
+            passed: Vec::new(),
+        }
+    }
+
     /// The limit of the orbit: from its law, and from the leading eigenvalues of the saddle.
     #[must_use]
     pub fn kind(&self) -> ConnectionKind {
@@ -134,6 +158,13 @@ impl Connection {
         Some(grows.0 + decays.0)
     }
 
+    /// Bound of the error of the saddle quantity: it changes up to the connection, and the saddle's rates have errors of their own.
+    #[must_use]
+    pub fn quantity_error(&self) -> Option<f64> {
+        self.quantity()?;
+        Some(self.quantity_change.abs() + rounding(self.sides()?))
+    }
+
     /// The saddle's leading eigenvalue: of `rates`, the one whose real part is closest to 0. The fitted rate of a
     /// logarithmic law is its modulus.
     #[must_use]
@@ -147,7 +178,7 @@ impl Connection {
     /// in some directions and decay in others, and one of their rates is that of the law (a resonant law has two rates of one size):
     /// otherwise the period grows for another reason, as in a canard explosion, and the branch goes on.
     pub(super) fn through(self, saddle: Option<Saddle>) -> Option<Self> {
-        let Saddle { found, rates } = saddle?;
+        let Saddle { found, rates, .. } = saddle?;
         let all = if rates.is_empty() { &found.eigenvalues } else { &rates };
         let side = |sign: f64| {
             let sized = all.iter().map(|value| sign * value.0);
@@ -159,6 +190,7 @@ impl Connection {
         }
         let apart = |a: f64, b: f64| (a - b).abs() / a.max(b);
         let (apart, error) = match self.law {
+            PeriodLaw::Logarithmic { .. } if oscillating::leading(&rates).is_some() => return None, // see `oscillating`
             PeriodLaw::Logarithmic { rate } => {
                 let apart = grow.iter().chain(&decay).map(|a| apart(*a, rate)).fold(f64::INFINITY, f64::min);
                 (apart, self.error.max(apart * self.remaining)) // what remains is in proportion to the rate
@@ -170,7 +202,8 @@ impl Connection {
             PeriodLaw::Oscillating { .. } => (0.0, self.error), // the rate is that of the saddle: see `oscillating`
             PeriodLaw::SquareRoot { .. } => return None, // there is no saddle on this side: see `at_fold`
         };
-        (apart < RATES).then_some(Self { saddle: Some(found), rates, error, ..self })
+        let law_error = self.law_error_beside(apart);
+        (apart < RATES).then_some(Self { saddle: Some(found), rates, error, law_error, ..self })
     }
 
     /// The connection of the saddles that an orbit passes; `None` unless each passage is clear and the law is theirs.
@@ -197,6 +230,10 @@ impl Connection {
             return None;
         }
         let longest = passages.all.iter().max_by(|a, b| a.share.total_cmp(&b.share))?;
+        let of_one = passages.joins != Joins::Different;
+        if of_one && oscillating::leading(&longest.saddle.rates).is_some() {
+            return None;
+        }
         let passed = |passage: &super::passages::Passage| {
             let Saddle { found, .. } = &passage.saddle;
             let sides = leading_sides(&values(&passage.saddle))?;
@@ -208,7 +245,16 @@ impl Connection {
         };
         let error = self.error.max(apart * self.remaining); // what remains is in proportion to the rate
         let (saddle, rates) = (Some(longest.saddle.found.clone()), longest.saddle.rates.clone());
-        Some(Self { saddle, rates, error, joins: Some(passages.joins), passed, ..self })
+        let law_error = self.law_error_beside(apart);
+        Some(Self { saddle, rates, error, law_error, joins: Some(passages.joins), passed, ..self })
+    }
+
+    /// The error of the law's rate, if the rate that the saddle gives differs from it by the part `apart` of the larger one.
+    fn law_error_beside(&self, apart: f64) -> f64 {
+        match self.law {
+            PeriodLaw::Logarithmic { rate } => self.law_error.max(rate * apart / (1.0 - apart)),
+            _ => self.law_error,
+        }
     }
 
     /// For a cycle the product of `-decaying / growing` over its saddles: above 1 the orbits that meet it are stable.
@@ -245,72 +291,12 @@ impl Connection {
     }
 }
 
-/// A saddle quantity below this part of its rates has no sign: they are those at the last point of the branch.
+/// Errors of the rates of a saddle, as a part of them.
 const NEUTRAL: f64 = 1e-6;
 
-impl std::fmt::Display for Connection {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (place, with) = (stated(self.parameter, self.error), words(self.joins));
-        match self.kind() {
-            ConnectionKind::Saddle => {
-                write!(f, "the orbit approaches a connection of a saddle{with} at {place}")
-            }
-            ConnectionKind::SaddleFocus => {
-                write!(f, "the orbit approaches a connection of a saddle-focus{with} (Shilnikov) at {place}")
-            }
-            ConnectionKind::Resonant => {
-                write!(f, "the orbit approaches a resonant connection of a saddle{with} at {place}")
-            }
-            ConnectionKind::SaddleNode => {
-                write!(
-                    f,
-                    "the orbit approaches a saddle-node on a circle at {place}: two equilibria appear on it"
-                )
-            }
-            ConnectionKind::Cycle => {
-                let quantities: Vec<String> =
-                    self.passed.iter().map(|passed| places::<4>(passed.quantity())).collect();
-                let (count, quantities) = (self.passed.len(), quantities.join(", "));
-                write!(
-                    f,
-                    "the orbit approaches a heteroclinic cycle of {count} saddles (saddle quantities {quantities}) at {place}"
-                )
-            }
-        }?;
-        match self.law {
-            PeriodLaw::Logarithmic { rate } => {
-                write!(f, ": its time grows as -ln|p - p0| / {} in model time", places::<6>(rate))
-            }
-            PeriodLaw::Oscillating { rate, frequency } => {
-                let [rate, frequency] = [rate, frequency].map(places::<6>);
-                write!(f, ": the parameter oscillates as exp(-{rate} T) cos({frequency} T) with its time T")
-            }
-            PeriodLaw::Resonant { amplitude } => {
-                write!(f, ": its time grows as {} / |p - p0| in model time", places::<6>(amplitude))
-            }
-            PeriodLaw::SquareRoot { amplitude } => {
-                write!(f, ": its time grows as {} / sqrt|p - p0| in model time", places::<6>(amplitude))
-            }
-        }?;
-        match self.quantity() {
-            Some(quantity)
-                if matches!(self.law, PeriodLaw::Logarithmic { .. } | PeriodLaw::Oscillating { .. }) =>
-            {
-                let rates = self.sides().map_or(f64::NAN, |[grows, decays]| grows.0 - decays.0);
-                if quantity.abs() < NEUTRAL * rates {
-                    return write!(f, "; saddle quantity 0 within its error: its sign is not known");
-                }
-                write!(f, "; saddle quantity {}", places::<4>(quantity))
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-/// A number with so many decimals, or as a power of ten where these would show less than three digits of it.
-fn places<const DECIMALS: usize>(x: f64) -> String {
-    let least = libm::pow(10.0, 2.0 - DECIMALS as f64);
-    if x == 0.0 || x.abs() >= least { format!("{x:.DECIMALS$}") } else { format!("{x:.3e}") }
+/// Error of the sum of the rates of both sides, at one value of the parameter.
+pub(super) fn rounding([grows, decays]: [(f64, f64); 2]) -> f64 {
+    NEUTRAL * (grows.0 - decays.0)
 }
 
 /// The relative equilibrium that an orbit passes closest by, and its eigenvalues in the directions that keep the symmetry of the orbit's
@@ -318,6 +304,8 @@ fn places<const DECIMALS: usize>(x: f64) -> String {
 pub(super) struct Saddle {
     pub(super) found: RelativeEquilibrium,
     pub(super) rates: Vec<(f64, f64)>,
+    /// The distance of the slowest shape of the orbit from it, as a part of the largest one.
+    pub(super) near: f64,
 }
 
 /// The slowest eigenvalues `(re, |im|)` that grow and that decay.
@@ -328,13 +316,4 @@ pub(super) fn leading_sides(rates: &[(f64, f64)]) -> Option<[(f64, f64); 2]> {
         Some((least.0, least.1.abs()))
     };
     Some([slowest(1.0)?, slowest(-1.0)?])
-}
-
-/// A value with its error, to the decimals that the error leaves.
-#[must_use]
-pub fn stated(value: f64, error: f64) -> String {
-    let decimals = (-libm::log10(error)).ceil().clamp(0.0, 15.0) as usize;
-    let text = format!("{value:.decimals$}");
-    let zero = text.trim_start_matches(['-', '0', '.']).is_empty();
-    format!("{} +- {error:.0e}", if zero { text.trim_start_matches('-') } else { &text })
 }

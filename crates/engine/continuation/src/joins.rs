@@ -1,5 +1,6 @@
 //! The relation of the saddles of a connection.
 
+use super::homoclinic::rounding;
 use motiform_analysis::RelativeEquilibrium;
 use serde::{Deserialize, Serialize};
 
@@ -42,5 +43,11 @@ impl Passed {
     #[must_use]
     pub fn quantity(&self) -> f64 {
         self.sides[0].0 + self.sides[1].0
+    }
+
+    /// Bound of its error.
+    #[must_use]
+    pub fn quantity_error(&self) -> f64 {
+        rounding(self.sides)
     }
 }

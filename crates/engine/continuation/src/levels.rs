@@ -16,6 +16,23 @@ impl Level {
     }
 }
 
+/// The levels without those along a family of solutions of this dimension: they are 0.
+pub(super) fn across_family(mut levels: Vec<Vec<Level>>, dimension: usize) -> Vec<Vec<Level>> {
+    let size = |level: &Level| libm::hypot(level.growth, level.angle);
+    for _ in 0..dimension {
+        let all = levels.iter().enumerate();
+        let all = all.flat_map(|(class, own)| {
+            own.iter().enumerate().map(move |(rank, level)| (class, rank, size(level)))
+        });
+        let Some((class, rank, _)) = all.min_by(|a, b| a.2.total_cmp(&b.2)) else { break };
+        levels[class].remove(rank);
+    }
+    levels
+}
+
+/// The level of a deviation along a family.
+pub(super) const ALONG_FAMILY: Level = Level { growth: 0.0, angle: 0.0 };
+
 /// A growth of fewer errors than this is not told from 0 where it should vanish: at special points.
 pub(super) const CLEAR: f64 = 100.0;
 

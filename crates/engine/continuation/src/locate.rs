@@ -134,13 +134,19 @@ fn certified<P: Problem>(
         Test::Level(..) => (TestFunction::Growth, problem.noise(&at.levels)),
     };
     let width = problem.weights(&at.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
-    let found = Certificate::of(kind, here, passing(&near), noise, problem.accuracy().max(TIGHT) * width);
+    let solved = problem.accuracy().max(TIGHT) * width;
+    let time = problem.time().map_or(0.0, |place| at.tangent[place]);
+    let found = Certificate::of(kind, (here, time), passing(&near), noise, solved);
     // between the ends of the step the test changes its sign
     let far = [step.old, step.new].map(|end| (end.parameter() - at.parameter()).abs());
     let is_between = (step.old.arclength..=step.new.arclength).contains(&at.arclength);
-    let error =
-        if is_between && found.error.is_finite() { found.error.min(far[0].max(far[1])) } else { found.error };
-    Some(Certificate { error, ..found })
+    let error = if is_between { found.error.min(far[0].max(far[1]) + solved) } else { found.error };
+    let time_error = problem.time().map_or(0.0, |place| {
+        let far = [step.old, step.new].map(|end| (end.x[place] - at.x[place]).abs());
+        let found = if is_between { found.time_error.min(far[0].max(far[1])) } else { found.time_error };
+        found + problem.accuracy() * at.x[place]
+    });
+    Some(Certificate { error, time_error, ..found })
 }
 
 /// The leading coefficient of the normal form at a special point.

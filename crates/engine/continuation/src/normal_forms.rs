@@ -97,6 +97,7 @@ fn free<'f>(problem: &Orbits<'f>, x: &[f64], doubled: bool) -> Option<(Orbits<'f
         size: (0..parts).map(|i| norm(problem.node(x, i))).fold(0.0, f64::max),
         length: problem.length,
         widths: problem.widths.clone(),
+        family: Vec::new(),
     };
     if !doubled {
         return Some((free, x.to_vec()));

@@ -5,7 +5,7 @@ mod problem;
 use super::classes::Classes;
 use super::equilibria::linearisation;
 use super::family::{Bodies, Neighbours};
-use super::problem::{Equations, Failure, Linear};
+use super::problem::{Border, Equations, Failure, Linear};
 use super::shooting::{Segment, segments};
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::neutral_direction;
@@ -35,6 +35,8 @@ pub(super) struct Orbits<'f> {
     /// The unit of shapes that the equations have.
     pub(super) length: f64,
     pub(super) widths: Vec<f64>,
+    /// A family of orbits through each of a branch.
+    pub(super) family: Vec<Border>,
 }
 
 /// The equations at one place.
@@ -116,7 +118,7 @@ impl Orbits<'_> {
         let unknowns = self.unknowns();
         let rows = unknowns - self.bodies.count();
         let matrix = DMatrix::zeros(rows, unknowns);
-        let mut linear = Linear { residual: vec![0.0; rows], matrix };
+        let mut linear = Linear { residual: vec![0.0; rows], matrix, family: self.family.clone() };
         for (i, segment) in local.segments.iter().enumerate() {
             self.fill_part(x, local.body.as_ref(), (i, segment), &mut linear);
         }
@@ -205,7 +207,7 @@ impl Equations for Orbits<'_> {
         };
         let rates = along(&|u, du| VectorField::<f64>::eval(body.as_ref(), 0.0, u, du));
         let spins = along(&|u, du| body.spin(u, du));
-        let linear = Linear { residual: Vec::new(), matrix: DMatrix::zeros(0, 0) };
+        let linear = Linear { residual: Vec::new(), matrix: DMatrix::zeros(0, 0), family: Vec::new() };
         let mut local = Local { body, linear, segments, rates, spins };
         local.linear = self.fill(x, &local);
         Ok(local)

@@ -176,7 +176,7 @@ impl<'w> Way<'w> {
         let has = |rate: f64| all.iter().any(|value| (value.0 / rate - 1.0).abs() < RATES);
         let is_clear = has(rate(begin, comes)) && has(rate(goes, end));
         let during = place + begin.cast_signed() - count..=place + end.cast_signed() - count;
-        let saddle = Saddle { found: at, rates };
+        let saddle = Saddle { found: at, rates, near: distances[closest] / extent };
         Some((during, Passage { saddle, share: (end - begin) as f64, is_clear }))
     }
 }

@@ -50,6 +50,19 @@ impl Periods {
         self.points.push((time.0, parameter.0, parameter.1 / time.1));
     }
 
+    /// Returns `true` if the time grew over the last points.
+    pub(super) fn is_growing(&self) -> bool {
+        self.points.len() > 2
+    }
+
+    /// Returns `true` if the parameter stayed within this error over the last times.
+    pub(super) fn stays(&self, times: f64, error: f64) -> bool {
+        let (Some(first), Some(last)) = (self.points.first(), self.points.last()) else { return false };
+        let late = self.points.iter().filter(|point| point.0 > last.0 - times);
+        let most = late.map(|point| (point.1 - last.1).abs()).fold(0.0, f64::max);
+        first.0 < last.0 - times && most < error
+    }
+
     /// The connection ahead, where the logarithmic law holds and little remains of a parameter with this unit.
     pub(super) fn connection(&self, unit: f64) -> Option<Connection> {
         let time = self.points.last()?.0;
@@ -62,17 +75,14 @@ impl Periods {
         }
         let &(_, parameter, slope) = last.last()?;
         // p - p0 = c exp(-rate T): ln|dp/dT| is linear in T
-        let rate = exponent(last)?;
+        let (rate, spread) = exponent(last)?;
         let remaining = slope / rate;
+        let place = parameter + remaining;
+        let others = others(last).map(|other| (other - place).abs()).fold(0.0, f64::max);
         (remaining.abs() < NEAR * (unit + parameter.abs())).then(|| Connection {
-            parameter: parameter + remaining,
-            remaining: remaining.abs(),
-            error: AGREE * remaining.abs() + f64::EPSILON * parameter.abs(),
-            law: PeriodLaw::Logarithmic { rate },
-            saddle: None,
-            rates: Vec::new(),
-            joins: None,
-            passed: Vec::new(),
+            error: others.max(AGREE * remaining.abs()) + f64::EPSILON * parameter.abs(),
+            law_error: spread,
+            ..Connection::at(place, remaining.abs(), PeriodLaw::Logarithmic { rate })
         })
     }
 
@@ -85,13 +95,19 @@ impl Periods {
         let mut fits: Vec<(Connection, f64)> = late.filter_map(|last| self.fit(law, last)).collect();
         fits.sort_by(|a, b| a.1.total_cmp(&b.1));
         let (best, others) = fits.split_first()?;
-        let away = |other: &(Connection, f64)| (other.0.parameter - best.0.parameter).abs();
+        let compared = &others[..others.len().min(COMPARED)];
         // Neighbouring fits have errors in common: of those that are nearly as good, the farthest one counts three times.
-        let error = match &others[..others.len().min(COMPARED)] {
-            [] => best.0.remaining,
-            compared => 3.0 * compared.iter().map(away).fold(0.0, f64::max),
+        let spread = |value: &dyn Fn(&Connection) -> f64| {
+            let away = compared.iter().map(|other| (value(&other.0) - value(&best.0)).abs());
+            3.0 * away.fold(0.0, f64::max)
         };
-        Some(Connection { error: error.max(f64::EPSILON * best.0.parameter.abs()), ..best.0.clone() })
+        let (error, law_error) = if compared.is_empty() {
+            (best.0.remaining, amplitude(&best.0))
+        } else {
+            (spread(&|fit| fit.parameter), spread(&amplitude))
+        };
+        let error = error.max(f64::EPSILON * best.0.parameter.abs());
+        Some(Connection { error, law_error, ..best.0.clone() })
     }
 
     /// `p = p0 + A/T^k + B/T^(k+1) + C/T^(k+2)` through the point number `last` and one well before it, with their slopes, and how far the
@@ -120,28 +136,38 @@ impl Periods {
             Algebraic::Resonant => PeriodLaw::Resonant { amplitude: fit[1].abs() },
             Algebraic::SquareRoot => PeriodLaw::SquareRoot { amplitude: fit[1].abs().sqrt() },
         };
-        let connection = Connection {
-            parameter: fit[0],
-            remaining,
-            error: 0.0,
-            law,
-            saddle: None,
-            rates: Vec::new(),
-            joins: None,
-            passed: Vec::new(),
-        };
-        (leads && worst < 1e-3).then_some((connection, worst))
+        (leads && worst < 1e-3).then_some((Connection::at(fit[0], remaining, law), worst))
     }
 }
 
-/// `-d ln|dp/dT| / dT` over all points, where it is positive and about the same over both halves of them.
-fn exponent(points: &[(f64, f64, f64)]) -> Option<f64> {
-    let between = |pair: &[(f64, f64, f64)]| {
-        let [(t0, _, s0), (t1, _, s1)] = [pair[0], pair[1]];
-        if s0 * s1 > 0.0 { libm::log(s0 / s1) / (t1 - t0) } else { f64::NAN }
-    };
+/// The amplitude of an algebraic law.
+fn amplitude(connection: &Connection) -> f64 {
+    match connection.law {
+        PeriodLaw::Resonant { amplitude } | PeriodLaw::SquareRoot { amplitude } => amplitude,
+        PeriodLaw::Logarithmic { .. } | PeriodLaw::Oscillating { .. } => f64::NAN,
+    }
+}
+
+/// The connection by the logarithmic law from other selections of the points: without the last one, and from the later half.
+fn others(points: &[(f64, f64, f64)]) -> impl Iterator<Item = f64> {
+    let selections = [&points[..points.len() - 1], &points[points.len() / 2..]];
+    selections.into_iter().filter_map(|selection| {
+        let (first, last) = (selection.first()?, selection.last()?);
+        let rate = slowing(first, last);
+        (rate > 0.0).then_some(last.1 + last.2 / rate)
+    })
+}
+
+/// `-d ln|dp/dT| / dT` between two points; no number where the slope changes its sign.
+fn slowing(&(t0, _, s0): &(f64, f64, f64), &(t1, _, s1): &(f64, f64, f64)) -> f64 {
+    if s0 * s1 > 0.0 { libm::log(s0 / s1) / (t1 - t0) } else { f64::NAN }
+}
+
+/// `-d ln|dp/dT| / dT` over all points, where it is positive and about the same over both halves of them; with the difference between the
+/// halves.
+fn exponent(points: &[(f64, f64, f64)]) -> Option<(f64, f64)> {
     let (first, middle, last) = (points.first()?, points.get(points.len() / 2)?, points.last()?);
-    let (early, late) = (between(&[*first, *middle]), between(&[*middle, *last]));
-    let mean = between(&[*first, *last]);
-    (mean > 0.0 && (early - late).abs() < AGREE * mean).then_some(mean)
+    let (early, late) = (slowing(first, middle), slowing(middle, last));
+    let (mean, spread) = (slowing(first, last), (early - late).abs());
+    (mean > 0.0 && spread < AGREE * mean).then_some((mean, spread))
 }

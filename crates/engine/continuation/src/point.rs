@@ -75,6 +75,10 @@ pub struct Point {
     /// Number of directions whose growth is 0 within its error; 0 at special points.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub neutral: usize,
+    /// Dimension of the family of motions with this value of the parameter that it belongs to, where there is one all along the branch that
+    /// no symmetry of the model explains: `unstable` and `neutral` are about deviations from the family.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub family: usize,
     /// Derivative of the parameter by the length along the branch: it changes its sign at a fold.
     pub slope: f64,
     /// The kind of special point, if it was solved for as one.

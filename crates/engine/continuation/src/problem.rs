@@ -7,7 +7,7 @@ use super::normal_form::{NormalForm, Order};
 use super::passages::Passages;
 use super::point::{Motion, Obstruction};
 use super::special::{Broken, Special};
-use motiform_analysis::{Error, RelativeEquilibrium};
+use motiform_analysis::Error;
 use motiform_dynamics::{Equivariant, Watch};
 use nalgebra::DMatrix;
 
@@ -32,6 +32,20 @@ pub(super) struct Linear {
     pub(super) residual: Vec<f64>,
     /// Their derivatives: one row fewer than unknowns (two fewer over two parameters).
     pub(super) matrix: DMatrix<f64>,
+    /// What holds the directions along a family of solutions, one for each of its dimensions.
+    pub(super) family: Vec<Border>,
+}
+
+/// A direction along which solutions form a family: one row more, `row . dx = 0`, and one unknown more, a multiple of the combination
+/// `left` of the equations, which depend on each other there. At solutions that unknown is 0.
+///
+/// Source: Munoz-Almaraz, Freire, Galan, Doedel and Vanderbauwhede (2003), Physica D 181, 1 (there of conserved quantities).
+#[derive(Clone, Debug)]
+pub(super) struct Border {
+    /// A combination of the equations.
+    pub(super) left: Vec<f64>,
+    /// The row.
+    pub(super) row: Vec<f64>,
 }
 
 /// Equations with fewer of them than unknowns. The parameters are the last unknowns.
@@ -59,8 +73,17 @@ pub(super) trait Equations {
 
 /// The equations of a motion along one parameter, or over two.
 pub(super) trait Problem: Equations {
-    /// Growth of the reduced deviations, class by class, largest first.
+    /// Growth of the reduced deviations, class by class, largest first; without those along a family of solutions.
     fn levels(&self, x: &[f64], local: &Self::Local) -> Option<Vec<Vec<Level>>>;
+
+    /// The directions along a family of solutions in which the branch does not move.
+    fn borders(&self) -> Vec<Border>;
+
+    /// Sets them.
+    fn set_family(&mut self, borders: Vec<Border>);
+
+    /// The dimension of that family.
+    fn family(&self) -> usize;
 
     /// The error of solutions, in the units of [`Equations::weights`]: what the equations themselves are exact to, not what Newton's method
     /// leaves.
@@ -136,8 +159,8 @@ pub(super) trait Problem: Equations {
         None
     }
 
-    /// The relative equilibrium that an orbit passes closest by.
-    fn saddle(&self, _x: &[f64], _local: &Self::Local) -> Option<Saddle> {
+    /// The relative equilibrium that an orbit passes closest by, at this value of the parameter.
+    fn saddle(&self, _x: &[f64], _local: &Self::Local, _parameter: f64) -> Option<Saddle> {
         None
     }
 
@@ -148,9 +171,4 @@ pub(super) trait Problem: Equations {
 
     /// The leading coefficient of the normal form at a special point; `doubled` where that of orbits of twice the time is meant.
     fn normal_form(&self, x: &[f64], order: Order, doubled: bool) -> NormalForm;
-
-    /// The relative equilibrium at another value of the parameter, near the place where an orbit is slowest.
-    fn equilibrium(&self, _x: &[f64], _local: &Self::Local, _parameter: f64) -> Option<RelativeEquilibrium> {
-        None
-    }
 }

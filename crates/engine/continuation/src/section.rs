@@ -52,7 +52,7 @@ fn bordered(linear: &Linear, row: &[f64], rest: f64) -> Linear {
     row.iter().enumerate().for_each(|(j, value)| matrix[(rows, j)] = *value);
     let mut residual = linear.residual.clone();
     residual.push(rest);
-    Linear { residual, matrix }
+    Linear { residual, matrix, family: Vec::new() }
 }
 
 /// Two directions of length 1 in a surface, normal to each other.

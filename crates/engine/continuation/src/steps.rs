@@ -1,6 +1,7 @@
 //! Steps along a branch.
 
 use super::correct::{correct, normal, product};
+use super::families::holds;
 use super::levels::Level;
 use super::place::{Before, Place, place};
 use super::point::{End, Obstruction};
@@ -33,6 +34,9 @@ const FINE: f64 = 100.0;
 /// shrinking steps do not come back to the same place.
 const SHORTER: f64 = 0.35;
 
+/// Steps from one fold to the next one beside a saddle-focus.
+const PER_FOLD: f64 = 4.0;
+
 /// Least cosine of the angle between successive tangents.
 const STRAIGHT: f64 = 0.9;
 
@@ -40,6 +44,7 @@ impl<P: Problem> Tracer<P> {
     /// The next solution and the length of the step to it.
     pub(super) fn reach(&mut self, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), End> {
         loop {
+            self.step = self.step.min(self.longest()).max(self.settings.smallest_step);
             let length = self.step;
             let why = match self.attempt(length, watch) {
                 Ok((place, first)) => {
@@ -59,6 +64,12 @@ impl<P: Problem> Tracer<P> {
         }
     }
 
+    /// The longest step over which the folds of a branch beside a saddle-focus are seen.
+    fn longest(&self) -> f64 {
+        let Some((time, half_turn)) = self.problem.time().zip(self.half_turn) else { return f64::INFINITY };
+        half_turn / (PER_FOLD * self.place.tangent[time].abs())
+    }
+
     pub(super) fn attempt(&self, length: f64, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), Failure> {
         let old = &self.place;
         let weights = self.problem.weights(&old.x);
@@ -66,7 +77,7 @@ impl<P: Problem> Tracer<P> {
         let guess = self.guess(length, &weights);
         let found = correct(&self.problem, guess, &row, self.settings.tolerance, watch)?;
         let first = found.first;
-        if first > ASTRAY * length {
+        if first > ASTRAY * length || !holds(&self.problem, &found, self.settings.tolerance) {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
         let mut new = place(&self.problem, found, &row, old.arclength + length)?;

@@ -231,6 +231,7 @@ pub(super) fn orbits<'f>(
         size: units.size(size),
         length: units.length,
         widths: vec![width],
+        family: Vec::new(),
     }
 }
 

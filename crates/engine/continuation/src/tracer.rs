@@ -3,6 +3,7 @@
 use super::between::{Step, between};
 use super::certificate::TestFunction;
 use super::correct::{correct, directions, normal, product, scaled};
+use super::families::border_at_start;
 use super::levels::{CLEAR, unstable};
 use super::locate::{Changes, ONE, locate};
 use super::periods::Periods;
@@ -60,6 +61,10 @@ pub(super) struct Tracer<P: Problem> {
     pub(super) count: usize,
     end: Option<End>,
     pub(super) periods: Periods,
+    /// Beside a saddle-focus, the time between the folds of the branch.
+    pub(super) half_turn: Option<f64>,
+    /// The last special point that was handed out, if it is a fold: its parameter and the error.
+    fold: Option<(f64, f64)>,
     /// Special points handed out: unknowns, tangents, names, and the number of points before them.
     passed: Vec<(Vec<f64>, Vec<f64>, &'static str, usize)>,
 }
@@ -73,7 +78,7 @@ pub(super) fn neutral<P: Problem>(problem: &P, place: &Place<P::Local>) -> usize
 impl<P: Problem> Tracer<P> {
     /// From a solution near `x` with the same parameter.
     pub(super) fn start(
-        problem: P,
+        mut problem: P,
         x: Vec<f64>,
         settings: &Settings,
         watch: &dyn Watch,
@@ -82,11 +87,13 @@ impl<P: Problem> Tracer<P> {
         if let Some(last) = row.last_mut() {
             *last = 1.0;
         }
+        border_at_start(&mut problem, &x);
         let found = correct(&problem, x, &row, settings.tolerance, watch)?;
         let weights = problem.weights(&found.x);
         // the side is decided by the parameter; where the branch is vertical, by the sign that the decomposition gives
-        let null = directions(problem.linear(&found.local), &weights);
-        let mut first = null.into_iter().next().ok_or(Failure::Obstructed(Obstruction::Singular))?;
+        let bordered = (problem.family() > 0).then(|| scaled(found.direction.clone(), &weights)).flatten();
+        let null = || directions(problem.linear(&found.local), &weights).into_iter().next();
+        let mut first = bordered.or_else(null).ok_or(Failure::Obstructed(Obstruction::Singular))?;
         let along = first.last().copied().unwrap_or(0.0);
         let side = if along == 0.0 { 1.0 } else { along.signum() } * settings.first_step.signum();
         first.iter_mut().for_each(|value| *value *= side);
@@ -124,8 +131,12 @@ impl<P: Problem> Tracer<P> {
             count: 0,
             end: None,
             periods: Periods::default(),
+            half_turn: None,
+            fold: None,
             passed: Vec::new(),
         };
+        tracer.find_family();
+        tracer.first = First::of(&tracer.problem, &tracer.place);
         let first = tracer.point(&tracer.place, None);
         tracer.queue.push_back(first);
         tracer
@@ -160,6 +171,7 @@ impl<P: Problem> Tracer<P> {
     pub(super) fn renew(&mut self) {
         if let Some(levels) = self.problem.levels(&self.place.x, &self.place.local) {
             self.place.levels = levels;
+            self.find_family();
             let first = self.point(&self.place, None);
             self.queue.clear();
             self.queue.push_back(first);
@@ -220,6 +232,7 @@ impl<P: Problem> Tracer<P> {
         }
         let old = std::mem::replace(&mut self.place, new);
         self.before = Some(Before { x: old.x, tangent: old.tangent, levels: old.levels, length });
+        self.follow_family();
         last.map_or_else(|| self.ends(), Err)
     }
 
@@ -277,10 +290,27 @@ impl<P: Problem> Tracer<P> {
                 .map(|last: f64| 0.5 * (last + at.arclength) - self.place.arclength)
                 .and_then(|s| between(&self.problem, &step, s, watch).ok());
             last = Some(at.arclength);
+            let special = self.decided(&at, special);
             self.passed.push((at.x.clone(), at.tangent.clone(), special.name(), self.count));
             let points =
                 [middle.map(|middle| self.point(&middle, None)), Some(self.point(&at, Some(special)))];
             self.queue.extend(points.into_iter().flatten());
+        }
+    }
+
+    /// The special point as it is, or undecided: a fold where since the last one the parameter has not changed by more than the errors of
+    /// both may be that of round-off.
+    fn decided(&mut self, at: &Place<P::Local>, special: Special) -> Special {
+        if special != Special::Fold {
+            self.fold = None;
+            return special;
+        }
+        let (place, error) = (at.parameter(), at.certificate.map_or(0.0, |shown| shown.error));
+        match self.fold.replace((place, error)) {
+            Some((from, before)) if (place - from).abs() <= error + before => {
+                Special::Unresolved { seen: special.name(), from, to: place }
+            }
+            _ => special,
         }
     }
 
@@ -306,6 +336,10 @@ impl<P: Problem> Tracer<P> {
         let kept = self.problem.time().map_or(0, |time| self.place.x.len() - time);
         let old: Vec<f64> = self.place.tangent.iter().rev().take(kept).rev().copied().collect();
         let Some(x) = self.problem.refine(&self.place.x, &self.place.local, watch) else { return };
+        let family = self.problem.borders();
+        if !family.is_empty() {
+            border_at_start(&mut self.problem, &x); // with more unknowns
+        }
         let mut row = vec![0.0; x.len()];
         let from = row.len() - kept;
         row[from..].copy_from_slice(&old);
@@ -314,7 +348,10 @@ impl<P: Problem> Tracer<P> {
             let found = correct(&self.problem, x, &row, self.settings.tolerance, watch).ok()?;
             place(&self.problem, found, &row, self.place.arclength).ok()
         });
-        let Some(place) = found else { return self.problem.coarsen() };
+        let Some(place) = found else {
+            self.problem.set_family(family);
+            return self.problem.coarsen();
+        };
         self.place = place;
         self.before = None;
     }
@@ -338,6 +375,7 @@ impl<P: Problem> Tracer<P> {
             arclength: place.arclength,
             motion: self.problem.motion(&place.x, &place.local, &place.levels),
             unstable: if located { self.beside_critical(place) } else { unstable(&place.levels) },
+            family: self.problem.family(),
             neutral: if special.is_some() { 0 } else { neutral(&self.problem, place) },
             slope: place.slope(),
             special,

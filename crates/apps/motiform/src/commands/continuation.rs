@@ -206,6 +206,14 @@ fn branch(
         let [last, first] = [pair[0].to, pair[1].from].map(nine);
         write!(f, "\n           becomes {} between {last} and {first}", pair[1].motion.name())?;
     }
+    if followed.family() > 0 {
+        let dimensions = counted(followed.family(), "dimension");
+        write!(
+            f,
+            "\n           each motion is one of a family of {dimensions} with the same parameters (has the model a symmetry that it"
+        )?;
+        write!(f, " does not state?): stability is that of the family")?;
+    }
     let stable = stretches(&folder.found, followed);
     let neutral = neutral_stretches(followed);
     for [from, to] in &neutral {
@@ -261,6 +269,9 @@ fn six(found: Coefficient) -> String {
 /// An error below this one is not shown: all nine decimals are right.
 const SHOWN: f64 = 5e-10;
 
+/// The same of periods, with six decimals.
+const SHOWN_OF_PERIODS: f64 = 5e-7;
+
 fn line(special: &SpecialEntry, units: &Shown) -> String {
     let value = match special.error {
         Some(error) if error > SHOWN => stated(special.parameter, error),
@@ -272,8 +283,11 @@ fn line(special: &SpecialEntry, units: &Shown) -> String {
     } else {
         String::new()
     };
-    let period =
-        special.period.map(|period| format!("period {:.6}{unit}", period * units.factor(PERIOD.dimension)));
+    let factor = units.factor(PERIOD.dimension);
+    let period = special.period.map(|period| match special.period_error.map(|error| error * factor) {
+        Some(error) if error > SHOWN_OF_PERIODS => format!("period {}{unit}", stated(period * factor, error)),
+        _ => format!("period {:.6}{unit}", period * factor),
+    });
     let words = special.criticality.map(|word| match &special.undecided {
         Some(why) => format!("{word} ({why})"),
         None => word.to_owned(),

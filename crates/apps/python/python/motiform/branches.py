@@ -109,7 +109,8 @@ class Branches:
 
 _RATE: Dimension = (0, -1)
 _OF_CONNECTIONS: dict[str, Dimension] = {
-    "rate": _RATE, "frequency": _RATE, "saddle_quantity": _RATE, "leading_growing": _RATE, "leading_decaying": _RATE
+    "period_error": (0, 1), "rate": _RATE, "rate_error": _RATE, "frequency": _RATE, "saddle_quantity": _RATE, "saddle_quantity_error": _RATE,
+    "leading_growing": _RATE, "leading_decaying": _RATE
 }  # fmt: skip
 _OF_SADDLES = {**_OF_CONNECTIONS, "eigenvalues": _RATE, "turning_rate": (0, -1, True), "speed": (1, -1)}
 

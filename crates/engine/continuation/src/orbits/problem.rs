@@ -4,12 +4,12 @@ use super::{Local, Orbits, reduced_rates};
 use crate::allowance::Allowance;
 use crate::classes::{Classes, GAINED};
 use crate::homoclinic::Saddle;
-use crate::levels::Level;
+use crate::levels::{ALONG_FAMILY, Level, across_family};
 use crate::normal_form::{NormalForm, Order};
 use crate::normal_forms::of_orbit;
 use crate::passages::Passages;
 use crate::point::Motion;
-use crate::problem::Problem;
+use crate::problem::{Border, Problem};
 use crate::reduced_maps::reduced_maps;
 use crate::shooting::shape_after;
 use crate::special::{Broken, Special};
@@ -42,7 +42,21 @@ impl Problem for Orbits<'_> {
         if maps.iter().flatten().any(|map| !map.is_square()) {
             return None;
         }
-        maps.iter().map(|maps| logarithms_of_product(maps).map(|v| Level::of_pairs(&v))).collect()
+        let all: Option<Vec<Vec<Level>>> =
+            maps.iter().map(|maps| logarithms_of_product(maps).map(|v| Level::of_pairs(&v))).collect();
+        all.map(|levels| across_family(levels, self.family.len()))
+    }
+
+    fn borders(&self) -> Vec<Border> {
+        self.family.clone()
+    }
+
+    fn set_family(&mut self, borders: Vec<Border>) {
+        self.family = borders;
+    }
+
+    fn family(&self) -> usize {
+        self.family.len()
     }
 
     fn accuracy(&self) -> f64 {
@@ -76,7 +90,8 @@ impl Problem for Orbits<'_> {
             let modulus = libm::exp(level.growth);
             (modulus * cos, if level.angle.abs() == std::f64::consts::PI { 0.0 } else { modulus * sin })
         };
-        let mut all: Vec<&Level> = levels.iter().flatten().collect();
+        let along = std::iter::repeat_n(&ALONG_FAMILY, self.family.len());
+        let mut all: Vec<&Level> = levels.iter().flatten().chain(along).collect();
         all.sort_by(|a, b| b.growth.total_cmp(&a.growth).then(b.angle.total_cmp(&a.angle)));
         let orbit = PeriodicOrbit {
             shape: nodes[0].clone(),
@@ -154,12 +169,16 @@ impl Problem for Orbits<'_> {
         if self.mirrored || !self.parts.is_multiple_of(2) {
             return None;
         }
-        let (first, half) = (nodes[0], nodes[self.parts / 2]);
+        let (first, half) = (nodes[0], self.parts / 2);
         let extent = |node: &&[f64]| align(body, node, first, false).distance;
         if nodes.iter().map(extent).fold(0.0, f64::max) < EXTENDED * self.size {
             return None; // it shrinks to an equilibrium, which has all symmetries of time
         }
-        let is = |mirrored| align(body, half, first, mirrored).distance < same * self.size;
+        // an orbit that rests at a saddle for long is there at both times: all of it must come back
+        let is = |mirrored| {
+            let back = |i: usize| align(body, nodes[i + half], nodes[i], mirrored).distance;
+            (0..half).map(back).fold(0.0, f64::max) < same * self.size
+        };
         let gained = match (is(false), is(true) && body.symmetry().mirror) {
             (true, _) => Broken::HalfPeriod,
             (_, true) => Broken::MirrorAfterHalf,
@@ -168,21 +187,19 @@ impl Problem for Orbits<'_> {
         Some((gained, x.to_vec()))
     }
 
-    fn saddle(&self, x: &[f64], local: &Local) -> Option<Saddle> {
-        let body = local.body.as_ref();
-        let found = RelativeEquilibrium::find(body, self.node(x, self.slowest(local)?))?;
-        let rates = self.kept_rates(body, &found, (0..self.parts).map(|i| self.node(x, i)));
-        Some(Saddle { found, rates })
+    fn saddle(&self, x: &[f64], local: &Local, parameter: f64) -> Option<Saddle> {
+        let mut there = x.to_vec();
+        *there.last_mut()? = parameter;
+        let body = self.bodies.at(&there).ok()?;
+        let slowest = self.slowest(local)?;
+        let found = RelativeEquilibrium::find(body.as_ref(), self.node(x, slowest))?;
+        let rates = self.kept_rates(body.as_ref(), &found, (0..self.parts).map(|i| self.node(x, i)));
+        let away = |i: usize| align(body.as_ref(), &found.shape, self.node(x, i), false).distance;
+        let near = away(slowest) / (0..self.parts).map(away).fold(0.0, f64::max);
+        Some(Saddle { found, rates, near })
     }
 
     fn passages(&self, x: &[f64], local: &Local) -> Option<Passages> {
         self.passed(x, local, &())
-    }
-
-    fn equilibrium(&self, x: &[f64], local: &Local, parameter: f64) -> Option<RelativeEquilibrium> {
-        let mut there = x.to_vec();
-        *there.last_mut()? = parameter;
-        let body = self.bodies.at(&there).ok()?;
-        RelativeEquilibrium::find(body.as_ref(), self.node(x, self.slowest(local)?))
     }
 }

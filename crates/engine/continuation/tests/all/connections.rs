@@ -4,9 +4,9 @@
 
 use crate::common::near;
 use motiform_analysis::periodic::PeriodicGuess;
-use motiform_analysis::{PeriodicOrbit, Result};
+use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_continuation::{
-    Branch, Connection, ConnectionKind, End, Family, Joins, PeriodLaw, Point, Settings, Special,
+    Branch, Connection, ConnectionKind, End, Family, Joins, PeriodLaw, Point, Settings, Special, switch,
 };
 use motiform_dynamics::{Equivariant, Request, Scalar, VectorField, drive::drive};
 use motiform_models::tensor::{Tensor, TensorParameters};
@@ -119,6 +119,8 @@ fn a_weakly_damped_pendulum_stops_whirling_on_the_loop_of_its_saddle() {
     near(grows.0, root - 0.5 * damping, 1e-5);
     near(decays.0, -root - 0.5 * damping, 1e-5);
     near(found.quantity().unwrap(), -damping, 1e-8);
+    let error = found.quantity_error().unwrap();
+    assert!((found.quantity().unwrap() + damping).abs() <= error && error < 1e-4 * damping, "{error}");
 }
 
 /// The folds of a branch, in its order.
@@ -356,9 +358,87 @@ fn a_saddle_quantity_within_its_error_has_no_sign() {
         let (_, found) = connection(&family, -0.1, &guess, &Settings::over(low, high));
         near(found.parameter, 0.0, 1e-6);
         assert!(found.quantity().unwrap().abs() < 1e-6, "{:?}", found.quantity());
+        let error = found.quantity_error().unwrap();
+        assert!(found.quantity().unwrap().abs() <= error && error < 1e-4, "{error}");
         assert!(
             found.to_string().ends_with("saddle quantity 0 within its error: its sign is not known"),
             "{found}"
         );
+    }
+}
+
+/// Chua's equations with a cubic, b = 14, along a.
+struct Chua(f64);
+motiform_models::plain!(Chua, 3);
+impl<T: Scalar> VectorField<T> for Chua {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let (x, y, z) = (u[0], u[1], u[2]);
+        du[0] = (y - x * x * x * (1.0 / 16.0) + x * (1.0 / 6.0)) * self.0;
+        du[1] = x - y + z;
+        du[2] = y * -14.0;
+    }
+}
+
+/// The folds follow one another after the same time whatever the steps; long steps must not pass some of them, nor may the rise between two
+/// of them be taken for the law of a saddle with real eigenvalues.
+#[test]
+fn the_end_at_a_saddle_focus_does_not_depend_on_the_steps() {
+    let family = |a: f64| -> Body { Ok(Box::new(Chua(a))) };
+    let shape = settled(&Chua(8.41), &[1.0, 0.0, 0.0], 2000.0);
+    let guess = PeriodicGuess { shape: &shape, time: 9.331, angle: 0.0, mirrored: false };
+    let mut all: Vec<Connection> = Vec::new();
+    for (largest_step, low, high) in
+        [(0.01, 5.0, 10.0), (0.015, 5.0, 10.0), (0.03, 5.0, 10.0), (0.02, 8.0, 12.0)]
+    {
+        let settings = Settings { largest_step, ..Settings::over(low, high) };
+        let (points, found) = connection(&family, 8.41, &guess, &settings);
+        is_shilnikov(&points, &found, 9.385_156_865);
+        near(found.parameter, 9.385_156_865, found.error + 5e-10);
+        let late = points.iter().filter(|point| point.special.is_some()).map(period);
+        let late: Vec<f64> = late.filter(|period| *period > 15.0).collect();
+        assert!(late.windows(2).all(|pair| (pair[1] - pair[0] - 1.159).abs() < 0.01), "{late:?}");
+        all.push(found);
+    }
+    for (a, b) in all.iter().flat_map(|a| all.iter().map(move |b| (a, b))) {
+        assert!((a.parameter - b.parameter).abs() <= a.error + b.error, "{a}\n{b}");
+    }
+}
+
+fn period(point: &Point) -> f64 {
+    point.motion.orbit().unwrap().period()
+}
+
+/// Lorenz's equations along r; the saddle at the origin has the leading eigenvalue -8/3.
+struct Lorenz(f64);
+motiform_models::plain!(Lorenz, 3);
+impl<T: Scalar> VectorField<T> for Lorenz {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let (x, y, z) = (u[0], u[1], u[2]);
+        du[0] = (y - x) * 10.0;
+        du[1] = x * self.0 - y - x * z;
+        du[2] = x * y - z * (8.0 / 3.0);
+    }
+}
+
+/// Mirror images that the equations do not state, and other steps: their laws agree within their errors, which hold the saddle's rate.
+#[test]
+fn the_law_of_a_connection_is_as_good_as_its_error() {
+    let family = |r: f64| -> Body { Ok(Box::new(Lorenz(r))) };
+    for (side, largest_step, high) in
+        [(1.0, 0.02, 30.0), (-1.0, 0.02, 30.0), (1.0, 0.01, 28.0), (-1.0, 0.03, 35.0)]
+    {
+        let settings = Settings { largest_step, ..Settings::over(5.0, high) };
+        let place = side * (8.0_f64 / 3.0 * 23.0).sqrt();
+        let rest = RelativeEquilibrium::find(&Lorenz(24.0), &[place, place, 23.0]).unwrap();
+        let mut branch = Branch::of_equilibria(&family, 24.0, &rest, &settings, &()).unwrap();
+        let hopf = branch.find(|point| point.special.is_some()).unwrap();
+        near(hopf.parameter, 470.0 / 19.0, 1e-8);
+        let mut orbits = switch(&family, &hopf, &settings, &()).unwrap().pop().unwrap().pop().unwrap();
+        orbits.by_ref().for_each(drop);
+        let Some(End::Homoclinic(found)) = orbits.end() else { unreachable!("{:?}", orbits.end()) };
+        near(found.parameter, 13.926_557_407, 1e-8 + found.error);
+        let PeriodLaw::Logarithmic { rate } = found.law else { unreachable!("{found}") };
+        assert!((rate - 8.0 / 3.0).abs() <= found.law_error && found.law_error < 0.3 * rate, "{found}");
+        assert!(found.to_string().contains(&format!("+- {:.0e}", found.law_error)), "{found}");
     }
 }

@@ -1,5 +1,6 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
+mod canards;
 mod classics;
 mod codimension_2;
 #[path = "../../../analysis/tests/all/common/mod.rs"]
@@ -8,4 +9,5 @@ mod connections;
 mod curves;
 mod ends;
 mod equilibria;
+mod families;
 mod flat;

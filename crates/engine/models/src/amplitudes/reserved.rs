@@ -60,8 +60,9 @@ const BRANCHES: [&str; 25] = [
 ];
 
 /// Keys of the special points of branches, beside those of [`BRANCHES`]: the parameter is one more of them.
-const SPECIAL: [&str; 23] = [
+const SPECIAL: [&str; 27] = [
     "amplitude",
+    "amplitude_error",
     "attraction",
     "breaks",
     "coefficient",
@@ -77,10 +78,13 @@ const SPECIAL: [&str; 23] = [
     "normal_form",
     "on",
     "others",
+    "period_error",
     "rate",
+    "rate_error",
     "remaining",
     "saddle",
     "saddle_quantity",
+    "saddle_quantity_error",
     "saddles",
     "test",
     "undecided",

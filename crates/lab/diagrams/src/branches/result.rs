@@ -102,6 +102,13 @@ impl Followed {
         self.legs.last().is_some_and(|leg| leg.end == End::Closed)
     }
 
+    /// The largest dimension of the families of motions, each with one value of the parameter, that the branch leads through; 0 where each
+    /// of its motions is alone.
+    #[must_use]
+    pub fn family(&self) -> usize {
+        self.samples().map(|sample| sample.point.family).max().unwrap_or(0)
+    }
+
     /// Its points in order: the first leg backwards, then the second.
     pub fn samples(&self) -> impl Iterator<Item = &Sample> {
         let (first, rest) = self.legs.split_at(self.legs.len().min(1));

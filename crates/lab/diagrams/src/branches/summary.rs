@@ -29,6 +29,8 @@ pub struct SpecialEntry {
     pub coefficient: Option<(&'static str, Coefficient)>,
     /// Period of the motion, or of the one that begins (model time).
     pub period: Option<f64>,
+    /// Bound of the error of the period of an orbit.
+    pub period_error: Option<f64>,
     /// `supercritical` where what begins is stable in the critical directions, or `subcritical`: from the sign of the coefficient.
     /// `undecided` where that is smaller than its error or not known.
     pub criticality: Option<&'static str>,
@@ -52,6 +54,7 @@ impl SpecialEntry {
         object.extend(self.error.map(|error| ("error".to_owned(), error.into())));
         let words = [("criticality", self.criticality), ("breaks", self.breaks)];
         object.extend(self.period.map(|period| ("period".to_owned(), period.into())));
+        object.extend(self.period_error.map(|error| ("period_error".to_owned(), error.into())));
         object.extend(words.into_iter().filter_map(|(key, word)| Some((key.to_owned(), word?.into()))));
         object.extend(self.undecided.as_ref().map(|why| ("undecided".to_owned(), why.as_str().into())));
         if let Some((name, coefficient)) = self.coefficient {
@@ -115,6 +118,9 @@ fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Follo
     if !neutral.is_empty() {
         put("neutral", json!(neutral));
     }
+    if followed.family() > 0 {
+        put("family", followed.family().into());
+    }
     put("special", special.into());
     put("end", ends.last().cloned().unwrap_or_default().into());
     put("ends", json!(ends));
@@ -173,6 +179,7 @@ impl Branches {
                 Special::Hopf(hopf) => Some(hopf.period()),
                 _ => sample.reading.period,
             },
+            period_error: period_error(&sample.point),
             criticality,
             undecided,
             connection: None,
@@ -210,6 +217,12 @@ fn normal_form(point: &Point) -> Option<(&'static str, NormalForm)> {
         Special::BranchPoint => leading.map(|form| ("quadratic", form)),
         _ => leading.map(|form| ("cubic", form)),
     }
+}
+
+/// The error of the period of an orbit at a special point.
+fn period_error(point: &Point) -> Option<f64> {
+    let (orbit, certificate) = (point.motion.orbit()?, point.certificate?);
+    Some(certificate.time_error * orbit.period() / orbit.time)
 }
 
 fn coefficient(point: &Point) -> Option<(&'static str, Coefficient)> {
@@ -282,9 +295,13 @@ fn put_connection(object: &mut Map<String, Value>, connection: &Connection) {
     numbers.iter().for_each(|(name, number)| {
         put(name, (*number).into());
     });
+    if let [(name, _)] = numbers {
+        put(&format!("{name}_error"), connection.law_error.into());
+    }
     put("remaining", connection.remaining.into());
     if let Some(quantity) = connection.quantity() {
         put("saddle_quantity", quantity.into());
+        put("saddle_quantity_error", connection.quantity_error().into());
     }
     if let Some([grows, decays]) = connection.sides() {
         put("leading_growing", json!(grows));
@@ -314,6 +331,7 @@ fn passed(passed: &Passed) -> Value {
     object["leading_growing"] = json!(passed.sides[0]);
     object["leading_decaying"] = json!(passed.sides[1]);
     object["saddle_quantity"] = passed.quantity().into();
+    object["saddle_quantity_error"] = passed.quantity_error().into();
     object["share"] = passed.share.into();
     object
 }
@@ -328,6 +346,7 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
         certificate: None,
         coefficient: None,
         period: None,
+        period_error: None,
         criticality: None,
         undecided: None,
         connection: Some(connection.as_ref().clone()),
