@@ -16,6 +16,9 @@ const NEGATIVE: f64 = -0.05;
 /// The phase that harmonics and the ends of a record may shift over the longest lag (radians): no frequency is known better.
 const PHASE: f64 = 0.01;
 
+/// Part of the amplitude that is lost over the lags, below which nothing is.
+const UNDIMINISHED: f64 = 1e-3;
+
 /// Shortest period in samples: with fewer, a slower one cannot be told from a faster one.
 const SHORTEST: f64 = 5.0;
 
@@ -102,7 +105,10 @@ fn measured(curves: &Curves, last: usize, best: &Damped, misfit: f64) -> [Answer
         return [frequency, decay.at_least(libm::hypot(half, 2.0 * misfit * curves.dt / best.lambda))];
     }
     let lags = four_digits(last as f64 * curves.dt);
-    let reason = format!("not reached: the oscillation goes on at the longest lag {lags}; record longer");
+    let reason = match best.lambda * (last as f64) < UNDIMINISHED {
+        true => format!("not reached: the oscillation goes on undiminished up to the longest lag {lags}"),
+        false => format!("not reached: the oscillation goes on at the longest lag {lags}; record longer"),
+    };
     [frequency, Answer::unknown(reason)]
 }
 

@@ -281,6 +281,6 @@ pub(crate) fn value(measured: &Measured) -> String {
         Some([lower, upper]) => {
             format!("{} ({} to {})", digits(measured.value), digits(lower), digits(upper))
         }
-        None => format!("{} (no interval)", digits(measured.value)),
+        None => format!("{} (no interval)", four_digits(measured.value)),
     }
 }
