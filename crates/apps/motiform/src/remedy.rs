@@ -75,7 +75,7 @@ fn in_place(error: &StoreError) -> Option<&'static str> {
             "; allow more open files (ulimit -n)"
         }
         StoreError::Unreadable { reason, .. } if reason.ends_with("(os error 2)") => {
-            "; give a file that exists: `motiform new` writes a study"
+            "; give the name of a file that exists"
         }
         _ => return None,
     })

@@ -298,7 +298,7 @@ fn misspelt_keys_and_missing_places_are_named() {
     for (words, told) in [
         ("check key.toml", "key.toml:2:1: unknown key presett (did you mean preset?)"),
         ("check empty.toml", "a study needs preset = \"NAME\", or a table [model.NAME]"),
-        ("check nofile.toml", "give a file that exists"),
+        ("check nofile.toml", "give the name of a file that exists"),
         ("verify nowhere", "there is no folder nowhere: give one that motiform wrote"),
         ("simulate tensor --preset fig5a --t-end 60 --from 1000", "from = 1000"),
         ("simulate tensor --preset fig5a --t-end 60 --from 60", "give a smaller --from, or a longer --t-end"),
