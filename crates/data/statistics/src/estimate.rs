@@ -75,7 +75,8 @@ impl Estimate {
 /// How many times farther the upper end of a 95 % interval is than that of a normal variable, where only what is below a limit is seen,
 /// so many standard errors above the value.
 ///
-/// The mean m, in standard errors above the value, for which a part 0.025 of what is below the limit is below the value: `P(-m) = 0.025 P(limit - m)`.
+/// The mean m, in standard errors above the value, for which a part 0.025 of what is below the limit is below the value: `P(-m) =
+/// 0.025 P(limit - m)`.
 fn farther(limit: f64) -> f64 {
     let below = |x: f64| 0.5 * libm::erfc(-x / std::f64::consts::SQRT_2);
     let (mut low, mut high) = (NORMAL, FARTHEST);
