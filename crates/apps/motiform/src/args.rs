@@ -110,7 +110,7 @@ pub(crate) enum Command {
     /// Write a commented study, or a model of your own, to start from
     #[command(after_help = NEW_HELP)]
     New(NewOptions),
-    /// Say what this machine has (vector instructions, ffmpeg, browser, Python), and time it: about ten seconds
+    /// Say what this machine has (vector instructions, ffmpeg, browser, Python), and time it: about a second
     #[command(after_help = "More: docs/recipes.md.")]
     Doctor(DoctorOptions),
     /// Check a study file and print the resulting plan, without computing

@@ -68,10 +68,14 @@ fn in_place(error: &StoreError) -> Option<&'static str> {
         StoreError::NotOurs { .. } | StoreError::NotContinued { .. } | StoreError::OtherKind { .. } => {
             "; choose another --out, or move it to another place"
         }
+        StoreError::NoFolder { .. } => ": give one that motiform wrote",
         StoreError::Unwritable { .. } => "; choose an --out in a folder that is writable",
         StoreError::Inventory { .. } => "; choose another --out",
         StoreError::Unreadable { reason, .. } if reason.ends_with("(os error 24)") => {
             "; allow more open files (ulimit -n)"
+        }
+        StoreError::Unreadable { reason, .. } if reason.ends_with("(os error 2)") => {
+            "; give the name of a file that exists"
         }
         _ => return None,
     })

@@ -20,7 +20,9 @@ pub(crate) fn python(error: Error) -> PyErr {
             | StoreError::WriteFailed { .. }
             | StoreError::Inventory { .. },
         ) => PyOSError::new_err(text),
-        Error::Store(StoreError::NotVerified { .. }) => PyValueError::new_err(text),
+        Error::Store(StoreError::NotVerified { .. } | StoreError::NoFolder { .. }) => {
+            PyValueError::new_err(text)
+        }
         Error::Store(_) => PyFileExistsError::new_err(text),
         failure if failure.is_machine_failure() => PyOSError::new_err(text),
         _ => PyValueError::new_err(text),

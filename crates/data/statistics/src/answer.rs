@@ -86,6 +86,22 @@ impl Answer {
         Self::Known(Measured { value, interval })
     }
 
+    /// The same without a value, where there is a reason.
+    pub(crate) fn unless(self, reason: Option<String>) -> Self {
+        match reason {
+            Some(reason) if self.known().is_some() => Self::Unknown { reason },
+            _ => self,
+        }
+    }
+
+    /// The same with this reason in place of one that a longer record would remove.
+    pub(crate) fn unreachable_since(self, why: &str) -> Self {
+        match self {
+            Self::Unknown { reason } if reason.starts_with("not reached") => Self::unknown(why),
+            other => other,
+        }
+    }
+
     /// The reason why there is no value, if there is none.
     #[must_use]
     pub fn reason(&self) -> Option<&str> {

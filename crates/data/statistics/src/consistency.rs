@@ -5,9 +5,6 @@ use crate::{Answer, Measured, Walk, four_digits};
 /// Difference of two values, in their half widths together, from which on they are not one number.
 pub(crate) const APART: f64 = 1.25;
 
-/// A relative difference that is none: what the fit's own accuracy is.
-const ROUND: f64 = 0.003;
-
 /// The measured quantities that a persistent random walk must agree with.
 #[derive(Debug, Clone, Copy)]
 pub struct Seen<'a> {
@@ -21,7 +18,8 @@ pub struct Seen<'a> {
 
 impl Walk {
     /// The walk, or no numbers where S is not the root-mean-square speed, D not the diffusion coefficient or
-    /// P not the correlation time of the velocity.
+    /// P not the correlation time of the velocity: they differ by more than 1.25 of their half widths together. Smaller differences are in
+    /// the intervals of the walk, so that no two intervals of one number are apart.
     ///
     /// A curve may be near the form with other numbers than those of the motion: translational noise raises
     /// its start, which the fit takes for speed; a motion that turns is slow to diffuse.
@@ -48,14 +46,28 @@ impl Walk {
         let apart = pairs.into_iter().find_map(|(name, walk, other, what)| {
             let (walk, other) = (walk?, other?);
             let half = libm::hypot(walk.half_width(), other.half_width());
-            ((walk.value - other.value).abs() > APART * half + ROUND * other.value)
+            ((walk.value - other.value).abs() > APART * half)
                 .then(|| (name, four_digits(walk.value), what, four_digits(other.value)))
         });
-        let Some((name, value, what, other)) = apart else { return self };
+        let Some((name, value, what, other)) = apart else { return self.reaching(seen) };
         let reason = format!(
             "a persistent random walk does not describe the motion (its {name} {value} is not the {what} {other})"
         );
         Self { curve: self.curve, deviation: self.deviation, ..Self::unknown(&reason) }
+    }
+
+    /// The walk with intervals that reach the other measured values of its numbers.
+    fn reaching(self, seen: &Seen<'_>) -> Self {
+        let reach = |walk: Answer, other: Option<Measured>| match (walk.known(), other) {
+            (Some(found), Some(other)) => walk.at_least((found.value - other.value).abs()),
+            _ => walk,
+        };
+        Self {
+            speed: reach(self.speed, Some(*seen.speed)),
+            diffusion: reach(self.diffusion, seen.diffusion.known()),
+            persistence: reach(self.persistence, seen.time.known()),
+            ..self
+        }
     }
 
     /// The walk, or no numbers where all bodies together have a mean velocity.

@@ -1,11 +1,13 @@
 //! Autocorrelations of velocity, heading, speed and modes of the shape, with their correlation times.
 
-use crate::jackknife::{Sums, jackknife, leave_out};
+use crate::estimate::{Estimate, too_coarse};
+use crate::jackknife::{Sums, leave_out};
 use crate::lag_window::Integral;
 use crate::oscillation::oscillation;
-use crate::plateau::{Curves, Estimate, too_coarse};
+use crate::plateau::{Curves, Window};
+use crate::quantity::STEADY;
 use crate::resolution::too_far_apart;
-use crate::{Answer, Measured, Oscillation, Quantity, Result, Tracks};
+use crate::{Answer, Measured, Oscillation, Quantity, Result, Series, Track, Tracks};
 
 /// Most lags.
 const LONGEST: usize = 1 << 14;
@@ -64,9 +66,6 @@ pub(crate) struct Remembered {
     pub(crate) kept: Option<(Quantity, f64)>,
 }
 
-/// Mean correlation over the longest lags from which on a quantity is not forgotten within them.
-const KEPT: f64 = 0.05;
-
 /// See [`Remembered`].
 ///
 /// # Errors    none for samples that [`Tracks`] accepts
@@ -80,28 +79,16 @@ pub(crate) fn remembered(tracks: &Tracks) -> Result<Remembered> {
         let curves = products.curves();
         match curves.least() {
             Some(least) => longest = longest.max(least),
-            None => kept = kept.or_else(|| Some((quantity, kept_by(&curves)?))),
+            None => kept = kept.or_else(|| Some((quantity, curves.kept()?))),
         }
     }
     Ok(Remembered { memory: longest / 2, kept })
 }
 
-/// The mean correlation over the second half of the lags, where it is one.
-fn kept_by(curves: &Curves) -> Option<f64> {
-    let last = curves.longest();
-    let mean = |curve: &Vec<f64>| {
-        let part = &curve[last / 2..=last];
-        part.iter().sum::<f64>() / part.len() as f64 / curve[0]
-    };
-    let means: Vec<f64> = curves.values.iter().map(mean).collect();
-    let found = jackknife(means[0], &means[1..]);
-    (found.value > KEPT && found.lower() > 0.0).then_some(found.value)
-}
-
 /// [`autocorrelation`], its window at least so many samples.
 pub(crate) fn remembering(tracks: &Tracks, quantity: &Quantity, memory: usize) -> Result<Autocorrelation> {
     let products = Products::of(tracks, quantity)?;
-    let variance = products.sums[0].measured();
+    let variance = leave_out(products.groups, &|left| products.sums[0].mean(left), true);
     let quantity = quantity.clone();
     if products.steady(tracks, &quantity) {
         let time = Answer::unknown("it does not vary");
@@ -113,27 +100,56 @@ pub(crate) fn remembering(tracks: &Tracks, quantity: &Quantity, memory: usize) -
     let lags = (0..products.sums.len()).map(|lag| lag as f64 * tracks.dt()).collect();
     let correlation = (0..products.sums.len()).map(|lag| products.ratio(lag)).collect();
     let window = curves.window(memory);
-    let last = window.as_ref().map_or(curves.longest(), |window| *window);
+    let last = window.as_ref().map_or(curves.longest(), |window| window.length);
     let folded = too_far_apart(tracks, &quantity);
-    let coarse = || too_coarse(&curves.integral(last), &curves.coarser(last)[0], tracks.dt());
-    let coarse = folded.clone().or_else(coarse);
-    let time = match (folded.map_or(window, Err), &coarse) {
-        (Err(reason), _) => Answer::Unknown { reason },
-        (Ok(_), Some(reason)) => Answer::unknown(reason),
-        (Ok(window), None) => products.time(&curves, window),
+    let (fine, coarser) = (curves.integral(last), curves.coarser(last)[0]);
+    let coarse = |size| folded.clone().or_else(|| too_coarse(&fine, &coarser, (size, tracks.dt())));
+    let unresolved = coarse(curves.size(last));
+    let time = match (&unresolved, window) {
+        (_, Err(reason)) => Answer::unknown(folded.clone().unwrap_or(reason)),
+        (Some(reason), _) => Answer::unknown(reason),
+        (None, Ok(window)) => products.time(&curves, window).unless(coarse(fine.value.abs())),
     };
-    let oscillation = oscillation(&curves, last, coarse);
+    let oscillation = oscillation(&curves, last, unresolved);
     Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation })
+}
+
+impl Autocorrelation {
+    /// The same where all bodies have a mean velocity, for this reason: that part of the velocity, and of the heading, is never forgotten.
+    pub(crate) fn carried(self, why: Option<&str>) -> Self {
+        match (why, &self.quantity) {
+            (Some(why), Quantity::Velocity | Quantity::Heading) => {
+                Self { time: self.time.unreachable_since(why), ..self }
+            }
+            _ => self,
+        }
+    }
 }
 
 impl Products {
     pub(crate) fn of(tracks: &Tracks, quantity: &Quantity) -> Result<Self> {
+        let mean = if quantity.is_number() { mean(tracks, &|track| quantity.of(track)) } else { 0.0 };
+        Self::about(tracks, &|track| quantity.of(track), (mean, quantity.is_number()))
+    }
+
+    /// C of the size of a quantity about its mean; `None` where it does not vary.
+    pub(crate) fn of_size(tracks: &Tracks, quantity: &Quantity) -> Result<Option<Curves>> {
+        let size = |track: &Track| Series::new(vec![quantity.size(track)]);
+        let mean = mean(tracks, &size);
+        let found = Self::about(tracks, &size, (mean, true))?;
+        let varies = found.sums[0].mean(None) > STEADY * STEADY * mean * mean;
+        Ok(varies.then(|| found.curves()))
+    }
+
+    fn about(
+        tracks: &Tracks,
+        series: &dyn Fn(&Track) -> Series,
+        (mean, is_number): (f64, bool),
+    ) -> Result<Self> {
         let longest = tracks.longest_lag().min(LONGEST);
-        let is_number = quantity.is_number();
-        let mean = if is_number { mean(tracks, quantity) } else { 0.0 };
         let mut sums = vec![Sums::new(tracks.groups()); longest + 1];
         for starts in tracks.starts() {
-            let mut series = quantity.of(starts.track);
+            let mut series = series(starts.track);
             series.less(mean);
             let (products, pairs) = if starts.is_whole() {
                 series.lagged(longest.min(starts.track.position.len() - 1))?
@@ -170,7 +186,7 @@ impl Products {
     }
 
     /// The integral of rho under a window.
-    fn time(&self, curves: &Curves, window: usize) -> Answer {
+    fn time(&self, curves: &Curves, Window { length: window, room }: Window) -> Answer {
         let times = |integrals: Vec<Integral>, length: usize| -> Vec<f64> {
             let pairs = integrals.into_iter().zip(&curves.values);
             pairs.map(|(found, curve)| self.unbiased(length) * found.value / curve[0]).collect()
@@ -178,8 +194,9 @@ impl Products {
         let longer = (2 * window).min(curves.longest());
         let estimate = Estimate {
             values: times(curves.integrals(window), window),
-            longer: times(curves.integrals(longer), longer),
+            others: vec![times(curves.integrals(longer), longer)],
             coarser: Some(times(curves.coarser(window), window)),
+            room,
         };
         estimate.answer()
     }
@@ -193,10 +210,10 @@ impl Products {
 }
 
 /// The mean of a number over all samples.
-fn mean(tracks: &Tracks, quantity: &Quantity) -> f64 {
+fn mean(tracks: &Tracks, series: &dyn Fn(&Track) -> Series) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for track in tracks.units() {
-        let series = quantity.of(track);
+        let series = series(track);
         count += series.count();
         sum += series.components.iter().flatten().sum::<f64>();
     }

@@ -72,6 +72,13 @@ impl Damped {
         found
     }
 
+    /// The same function, its place 0 at this one.
+    pub(crate) fn at(&self, place: f64) -> Self {
+        let (size, angle) = (libm::exp(-self.lambda * place), self.omega * place);
+        let (c, s) = (size * libm::cos(angle), size * libm::sin(angle));
+        Self { a: self.a * c + self.b * s, b: self.b * c - self.a * s, ..*self }
+    }
+
     fn plus(&self, step: [f64; 4]) -> Self {
         let [lambda, omega, a, b] = step;
         Self { lambda: self.lambda + lambda, omega: self.omega + omega, a: self.a + a, b: self.b + b }

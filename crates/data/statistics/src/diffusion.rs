@@ -3,9 +3,10 @@
 use crate::consistency::APART;
 use crate::correlation::{Products, remembered};
 use crate::displacement::square_sums;
+use crate::estimate::{Estimate, too_coarse};
 use crate::jackknife::Sums;
 use crate::lag_window::Integral;
-use crate::plateau::{Estimate, difference, too_coarse};
+use crate::plateau::{Window, difference};
 use crate::resolution::too_far_apart;
 use crate::{Answer, Measured, Quantity, Result, Tracks, with_error};
 use serde::Serialize;
@@ -57,7 +58,7 @@ pub(crate) fn remembering(tracks: &Tracks, memory: usize) -> Result<Diffusion> {
     if curves.values[0][0] <= 0.0 {
         return Ok(Diffusion::unknown("nothing moved"));
     }
-    let window = match curves.window(memory) {
+    let Window { length: window, room } = match curves.window(memory) {
         Ok(window) => window,
         Err(reason) => return Ok(Diffusion::unknown(reason)),
     };
@@ -65,17 +66,24 @@ pub(crate) fn remembering(tracks: &Tracks, memory: usize) -> Result<Diffusion> {
     let halves =
         |integrals: Vec<Integral>| integrals.iter().map(|found| 0.5 * found.value).collect::<Vec<_>>();
     let (all, coarser) = (curves.integrals(window), curves.coarser(window));
-    let coarse =
-        too_far_apart(tracks, &Quantity::Velocity).or_else(|| too_coarse(&all[0], &coarser[0], tracks.dt()));
+    let coarse = |size| {
+        let folded = too_far_apart(tracks, &Quantity::Velocity);
+        folded.or_else(|| too_coarse(&all[0], &coarser[0], (size, tracks.dt())))
+    };
+    let (unresolved, by_value) = (coarse(curves.size(window)), coarse(all[0].value.abs()));
     let velocities = Estimate {
         values: halves(all),
-        longer: halves(curves.integrals(longer)),
+        others: vec![halves(curves.integrals(longer))],
         coarser: Some(halves(coarser)),
+        room,
     };
     let line = Line::of(tracks, window);
-    let displacements =
-        Estimate { values: line.quarters(), longer: Line::of(tracks, longer).quarters(), coarser: None };
-    let green_kubo = coarse.map_or_else(|| velocities.answer(), |reason| Answer::Unknown { reason });
+    let others = vec![Line::of(tracks, longer).quarters()];
+    let displacements = Estimate { values: line.quarters(), others, coarser: None, room };
+    let green_kubo = match unresolved {
+        Some(reason) => Answer::Unknown { reason },
+        None => velocities.answer().unless(by_value),
+    };
     let both = green_kubo.known().is_some();
     Ok(Diffusion {
         green_kubo,
@@ -140,11 +148,15 @@ impl Diffusion {
         Self { doubt: doubt.or(self.doubt), ..self }
     }
 
-    /// The coefficient with this doubt before all others, if there is a coefficient.
+    /// The coefficient with this doubt before all others; without a coefficient, it is the reason.
     #[must_use]
     pub(crate) fn doubted(self, why: Option<&str>) -> Self {
-        let known = self.green_kubo.known().or(self.displacements.known()).is_some();
-        Self { doubt: why.filter(|_| known).map(str::to_owned).or(self.doubt), ..self }
+        let Some(why) = why else { return self };
+        if self.green_kubo.known().or(self.displacements.known()).is_some() {
+            return Self { doubt: Some(why.to_owned()), ..self };
+        }
+        let reason = |answer: Answer| answer.unreachable_since(why);
+        Self { green_kubo: reason(self.green_kubo), displacements: reason(self.displacements), ..self }
     }
 }
 

@@ -18,6 +18,8 @@ pub struct MeanSquare {
     lags: Vec<usize>,
     sums: Vec<Sums>,
     groups: usize,
+    /// `false` where groups depend on each other: points then have no intervals.
+    with_intervals: bool,
 }
 
 /// A point of the curve.
@@ -44,7 +46,8 @@ pub struct DisplacementPoint {
 #[must_use]
 pub fn mean_square(tracks: &Tracks) -> MeanSquare {
     let lags = spaced(tracks.longest_lag());
-    MeanSquare { dt: tracks.dt(), sums: square_sums(tracks, &lags), groups: tracks.groups(), lags }
+    let sums = square_sums(tracks, &lags);
+    MeanSquare { dt: tracks.dt(), sums, groups: tracks.groups(), lags, with_intervals: true }
 }
 
 /// A path on an even grid: NaN where no place is known.
@@ -76,7 +79,7 @@ pub fn mean_square_of_paths(dt: f64, pieces: &[PathPiece<'_>], groups: usize) ->
             }
         }
     }
-    MeanSquare { dt, lags, sums, groups }
+    MeanSquare { dt, lags, sums, groups, with_intervals: true }
 }
 
 /// Sum and number of the squared displacements over a lag that begin in a range and are known.
@@ -162,7 +165,8 @@ impl MeanSquare {
     #[must_use]
     pub fn measured(&self, place: usize) -> Measured {
         let skew = leave_out(self.groups, &|left_out| self.value(place, left_out), true);
-        if skew.interval.is_some() { skew } else { self.sums[place].measured() }
+        let found = if skew.interval.is_some() { skew } else { self.sums[place].measured() };
+        self.shown(found)
     }
 
     /// d ln MSD / d ln lag between lags some places away on both sides; `None` where nothing moved.
@@ -173,7 +177,16 @@ impl MeanSquare {
             return None;
         }
         let slope = |left_out| self.slope(from, to, left_out);
-        slope(None).is_finite().then(|| leave_out(self.groups, &slope, false))
+        slope(None).is_finite().then(|| self.shown(leave_out(self.groups, &slope, false)))
+    }
+
+    /// The curve without intervals.
+    pub(crate) fn without_intervals(self) -> Self {
+        Self { with_intervals: false, ..self }
+    }
+
+    fn shown(&self, found: Measured) -> Measured {
+        Measured { interval: found.interval.filter(|_| self.with_intervals), ..found }
     }
 
     /// The slope between two places on logarithmic axes.

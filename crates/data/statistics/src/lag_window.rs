@@ -50,6 +50,12 @@ pub(crate) fn integral(correlation: &[f64], length: usize, dt: f64) -> Integral 
     Integral { value: dt * sum - correction, correction }
 }
 
+/// `int_0^W w |C| dtau`.
+pub(crate) fn size(correlation: &[f64], length: usize, dt: f64) -> f64 {
+    let terms = correlation.iter().enumerate().take(length).skip(1);
+    dt * (0.5 * correlation[0] + terms.map(|(lag, value)| weight(lag, length) * value.abs()).sum::<f64>())
+}
+
 /// coth y - 1/y.
 fn langevin(y: f64) -> f64 {
     if y < 1e-3 { y / 3.0 } else { 1.0 / libm::tanh(y) - 1.0 / y }

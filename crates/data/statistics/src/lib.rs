@@ -7,6 +7,7 @@
 //! is an [`Answer`] with the reason.
 
 mod answer;
+mod blocks;
 mod carried;
 mod consistency;
 mod correlate;
@@ -16,6 +17,7 @@ mod diffusion;
 mod displacement;
 mod distribution;
 mod error;
+mod estimate;
 mod exponent;
 mod gapped;
 mod jackknife;
@@ -52,7 +54,7 @@ pub use persistence::{Walk, furth, persistent_walk};
 pub use power::{PowerSpectrum, power_spectrum};
 pub use quantity::{Quantity, Series};
 pub use residence::{Residence, Side, residence};
-pub use statistics::{Settings, Statistics, statistics};
+pub use statistics::{Settings, Statistics, statistics, statistics_watched};
 pub use survival::{Duration, MeanTime, mean_time};
 pub use tracks::{Errors, Track, Tracks};
 pub use turning::{Turning, turning_angles};

@@ -1,7 +1,8 @@
 //! An oscillating correlation as what it is: a frequency and a decay.
 
 use crate::damped::{Damped, deviation, fit};
-use crate::plateau::{Curves, Estimate};
+use crate::estimate::Estimate;
+use crate::plateau::Curves;
 use crate::{Answer, four_digits};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -14,6 +15,9 @@ const NEGATIVE: f64 = -0.05;
 
 /// The phase that harmonics and the ends of a record may shift over the longest lag (radians): no frequency is known better.
 const PHASE: f64 = 0.01;
+
+/// Part of the amplitude that is lost over the lags, below which nothing is.
+const UNDIMINISHED: f64 = 1e-3;
 
 /// Shortest period in samples: with fewer, a slower one cannot be told from a faster one.
 const SHORTEST: f64 = 5.0;
@@ -53,10 +57,11 @@ pub(crate) fn oscillation(curves: &Curves, last: usize, coarse: Option<String>) 
     }
     let squares: f64 = all.iter().map(|rho| rho * rho).sum();
     let errors: f64 = (1..=last).map(|lag| 0.25 * curves.ratio(lag).half_width().powi(2)).sum();
-    let deviation = (deviation(&all, &best).powi(2) - errors / squares).max(0.0).sqrt();
+    let misfit = deviation(&all, &best);
+    let deviation = (misfit * misfit - errors / squares).max(0.0).sqrt();
     let [frequency, decay] = match coarse.or_else(|| refusal(&best, deviation)) {
         Some(reason) => [Answer::unknown(&reason), Answer::unknown(reason)],
-        None => measured(curves, last, &best),
+        None => measured(curves, last, &best, misfit),
     };
     let nearest = [best.omega / (TAU * curves.dt), best.lambda / curves.dt];
     Some(Oscillation { frequency, decay, nearest, deviation })
@@ -76,34 +81,44 @@ fn refusal(best: &Damped, deviation: f64) -> Option<String> {
     (best.omega * SHORTEST > TAU).then(|| coarse.to_owned())
 }
 
-/// Frequency and decay with their intervals: what every other sample changes is in them as far as it is more
-/// than chance (as in [`Estimate`]).
-fn measured(curves: &Curves, last: usize, best: &Damped) -> [Answer; 2] {
-    let fine = fits(curves, last, best, 1);
-    let coarse = fits(curves, last, best, 2);
+/// Frequency and decay with their intervals: what every other sample changes, and what is changed without the first decay time, is in
+/// them as far as it is more than chance (as in [`Estimate`]). A correlation of more than one part has the slowest one alone at late lags.
+///
+/// A misfit of the part d, what is chance in it included, may be one of the decay: another rate of decay, by the part 2 d, deviates by d
+/// from the nearest cosine of this one (times have the standard deviation 1/(2 lambda) under the weight e^{-2 lambda tau}).
+fn measured(curves: &Curves, last: usize, best: &Damped, misfit: f64) -> [Answer; 2] {
+    let [fine, coarse] = [1, 2].map(|step| fits(curves, last, best, (0, step)));
+    let first = (1.0 / best.lambda).min(last as f64 / 3.0) as usize;
+    let late = fits(curves, last, best, (first, 1));
     let of = |value: &dyn Fn(&Damped) -> f64| {
         let values = |found: &[Option<Damped>]| -> Vec<f64> {
             found.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect()
         };
-        let (values, longer) = (values(&fine), values(&coarse));
-        Estimate { values, longer, coarser: None }.answer()
+        let others = vec![values(&coarse), values(&late)];
+        Estimate { values: values(&fine), others, coarser: None, room: f64::INFINITY }.answer()
     };
     let resolution = PHASE / (TAU * last as f64 * curves.dt);
     let frequency = of(&|found| found.omega / (TAU * curves.dt)).at_least(resolution);
     if best.lambda * last as f64 > 1.0 {
-        return [frequency, of(&|found| curves.dt / found.lambda)];
+        let decay = of(&|found| curves.dt / found.lambda);
+        let half = decay.known().map_or(0.0, |found| found.half_width());
+        return [frequency, decay.at_least(libm::hypot(half, 2.0 * misfit * curves.dt / best.lambda))];
     }
     let lags = four_digits(last as f64 * curves.dt);
-    let reason = format!("not reached: the oscillation goes on at the longest lag {lags}; record longer");
+    let reason = match best.lambda * (last as f64) < UNDIMINISHED {
+        true => format!("not reached: the oscillation goes on undiminished up to the longest lag {lags}"),
+        false => format!("not reached: the oscillation goes on at the longest lag {lags}; record longer"),
+    };
     [frequency, Answer::unknown(reason)]
 }
 
-/// The nearest damped cosine of all groups and without each, from every `step`-th sample; per sample of the first one.
-fn fits(curves: &Curves, last: usize, best: &Damped, step: usize) -> Vec<Option<Damped>> {
+/// The nearest damped cosine of all groups and without each, from a lag on and from every `step`-th sample; per sample of the first one.
+fn fits(curves: &Curves, last: usize, best: &Damped, (from, step): (usize, usize)) -> Vec<Option<Damped>> {
     let times = step as f64;
-    let start = Damped { lambda: times * best.lambda, omega: times * best.omega, ..*best };
+    let start = best.at(from as f64);
+    let start = Damped { lambda: times * start.lambda, omega: times * start.omega, ..start };
     let of = |curve: &Vec<f64>| {
-        let every: Vec<f64> = ratios(curve, last).into_iter().step_by(step).collect();
+        let every: Vec<f64> = ratios(curve, last).into_iter().skip(from).step_by(step).collect();
         let found = fit(&every, &[start])?;
         Some(Damped { lambda: found.lambda / times, omega: found.omega / times, ..found })
     };

@@ -1,8 +1,8 @@
-//! The length of a lag window, and an integral with the bias of its window in the interval.
+//! The length of a lag window.
 
 use crate::jackknife::jackknife;
-use crate::lag_window::{Integral, integral};
-use crate::{Answer, Measured, four_digits};
+use crate::lag_window::{Integral, integral, size};
+use crate::{Measured, four_digits};
 
 /// The shortest window is so many times the integral of |rho|: half of it is 5 decay times of an exponential, 3 of a damped cosine.
 const LENGTH: f64 = 10.0;
@@ -13,17 +13,21 @@ const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Half widths of 95 % intervals by which a longer window may differ.
 const ALIKE: f64 = 1.5;
 
-/// Its own variances that are taken from the square of a change: what chance alone gives on average.
-const CHANCE: f64 = 1.0;
+/// Mean correlation over the longest lags from which on a quantity is not forgotten within them.
+const KEPT: f64 = 0.05;
 
-/// Largest part of an integral that may be the correction of the trapezoidal rule.
-const CORRECTED: f64 = 0.15;
+/// A correlation repeats itself where it is below the first over the first half of the lags, and above the second over the other one.
+const LOST: f64 = 0.5;
+const REPEATED: f64 = 0.999;
 
-/// Largest part by which every other sample may give another integral.
-const CHANGED: f64 = 0.2;
-
-/// Half the width of an interval of a logarithm from which on a value is not resolved: a factor of e on both sides.
-const UNRESOLVED: f64 = 1.0;
+/// A window that is long enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Window {
+    /// In samples.
+    pub(crate) length: usize,
+    /// The logarithm of how many times longer the memory could be until it is not reached within the lags: beyond, there is no window.
+    pub(crate) room: f64,
+}
 
 /// Sampled correlations C(k dt): of all groups, and without each of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,6 +52,11 @@ impl Curves {
     /// The integral of all groups.
     pub(crate) fn integral(&self, length: usize) -> Integral {
         integral(&self.values[0], length, self.dt)
+    }
+
+    /// The integral of |C| of all groups: what the integral would be without cancellation.
+    pub(crate) fn size(&self, length: usize) -> f64 {
+        size(&self.values[0], length, self.dt)
     }
 
     /// The integrals from every other sample.
@@ -81,6 +90,18 @@ impl Curves {
         None
     }
 
+    /// The mean correlation over the second half of the lags, where it is one: what does not oscillate and is not forgotten.
+    pub(crate) fn kept(&self) -> Option<f64> {
+        let last = self.longest();
+        let mean = |curve: &Vec<f64>| {
+            let part = &curve[last / 2..=last];
+            part.iter().sum::<f64>() / part.len() as f64 / curve[0]
+        };
+        let means: Vec<f64> = self.values.iter().map(mean).collect();
+        let found = jackknife(means[0], &means[1..]);
+        (found.value > KEPT && found.lower() > 0.0).then_some(found.value)
+    }
+
     /// The window: the shortest one from [`Curves::least`] and `memory` on whose integral agrees with those of all longer ones.
     ///
     /// Its length follows the decay of |rho|, which is known well, and not the noise of the integral. A slow
@@ -89,15 +110,11 @@ impl Curves {
     ///
     /// Source: Sokal (1997), in Functional Integration, NATO ASI 361 (self-consistent window); Lepski (1991),
     /// Theory Probab. Appl. 35, 454 (comparison with all longer ones).
-    pub(crate) fn window(&self, memory: usize) -> Result<usize, String> {
+    pub(crate) fn window(&self, memory: usize) -> Result<Window, String> {
         let longest = self.longest();
-        let not_decayed = || {
-            let longest = four_digits(longest as f64 * self.dt);
-            format!(
-                "not reached: the integral of the correlation still changes at the longest lag {longest}; record longer"
-            )
-        };
-        let least = self.least().ok_or_else(not_decayed)?.max(memory).min(longest);
+        let forgotten = self.least().ok_or_else(|| self.not_reached())?;
+        let room = libm::log(longest as f64 / forgotten as f64);
+        let least = forgotten.max(memory).min(longest);
         let lengths = lengths(least, longest);
         let values: Vec<Vec<f64>> = lengths
             .iter()
@@ -111,12 +128,26 @@ impl Curves {
         let settled = |place: &usize| values[place + 1..].iter().all(|longer| alike(&values[*place], longer));
         let place = (0..lengths.len()).find(settled).unwrap_or(lengths.len() - 1);
         if place + 1 == lengths.len() && place > 0 {
-            let longest = four_digits(longest as f64 * self.dt);
-            return Err(format!(
-                "not reached: the integral of the correlation still changes at the longest lag {longest}; record longer"
-            ));
+            return Err(self.not_reached());
         }
-        Ok(lengths[place])
+        Ok(Window { length: lengths[place], room })
+    }
+
+    /// The reason why there is no window. What comes back to its start repeats itself: no length of the record is enough.
+    fn not_reached(&self) -> String {
+        let lag = self.longest();
+        let longest = four_digits(lag as f64 * self.dt);
+        let rho = |lag: usize| self.values[0][lag] / self.values[0][0];
+        let lost = (0..=lag / 2).any(|lag| rho(lag) < LOST);
+        if lost && (lag / 2..=lag).any(|lag| rho(lag) > REPEATED) {
+            return format!(
+                "not reached: the motion repeats itself, its correlation is as large up to the longest lag {longest} as at the start, \
+                 and no longer record changes that"
+            );
+        }
+        format!(
+            "not reached: the integral of the correlation still changes at the longest lag {longest}; record longer"
+        )
     }
 }
 
@@ -135,61 +166,4 @@ fn lengths(least: usize, longest: usize) -> Vec<usize> {
 pub(crate) fn difference(one: &[f64], other: &[f64]) -> Measured {
     let differences: Vec<f64> = one.iter().zip(other).map(|(a, b)| a - b).collect();
     jackknife(differences[0], &differences[1..])
-}
-
-/// A positive value with what its window and its sampling leave out, each of all groups and without each.
-pub(crate) struct Estimate {
-    /// The values.
-    pub(crate) values: Vec<f64>,
-    /// The same over twice the window, or from every other sample: a change is a bias.
-    pub(crate) longer: Vec<f64>,
-    /// From every other sample, where the change is many times the error.
-    pub(crate) coarser: Option<Vec<f64>>,
-}
-
-impl Estimate {
-    /// The value with its interval, on logarithms:
-    ///
-    /// half^2 = jackknife^2 + t^2 max(0, c^2 - se(c)^2) + max(0, d^2 - se(d)^2),   t about 2,
-    ///
-    /// c the change to `longer`, d that to `coarser`, twice the sampling interval (which is 15 times the
-    /// error where the correlation is smooth or has a cusp at lag 0). Unknown where a value is not above 0:
-    /// then it is within its error of 0.
-    pub(crate) fn answer(&self) -> Answer {
-        let logarithms = |values: &[f64]| values.iter().map(|&x| libm::log(x)).collect::<Vec<f64>>();
-        let values = logarithms(&self.values);
-        let measured = jackknife(values[0], &values[1..]);
-        if values.iter().any(|x| !x.is_finite()) || measured.half_width() > UNRESOLVED {
-            let bound = jackknife(self.values[0], &self.values[1..]).upper().max(0.0);
-            return Answer::unknown(format!(
-                "not resolved: it is within its error of 0 (below {}); record longer, or more bodies",
-                four_digits(bound)
-            ));
-        }
-        let window = beyond_chance(&values, &logarithms(&self.longer));
-        let sampling =
-            self.coarser.as_ref().map_or(0.0, |coarser| beyond_chance(&values, &logarithms(coarser)));
-        let half = (measured.half_width().powi(2) + 4.0 * window + sampling).sqrt();
-        let interval = measured.interval.map(|_| [values[0] - half, values[0] + half].map(libm::exp));
-        Answer::Known(Measured { value: self.values[0], interval })
-    }
-}
-
-/// The square of a change, less what it is by chance.
-fn beyond_chance(one: &[f64], other: &[f64]) -> f64 {
-    let change = difference(one, other);
-    let square = change.value * change.value - 0.25 * CHANCE * change.half_width() * change.half_width();
-    if square.is_nan() { 0.0 } else { square.max(0.0) }
-}
-
-/// The reason why samples are too coarse for an integral, if they are: the correction of the trapezoidal rule
-/// for an exponential is a large part of it, so that a correlation of another form would need another one; or
-/// every other sample gives another value.
-pub(crate) fn too_coarse(found: &Integral, coarser: &Integral, dt: f64) -> Option<String> {
-    let value = found.value.abs();
-    let changed = (coarser.value - found.value).abs() > CHANGED * value;
-    (found.correction > CORRECTED * value || changed).then(|| {
-        let (dt, about) = (four_digits(dt), four_digits(found.value));
-        format!("sampled too coarsely: intervals of {dt} do not resolve the correlation (about {about}); record more often")
-    })
 }

@@ -27,7 +27,7 @@ pub struct Series {
 
 impl Series {
     /// Samples that are not a number are not defined.
-    fn new(mut components: Vec<Vec<f64>>) -> Self {
+    pub(crate) fn new(mut components: Vec<Vec<f64>>) -> Self {
         let samples = components.first().map_or(0, Vec::len);
         let defined: Vec<bool> =
             (0..samples).map(|at| components.iter().all(|series| !series[at].is_nan())).collect();
@@ -134,4 +134,4 @@ impl Quantity {
 }
 
 /// Largest size of fluctuations of a quantity that does not vary, as a part of its own.
-const STEADY: f64 = 1e-6;
+pub(crate) const STEADY: f64 = 1e-6;

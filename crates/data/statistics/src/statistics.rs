@@ -1,5 +1,6 @@
 //! All statistics of a set of tracks.
 
+use crate::blocks::dependent;
 use crate::carried::carried;
 use crate::correlation::{self, Remembered, remembered};
 use crate::diffusion;
@@ -11,7 +12,11 @@ use crate::{
     Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, first_passages, histogram,
     local_exponent, mean_square, persistent_walk, power_spectrum, radii, residence, turning_angles,
 };
+use motiform_dynamics::Watch;
 use motiform_dynamics::sample::mean;
+
+/// Steps of the work beside the correlation of each quantity: memory, diffusion, the rest.
+const STEPS_BESIDE: usize = 3;
 
 /// Bins of the speed.
 const BINS: usize = 40;
@@ -39,6 +44,10 @@ pub struct Statistics {
     /// Why the records are not those of a stationary motion; `None` where nothing says so. Else what is defined for stationary motion alone
     /// is unknown: persistence, diffusion coefficients, correlation times, frequencies. All other numbers are those of the records.
     pub not_stationary: Option<String>,
+    /// Why numbers have no intervals; `None` where they have. Blocks of few bodies that are not long against the memory of the
+    /// motion depend
+    /// on each other, and intervals over them would be too narrow.
+    pub no_intervals: Option<String>,
     /// Mean speed <|v|>.
     pub mean_speed: Measured,
     /// Root-mean-square speed.
@@ -69,6 +78,13 @@ pub struct Statistics {
 ///
 /// # Errors   an unknown quantity, radii that are not finite and above 0
 pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
+    statistics_watched(tracks, settings, &())
+}
+
+/// As [`statistics`]; the watch is told how much is done, and is not asked if it stopped.
+///
+/// # Errors   as [`statistics`]
+pub fn statistics_watched(tracks: &Tracks, settings: &Settings, watch: &dyn Watch) -> Result<Statistics> {
     let (residing, threshold) = match &settings.threshold {
         None => (Quantity::Speed, None),
         Some((name, threshold)) => (tracks.sized(name)?, *threshold),
@@ -77,10 +93,14 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let radii = discs(settings, &displacement)?;
     let quantities = tracks.quantities();
     let Remembered { memory, kept } = remembered(tracks)?;
-    let autocorrelations = quantities
-        .iter()
-        .map(|quantity| correlation::remembering(tracks, quantity, memory))
-        .collect::<Result<Vec<_>>>()?;
+    let at = |done: usize| watch.progress(done as f64 / (quantities.len() + STEPS_BESIDE) as f64);
+    at(1);
+    let of = |(number, quantity): (usize, &Quantity)| {
+        let found = correlation::remembering(tracks, quantity, memory)?;
+        at(number + 2);
+        Ok(found)
+    };
+    let autocorrelations = quantities.iter().enumerate().map(of).collect::<Result<Vec<_>>>()?;
     let varying = autocorrelations.iter().filter(|found| !found.lags.is_empty()).map(|found| &found.quantity);
     let spectra = varying
         .filter(|quantity| !matches!(quantity, Quantity::Heading)) // it may have gaps
@@ -94,6 +114,9 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
     let carried = carried(tracks);
     let diffusion = diffusion::remembering(tracks, memory)?.held_against(&exponents[1]);
     let diffusion = diffusion.beside(kept).doubted(carried.as_deref());
+    at(quantities.len() + 2);
+    let autocorrelations: Vec<_> =
+        autocorrelations.into_iter().map(|found| found.carried(carried.as_deref())).collect();
     let seen =
         Seen { speed: &rms_speed, diffusion: &diffusion.displacements, time: &autocorrelations[0].time };
     let found = Statistics {
@@ -102,6 +125,7 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
         samples: [lengths().min().unwrap_or(0), lengths().max().unwrap_or(0)],
         errors: tracks.errors(),
         not_stationary: None,
+        no_intervals: None,
         mean_speed,
         rms_speed,
         walk: persistent_walk(&displacement).held_against(&seen).carried(carried.is_some()),
@@ -115,6 +139,8 @@ pub fn statistics(tracks: &Tracks, settings: &Settings) -> Result<Statistics> {
         autocorrelations,
         spectra: spectra.into_iter().flatten().collect(),
     };
+    at(quantities.len() + STEPS_BESIDE);
+    let found = found.without_intervals(dependent(tracks)?);
     Ok(match not_stationary(tracks) {
         Some(why) => found.of_records_alone(why),
         None => found,

@@ -23,8 +23,11 @@ impl Audit {
     /// Reads every listed file of a folder.
     ///
     /// # Errors
-    /// [`Error::NotVerified`] without an inventory, [`Error::Inventory`], [`Error::Unwritable`] for a folder that cannot be read.
+    /// [`Error::NoFolder`] where there is none, [`Error::NotVerified`] without an inventory, [`Error::Inventory`], [`Error::Unwritable`] for a folder that cannot be read.
     pub fn of(folder: &Path) -> Result<Self, Error> {
+        if !folder.exists() {
+            return Err(Error::NoFolder { path: folder.to_owned() });
+        }
         crate::mend(folder)?;
         let inventory =
             Inventory::read(folder)?.ok_or_else(|| Error::NotVerified { path: folder.to_owned() })?;

@@ -49,6 +49,12 @@ pub enum Error {
         /// The folder.
         path: PathBuf,
     },
+    /// A folder to be verified that does not exist.
+    #[error("there is no folder {}", .path.display())]
+    NoFolder {
+        /// Its place.
+        path: PathBuf,
+    },
     /// A folder without an inventory cannot be verified.
     #[error("{} has no inventory of motiform (others wrote it, or an earlier version): there is nothing to \
         compare it with", .path.display())]

@@ -70,17 +70,42 @@ impl Study {
     }
 }
 
+/// Keys of a study beside those that name its model.
+const KEYS: &[&str] = &[
+    "ties",
+    "free",
+    "initial",
+    "title",
+    "about",
+    "run",
+    "scan",
+    "continue",
+    "atlas",
+    "return_map",
+    "figure",
+    "display",
+    "fit",
+];
+
+/// The error of a study without a model: a key that is none, which may be the misspelt one, or that there is no model.
+fn no_model(top: &mut Table<'_>, file: &str) -> Error {
+    top.misspelt(KEYS).err().unwrap_or_else(|| Error::Study {
+        file: file.to_owned(),
+        line: 1,
+        column: 1,
+        problem: format!(
+            "a study needs preset = \"NAME\", or a table [model.NAME]: NAME is {}",
+            names().join(" or ")
+        ),
+        excerpt: String::new(),
+    })
+}
+
 /// `[model.NAME]` with parameters, on top of `preset = "..."` if given.
 fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
     let preset = top.take("preset");
     let Some(mut models) = top.table("model")? else {
-        let preset = preset.ok_or_else(|| Error::Study {
-            file: file.to_owned(),
-            line: 1,
-            column: 1,
-            problem: format!("a study needs a table [model.NAME]: NAME is {}", names().join(" or ")),
-            excerpt: String::new(),
-        })?;
+        let Some(preset) = preset else { return Err(no_model(top, file)) };
         return from_preset(&preset, None);
     };
     if let Some(value) = models.take(NAME) {

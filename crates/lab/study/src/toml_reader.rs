@@ -135,9 +135,21 @@ impl<'i> Table<'i> {
             .collect()
     }
 
+    /// Rejects keys that were not taken and are none of these, with the nearest known name.
+    pub(crate) fn misspelt(&mut self, others: &[&str]) -> Result<(), Error> {
+        self.known.extend(others.iter().map(|&key| key.to_owned()));
+        self.refuse(|key| !others.contains(&key))
+    }
+
     /// Rejects keys that were not taken, with the nearest known name.
     pub(crate) fn finish(self) -> Result<(), Error> {
-        let Some((key, _)) = self.entries.iter().min_by_key(|(key, _)| key.span().start) else {
+        self.refuse(|_| true)
+    }
+
+    /// Rejects the first of these keys that was not taken.
+    fn refuse(&self, is_refused: impl Fn(&str) -> bool) -> Result<(), Error> {
+        let refused = self.entries.iter().filter(|(key, _)| is_refused(key.get_ref()));
+        let Some((key, _)) = refused.min_by_key(|(key, _)| key.span().start) else {
             return Ok(());
         };
         let name: &str = key.get_ref();

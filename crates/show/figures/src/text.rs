@@ -161,18 +161,19 @@ impl Label {
         self.0.is_empty()
     }
 
-    /// Breaks at spaces into lines of at most `width` pixels; a longer word keeps a line of its own.
+    /// Breaks at spaces into lines of at most `width` pixels, and a longer word at any of its characters.
     #[must_use]
     pub fn wrap(&self, size: f64, width: f64) -> Vec<Self> {
         let mut lines: Vec<Vec<Set>> = Vec::new();
-        for word in self.0.split(|s| s.is_break()).filter(|word| !word.is_empty()) {
+        let words = self.0.split(|s| s.is_break()).filter(|word| !word.is_empty());
+        for (word, is_rest) in words.flat_map(|word| pieces(word, width / size)) {
             let space = Set { character: ' ', face: Face::Regular, script: Script::Base };
             let long = |line: &[Set]| {
                 let em: f64 = line.iter().chain([&space]).chain(word).map(|s| s.width()).sum();
                 em * size > width
             };
             match lines.last_mut() {
-                Some(line) if !long(line) => {
+                Some(line) if !is_rest && !long(line) => {
                     line.push(space);
                     line.extend_from_slice(word);
                 }
@@ -193,6 +194,22 @@ impl Label {
         }
         runs
     }
+}
+
+/// A word in pieces of at most so many times the font size, one character at least; and `true` for all but the first.
+fn pieces(word: &[Set], width: f64) -> Vec<(&[Set], bool)> {
+    let mut found = Vec::new();
+    let mut begin = 0;
+    let mut room = width;
+    for (place, set) in word.iter().enumerate() {
+        if set.width() > room && place > begin {
+            found.push((&word[begin..place], begin > 0));
+            (begin, room) = (place, width);
+        }
+        room -= set.width();
+    }
+    found.push((&word[begin..], begin > 0));
+    found
 }
 
 /// Returns `true` if a hyphen after `before` is a minus sign: in "x = -2" and in any script, but not in
@@ -245,6 +262,15 @@ mod tests {
     #[test]
     fn literal_text_survives() {
         assert_eq!(plain(&literal("run_2*a^b\\c.toml")), "run_2*a^b\\c.toml");
+    }
+
+    #[test]
+    fn a_word_that_is_longer_than_a_line_is_broken() {
+        let label = Label::parse(&"supercalifragilistic".repeat(8));
+        let lines = label.wrap(12.0, 90.0);
+        assert!(lines.len() > 8 && lines.iter().all(|l| l.width(12.0) <= 90.0 && !l.is_empty()));
+        assert_eq!(lines.iter().map(|l| l.0.len()).sum::<usize>(), label.0.len());
+        assert_eq!(label.wrap(12.0, 1.0).len(), label.0.len());
     }
 
     #[test]

@@ -26,7 +26,8 @@ Examples:
 Noise: du = f(u) dt + ETA dW for every coordinate u accepted by --initial, with independent Wiener processes W. Without f the \
 variance would be ETA^2 t: ETA has the unit of u per square root of model time. For tensor the coordinates are v1, v2 \
 (velocity) and s11, s12, u111, u222 (shape), for cell c1, s1, c2, ... of phi. The law is invariant under rotations. The path \
-depends on the seed and the model's rates, not on --dt-out.
+depends on the seed and on the step of the noise: a power of 2 by the model's rates, and at most --dt-out. So another --dt-out may give \
+another path of the same law.
 
 The motion is classified from the end of the run if a short integration is conclusive (never with noise); `motiform classify` \
 integrates for longer.

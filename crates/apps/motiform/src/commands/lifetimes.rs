@@ -163,7 +163,12 @@ impl<'a> Lived<'a> {
             false => (found.until.to_string(), String::new()),
         };
         let starts = format!("{} each, {}, seed {}", counted(c.samples, "start"), c.random.words(), c.seed);
-        writeln!(f, "{starts}, followed to {until}")?;
+        let asked = if c.budget > 0.0 && c.budget < found.until {
+            ": --until in whole looks of the model"
+        } else {
+            ""
+        };
+        writeln!(f, "{starts}, followed to {until}{asked}")?;
         write!(f, "{:>12}", found.parameter)?;
         for title in ["blew up", "captured", "lasting", "delay", "events", "watched", "mean life"] {
             write!(f, " {title:>10}")?;

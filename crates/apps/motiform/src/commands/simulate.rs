@@ -24,6 +24,7 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     film::check(&options.drawing.film)?;
     style(options)?;
     let plan = RunPlan::new(&study(options)?)?;
+    shown_times(options, &plan)?;
     let target = Target::prepare(options, &plan)?;
     target.notes().iter().for_each(|note| warn(note));
     let c = &plan.computation;
@@ -63,7 +64,20 @@ const COARSE: f64 = 1e-4;
 
 /// The reason why a run without an error has no figures.
 const NOT_DRAWN: &str = "no figure is drawn: fewer than two rows lie within the times that are shown; give a smaller --dt-out, or a longer \
-                         --t-end";
+                         --t-end, or other times to draw (--from, --to)";
+
+/// Refuses times to draw that begin where the run ends: nothing would be drawn.
+fn shown_times(options: &SimulateOptions, plan: &RunPlan) -> Result<(), Error> {
+    let table = options.out.as_ref().is_some_and(|out| Format::of_path(out).is_some());
+    let drawn = !(options.no_figures || table || (options.json && options.out.is_none()));
+    let (from, end) = (plan.figure.from, plan.computation.t_end);
+    if drawn && from > 0.0 && from >= end {
+        let remedy = "the figures would begin at the end of the run or after it (t_end, counted from the end of the transient): give a \
+                      smaller --from, or a longer --t-end";
+        return Err(Error::Setting { key: "from", value: from.to_string(), remedy });
+    }
+    Ok(())
+}
 
 /// The study that the options describe: a file or a model, a preset, then the options.
 fn study(options: &SimulateOptions) -> Result<Study, Error> {

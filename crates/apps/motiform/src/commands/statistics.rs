@@ -5,8 +5,9 @@ use crate::commands::remarks::remark;
 use crate::commands::subject;
 use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
+use motiform_dynamics::Watch;
 use motiform_lab::statistics::{
-    Measurement, coarser_than_own, read, samples_apart, sentences, simulated_kept, summary, write,
+    Measurement, SIMULATED, coarser_than_own, read, samples_apart, sentences, simulated_kept, summary, write,
 };
 use motiform_statistics::Settings;
 use motiform_store::{Folder, Journal};
@@ -14,6 +15,7 @@ use motiform_study::{Error, RunPlan, Shown, Study};
 use serde::{Serialize, Serializer};
 use std::fmt::{Display, Formatter};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Bodies, if their number is not given.
 const BODIES: u64 = 100;
@@ -101,13 +103,45 @@ fn bodies(
 ) -> anyhow::Result<Option<Measurement>> {
     let threads = options.threads.count();
     let journal: &dyn Journal = folder.map_or(&(), |folder| folder);
-    let watch = Progress::new(count as f64, "bodies");
+    let watch = Stages::begin();
     let found =
         simulated_kept(study, usize::try_from(count)?, &settings(options), (threads, journal), &watch);
-    watch.finish();
+    watch.progress.finish();
     match found {
         Err(motiform_lab::statistics::Error::Study(Error::Interrupted)) => Ok(None),
         found => found.map(Some).map_err(plain_error),
+    }
+}
+
+/// The progress of the bodies, then of their statistics.
+struct Stages {
+    progress: Progress,
+    /// `true` from when the bodies are computed.
+    measuring: AtomicBool,
+}
+
+impl Stages {
+    fn begin() -> Self {
+        let progress = Progress::staged(2);
+        progress.stage("bodies", [0.0, SIMULATED], ("done", true));
+        Self { progress, measuring: AtomicBool::new(false) }
+    }
+}
+
+impl Watch for Stages {
+    fn progress(&self, done: f64) {
+        if done > SIMULATED && !self.measuring.swap(true, Ordering::Relaxed) {
+            self.progress.stage("statistics", [SIMULATED, 1.0], ("done", true));
+        }
+        self.progress.progress(done);
+    }
+
+    fn stopped(&self) -> bool {
+        self.progress.stopped()
+    }
+
+    fn note(&self, text: &str) {
+        self.progress.note(text);
     }
 }
 

@@ -288,3 +288,23 @@ fn standard_output_that_cannot_be_written() {
         assert_eq!(folder.bash(&format!("$motiform {words} | head -c 10")).stderr, "", "{words}");
     }
 }
+
+/// The words that are wrong are named, with what is right.
+#[test]
+fn misspelt_keys_and_missing_places_are_named() {
+    let folder = Folder::new();
+    folder.write("key.toml", "title = \"t\"\npresett = \"fig5a\"\n");
+    folder.write("empty.toml", "");
+    for (words, told) in [
+        ("check key.toml", "key.toml:2:1: unknown key presett (did you mean preset?)"),
+        ("check empty.toml", "a study needs preset = \"NAME\", or a table [model.NAME]"),
+        ("check nofile.toml", "give the name of a file that exists"),
+        ("verify nowhere", "there is no folder nowhere: give one that motiform wrote"),
+        ("simulate tensor --preset fig5a --t-end 60 --from 1000", "from = 1000"),
+        ("simulate tensor --preset fig5a --t-end 60 --from 60", "give a smaller --from, or a longer --t-end"),
+    ] {
+        let done = folder.run(words).expect_error(2);
+        assert!(done.stderr.contains(told), "{words}: {}", done.stderr);
+    }
+    folder.run("simulate tensor --preset fig5a --t-end 60 --from 59 --dt-out 0.1 --out run").expect(0);
+}

@@ -101,3 +101,23 @@ fn coarser_samples_than_usual_are_said() {
     assert!(done.stdout.contains("sampled too coarsely: within 1 velocity changes"), "{}", done.stdout);
     assert!(done.stdout.contains("at least every 0.08 (dt_out)"), "{}", done.stdout);
 }
+
+/// A slow switch in one short record: values without intervals, and the reason, in text and in the summary.
+#[test]
+fn one_short_record_of_a_slow_switch_has_no_intervals() {
+    let folder = Folder::new();
+    folder.write(
+        "switch.toml",
+        "[model.amplitudes]\nmodes = [2, 3]\nsymmetry = \"none\"\nvelocity = \"re(z2)+2\"\n[model.amplitudes.noise]\nz3 = \"0.6\"\n\
+         [model.amplitudes.equations]\nz2 = \"re(z2) - re(z2)^3 + re(z3) - i*im(z2)\"\nz3 = \"-z3\"\n",
+    );
+    let words = "statistics switch.toml --bodies 1 --t-end 200 --transient 50 --dt-out 0.5";
+    let done = folder.run(words).expect(0);
+    assert!(done.stdout.contains("no intervals: the "), "{}", done.stdout);
+    assert!(done.stdout.contains("(no interval), root mean square"), "{}", done.stdout);
+    let found = folder.run(&format!("{words} --json --out s")).expect(0).json();
+    assert!(found["no_intervals"].is_string() && found["mean_speed"].get("lower").is_none(), "{found}");
+    let all =
+        folder.run("statistics switch.toml --bodies 30 --t-end 100 --transient 50 --dt-out 0.5").expect(0);
+    assert!(!all.stdout.contains("no interval"), "{}", all.stdout);
+}

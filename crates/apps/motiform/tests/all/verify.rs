@@ -67,7 +67,7 @@ fn scans_and_other_kinds() {
     let done = folder.run("verify branches").expect(1);
     assert!(done.stdout.contains("its plan does not give its hash"), "{}", done.stdout);
     fs::create_dir(folder.path("empty")).unwrap();
-    for (words, why) in [("verify empty", "no inventory"), ("verify nothing", "no inventory")] {
+    for (words, why) in [("verify empty", "no inventory"), ("verify nothing", "there is no folder nothing")] {
         assert!(folder.run(words).expect_error(2).stderr.contains(why));
     }
 }

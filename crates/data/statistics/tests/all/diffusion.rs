@@ -5,8 +5,8 @@
 use crate::common::{active_brownian, agrees, along, holds, known, many, ornstein_uhlenbeck};
 use motiform_dynamics::Normal;
 use motiform_statistics::{
-    Quantity, Seen, Settings, Track, Tracks, autocorrelation, diffusion, mean_square, persistent_walk,
-    statistics,
+    Answer, Measured, Quantity, Seen, Settings, Track, Tracks, Walk, autocorrelation, diffusion, mean_square,
+    persistent_walk, statistics,
 };
 
 #[test]
@@ -163,11 +163,42 @@ fn a_velocity_that_all_bodies_share_is_named() {
         found.diffusion.green_kubo
     );
     assert!(found.walk.persistence.reason().unwrap().contains("all bodies together have"));
+    // too short for a coefficient, which no longer record would give
+    let short = tracks(0.5, 64, 60);
+    for answer in
+        [short.diffusion.green_kubo, short.diffusion.displacements, short.autocorrelations[0].time.clone()]
+    {
+        assert!(answer.reason().unwrap().starts_with("all bodies together move"), "{answer:?}");
+    }
     for still in [tracks(0.0, 64, 4000), tracks(0.0, 1, 4000)] {
         assert!(
             still.diffusion.doubt.is_none() && still.walk.persistence.known().is_some(),
             "{:?}",
             still.walk
         );
+    }
+}
+
+/// Two intervals of one number are not apart: a walk that differs from what is seen is none, or its interval says so.
+#[test]
+fn numbers_of_a_walk_reach_what_is_seen() {
+    let measured = |value: f64, half: f64| Measured { value, interval: Some([value - half, value + half]) };
+    for scale in [1.0, 1e-3] {
+        for step in 0..40 {
+            let speed = measured(scale * (1.0 - 0.0005 * f64::from(step)), scale * 0.0044);
+            let seen = measured(scale, scale * 0.0009);
+            let none = Answer::unknown("not looked at");
+            let [persistence, diffusion] = [(); 2].map(|()| none.clone());
+            let walk =
+                Walk { persistence, speed: Answer::Known(speed), diffusion, curve: None, deviation: 0.0 };
+            let walk = walk.held_against(&Seen { speed: &seen, diffusion: &none, time: &none });
+            let apart = |found: Measured| found.upper() < seen.lower() || found.lower() > seen.upper();
+            assert!(walk.speed.known().is_none_or(|found| !apart(found)), "{step}: {walk:?}");
+            assert_eq!(
+                walk.speed.known().is_some(),
+                f64::from(step) * 0.0005 < 1.25 * 0.0044_f64.hypot(0.0009),
+                "{step}"
+            );
+        }
     }
 }

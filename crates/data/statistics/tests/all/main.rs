@@ -1,5 +1,6 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
+mod blocks;
 mod common;
 mod correlation;
 mod coverage;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use crate::common::{active_brownian, agrees, along, known, many, ornstein_uhlenbeck};
+use crate::common::{active_brownian, agrees, along, holds, known, many, ornstein_uhlenbeck};
 use motiform_dynamics::Normal;
 use motiform_statistics::{Quantity, Track, Tracks, autocorrelation};
 use std::f64::consts::TAU;
@@ -62,7 +62,9 @@ fn a_circle_has_a_frequency_and_no_decay() {
     let tracks = Tracks::new(0.1, vec![], vec![along(0.1, 8000, turn)]).unwrap();
     let found = autocorrelation(&tracks, &Quantity::Velocity).unwrap().oscillation.unwrap();
     assert!((known(&found.frequency).value * TAU - 1.0).abs() < 1e-6, "{found:?}");
-    assert!(found.decay.reason().unwrap().starts_with("not reached"), "{found:?}");
+    assert!(found.decay.reason().unwrap().contains("goes on undiminished"), "{found:?}");
+    let time = autocorrelation(&tracks, &Quantity::Velocity).unwrap().time;
+    assert!(time.reason().unwrap().ends_with("no longer record changes that"), "{time:?}");
 }
 
 /// Two frequencies are not one.
@@ -78,4 +80,76 @@ fn a_sum_of_oscillations_is_not_one() {
     let tracks = Tracks::new(0.5, vec!["s".into()], bodies).unwrap();
     let found = autocorrelation(&tracks, &tracks.sized("s").unwrap()).unwrap().oscillation.unwrap();
     assert!(found.frequency.reason().unwrap().starts_with("not as one damped cosine"), "{found:?}");
+}
+
+/// The heading of a velocity whose components are damped oscillations has higher powers of the damped cosine in its
+/// correlation: those decay
+/// sooner, and the time of what is left is that of the components, at any scale of time.
+#[test]
+fn the_slowest_of_several_parts_is_in_the_interval_of_the_decay() {
+    for scale in [1.0, 40.0] {
+        let (l, w, dt) = (0.15 / scale, 0.99 / scale, 0.1 * scale);
+        let (mut count, mut frequencies, mut decays) = (0, 0, 0);
+        for seed in 0..40 {
+            let body = |normal: &mut Normal| {
+                let velocity = oscillator((l, w), dt, 2000, normal);
+                let mut x = [0.0; 2];
+                let mut step = |pair: &[[f64; 2]]| {
+                    x = [0, 1].map(|k| x[k] + 0.5 * dt * (pair[0][k] + pair[1][k]));
+                    x
+                };
+                let position = std::iter::once([0.0; 2]).chain(velocity.windows(2).map(&mut step)).collect();
+                Track { position, velocity, ..Track::default() }
+            };
+            let tracks = many(dt, 20, body, 300 + seed);
+            let found = autocorrelation(&tracks, &Quantity::Heading).unwrap().oscillation.unwrap();
+            let (Some(frequency), Some(decay)) = (found.frequency.known(), found.decay.known()) else {
+                continue;
+            };
+            count += 1;
+            frequencies += usize::from(holds(frequency, w / TAU));
+            decays += usize::from(holds(decay, 1.0 / l));
+        }
+        println!("{frequencies} and {decays} of {count}");
+        assert!(
+            count >= 20 && frequencies + 4 >= count && decays + 4 >= count,
+            "{frequencies} and {decays} of {count}"
+        );
+    }
+}
+
+/// A velocity that is the rate of change of a bounded oscillation has the integral 0, however it is sampled: that is
+/// no coarse sampling, and
+/// its frequency and decay are known.
+#[test]
+fn an_integral_of_zero_is_bounded_and_the_oscillation_known() {
+    let (friction, samples) = (0.3, 2000);
+    for scale in [1.0, 30.0] {
+        let dt = 0.1 * scale;
+        let body = |normal: &mut Normal| {
+            let (mut x, mut v, h) = ([0.0; 2], [0.7, -0.7], 0.01_f64);
+            let mut track = Track::default();
+            for step in 0..10 * (samples + 1000) {
+                for k in 0..2 {
+                    v[k] += h * (-friction * v[k] - x[k]) + 0.3 * h.sqrt() * normal.next();
+                    x[k] += h * v[k];
+                }
+                if step >= 10_000 && step % 10 == 0 {
+                    track.position.push(x.map(|x| x * scale));
+                    track.velocity.push(v);
+                }
+            }
+            track
+        };
+        for seed in 0..4 {
+            let tracks = many(dt, 20, body, 400 + seed);
+            let found = autocorrelation(&tracks, &Quantity::Velocity).unwrap();
+            let oscillation = found.oscillation.unwrap();
+            assert!(agrees(known(&oscillation.frequency), 0.988_7 / TAU / scale, 2.0), "{oscillation:?}");
+            assert!(agrees(known(&oscillation.decay), 2.0 * scale / friction, 2.0), "{oscillation:?}");
+            if let Some(reason) = found.time.reason() {
+                assert!(reason.contains("it is 0 within its error (below"), "{reason}");
+            }
+        }
+    }
 }

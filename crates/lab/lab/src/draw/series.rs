@@ -15,7 +15,7 @@ const NEGLIGIBLE: f64 = 1e-9;
 pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
     let mut notes = Vec::new();
     let mut panels = vec![panel(body, &SPEED, 0)];
-    let turning = panel(body, &TURNING_RATE, 1);
+    let turning = without_rounding(panel(body, &TURNING_RATE, 1), body);
     if turning.curves[0].values.iter().any(Option::is_none) {
         notes.push(if body.dataset.manifest.plan.computation.noise.is_some() {
             "The turning rate is undefined at rest, and where noise leaves the velocity no derivative."
@@ -42,6 +42,22 @@ pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
         notes,
         caption: words::about(body),
     }
+}
+
+/// The rates as 0 where all together turn by less than what is negligible (rad) in the time that is shown: a straight way, whose rates are
+/// rounding alone.
+fn without_rounding(mut panel: Panel, body: &Body<'_>) -> Panel {
+    let rates = &body.column(TURNING_RATE.name)[body.rows()];
+    let largest =
+        rates.iter().filter(|rate| rate.is_finite()).fold(0.0, |most: f64, rate| most.max(rate.abs()));
+    let shown = body.rows();
+    let times = &body.column(T.name)[shown];
+    let time = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
+    if largest * time < NEGLIGIBLE {
+        let values = panel.curves.iter_mut().flat_map(|curve| &mut curve.values);
+        values.flatten().for_each(|rate| *rate = 0.0);
+    }
+    panel
 }
 
 /// The measures of the boundary: those that vary as panels, constant ones as notes.

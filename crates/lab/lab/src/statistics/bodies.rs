@@ -17,6 +17,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Most bodies.
 pub const MOST: usize = 100_000;
 
+/// The progress that is told when all bodies are computed; their statistics are the rest.
+pub const SIMULATED: f64 = 0.5;
+
 /// Bodies that are computed together in lanes: what an interruption loses at most.
 const TOGETHER: usize = 64;
 
@@ -56,10 +59,11 @@ pub fn simulated_kept(
     let (plans, kept) = (plans(study, count)?, Kept(journal));
     let noisy = plans[0].computation.noise.is_some();
     let alone = noisy && !has_noisy_lanes(&plans[0])?;
+    let part = Part { watch, from: 0.0, to: SIMULATED };
     let found = if alone {
-        one_by_one(&plans, &kept, threads, watch)?
+        one_by_one(&plans, &kept, threads, &part)?
     } else {
-        in_lanes(&plans, &kept, threads, watch)?
+        in_lanes(&plans, &kept, threads, &part)?
     };
     let mut kept = Vec::new();
     let mut seeds = Vec::new();
@@ -86,7 +90,7 @@ pub fn simulated_kept(
         }
         .into());
     }
-    let statistics = measured(&plans[0], kept, settings)?;
+    let statistics = measured(&plans[0], kept, settings, &Part { watch, from: SIMULATED, to: 1.0 })?;
     let source = json!({ "plan": plans[0], "plan_hash": plans[0].hash(), "bodies": count });
     let title = title(&plans[0]);
     let plan = plans[0].clone();

@@ -42,7 +42,7 @@ pub fn read(folders: &[PathBuf], transient: f64, settings: &Settings) -> Result<
         first.get_or_insert(dataset);
     }
     let Some(first) = first else { return Err(motiform_statistics::Error::NoBody.into()) };
-    let statistics = measured(&first.manifest.plan, tracks, settings)?;
+    let statistics = measured(&first.manifest.plan, tracks, settings, &())?;
     let shown: Vec<String> = folders.iter().map(|folder| folder.display().to_string()).collect();
     let source = json!({ "folders": shown, "transient": transient, "plan": first.manifest.plan });
     let title = title(&first.manifest.plan);

@@ -39,6 +39,11 @@ fn caption(measurement: &Measurement, units: &Shown, marks: &str, more: &[&str])
     });
     let found = &measurement.statistics;
     let what = match found.errors {
+        Errors::Blocks { .. } if found.no_intervals.is_some() => {
+            let bodies =
+                if found.bodies == 1 { "One body".to_owned() } else { format!("{} bodies", found.bodies) };
+            format!("{bodies}; no intervals: blocks of the tracks are alike.")
+        }
         Errors::Bodies { count } => format!("{count} bodies; {marks}: 95 % intervals over bodies."),
         Errors::Blocks { count, .. } if found.bodies == 1 => {
             format!("One body; {marks}: 95 % intervals over {count} blocks of its track.")

@@ -12,7 +12,7 @@ mod sampling;
 mod summary;
 mod tables;
 
-pub use bodies::{MOST, simulated, simulated_kept};
+pub use bodies::{MOST, SIMULATED, simulated, simulated_kept};
 pub use datasets::read;
 pub use draw::draw;
 pub use error::{Error, Result};

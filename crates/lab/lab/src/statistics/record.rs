@@ -2,8 +2,8 @@
 
 use crate::statistics::Result;
 use motiform_dynamics::model::{drift, velocity};
-use motiform_dynamics::{Model, VectorField};
-use motiform_statistics::{Settings, Statistics, Track, Tracks, statistics};
+use motiform_dynamics::{Model, VectorField, Watch};
+use motiform_statistics::{Settings, Statistics, Track, Tracks, statistics_watched};
 use motiform_study::Plan;
 use motiform_study::titles::capital;
 use serde_json::Value;
@@ -107,11 +107,16 @@ pub(crate) fn title(plan: &Plan) -> String {
 }
 
 /// The statistics of tracks of a plan's model.
-pub(crate) fn measured(plan: &Plan, tracks: Vec<Track>, settings: &Settings) -> Result<Statistics> {
+pub(crate) fn measured(
+    plan: &Plan,
+    tracks: Vec<Track>,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Result<Statistics> {
     let model = plan.body()?;
     let tracks = Tracks::new(plan.computation.dt_out, mode_names(model.as_ref()), tracks)?;
     let tracks = tracks.with_noise(plan.computation.noise.is_some());
-    Ok(statistics(&tracks, settings)?)
+    Ok(statistics_watched(&tracks, settings, watch)?)
 }
 
 #[cfg(test)]

@@ -36,6 +36,7 @@ pub fn summary(measurement: &Measurement) -> Value {
         "dt": found.dt,
         "errors": found.errors,
         "not_stationary": found.not_stationary,
+        "no_intervals": found.no_intervals,
         "complete": measurement.complete,
         "notes": measurement.notes,
         "mean_speed": found.mean_speed,
@@ -70,7 +71,10 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
             "{} {bodies}, {samples} samples every {}; {}",
             found.bodies,
             if units.is_physical() { four(Dimension::TIME, found.dt) } else { found.dt.to_string() },
-            over(found.errors)
+            found
+                .no_intervals
+                .as_ref()
+                .map_or_else(|| over(found.errors), |why| format!("no intervals: {why}"))
         ),
     )];
     let of_model = if units.is_physical() { " (numbers in model units)" } else { "" };
@@ -277,6 +281,6 @@ pub(crate) fn value(measured: &Measured) -> String {
         Some([lower, upper]) => {
             format!("{} ({} to {})", digits(measured.value), digits(lower), digits(upper))
         }
-        None => format!("{} (no interval)", digits(measured.value)),
+        None => format!("{} (no interval)", four_digits(measured.value)),
     }
 }

@@ -107,7 +107,9 @@ fn stairs(histogram: &Histogram, unit: f64) -> Vec<BandPoint> {
         high: high * unit,
     };
     let ends = |bin: &motiform_statistics::Bin| {
-        let values = [bin.density, bin.lower, bin.upper];
+        // without an interval there is no band
+        let ends = if bin.lower.is_nan() { [bin.density; 2] } else { [bin.lower, bin.upper] };
+        let values = [bin.density, ends[0], ends[1]];
         [corner(bin.from, values), corner(bin.to, values)]
     };
     histogram.bins.iter().flat_map(ends).collect()
