@@ -1,6 +1,7 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
 mod classics;
+mod close;
 mod codimension_2;
 #[path = "../../../analysis/tests/all/common/mod.rs"]
 mod common;
@@ -9,3 +10,4 @@ mod curves;
 mod ends;
 mod equilibria;
 mod flat;
+mod meeting;
