@@ -41,6 +41,7 @@ impl Plane {
             motion: at.motion.clone(),
             unstable: at.unstable,
             neutral: 0,
+            critical: 0,
             slope: 0.0,
             special: Some(at.special),
             certificate: None,
