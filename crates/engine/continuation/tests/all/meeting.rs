@@ -226,6 +226,8 @@ fn each_pair_that_is_critical_at_one_point_has_its_oscillation() {
             assert!(point.parameter.abs() < 1e-10 && point.critical == 2, "{point:?}");
             let Some(Special::Hopf(hopf)) = point.special else { unreachable!() };
             assert_eq!(hopf.is_supercritical(), None);
+            let mut legs = switch(&family, point, &settings, &()).unwrap().into_iter().flatten().flatten();
+            assert!(legs.all(|point| point.special.is_none() && point.neutral == 0 && point.unstable == 2));
             let ends = ends(&family, point, &settings);
             let [(p, state, unstable)] = &ends[..] else { panic!("{ends:?}") };
             let size = state[place].hypot(state[place + 1]);

@@ -70,7 +70,8 @@ impl Origin {
                             | Special::Continuum
                             | Special::Torus { .. }
                             | Special::Unresolved { .. }
-                    )
+                            | Special::Touch { seen: "hopf", .. }
+                    ) && !(sample.point.motion.orbit().is_some() && matches!(special, Special::Touch { .. }))
                 };
                 if sample.point.special.is_some_and(leads_on) {
                     all.push(Self::Special { branch: number, leg, point });

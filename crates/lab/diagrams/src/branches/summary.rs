@@ -232,9 +232,16 @@ const VANISHES: &str = "the terms of second order vanish within their error: tho
 /// Why no normal form tells what begins at a point, where that is so.
 fn doubt(point: &Point) -> Option<String> {
     match point.special? {
-        Special::Touch { seen, within } => Some(format!(
-            "a growth comes to 0 and back: two of the kind {seen} within {within:.1e}, or a crossing of both"
-        )),
+        Special::Touch { seen, within } => {
+            let rest = if seen == "hopf" || point.motion.orbit().is_some() {
+                "; what may begin here is not looked for"
+            } else {
+                ""
+            };
+            Some(format!(
+                "a growth comes to 0 and back: two of the kind {seen} within {within:.1e}, or a crossing of both{rest}"
+            ))
+        }
         Special::BranchPoint | Special::Pitchfork { .. }
             if point.critical > 1 && point.motion.orbit().is_none() =>
         {
