@@ -2,7 +2,7 @@
 
 use super::correct::{correct, normal};
 use super::levels::Level;
-use super::point::Point;
+use super::point::{Motion, Point};
 use super::problem::Problem;
 use super::settings::Settings;
 use super::special::{Broken, Special};
@@ -11,7 +11,10 @@ use motiform_analysis::{Error, Result};
 use motiform_dynamics::Watch;
 
 /// Distances from the special point at which the new branch is looked for, in the units of [`Settings`].
-const DISTANCES: [f64; 7] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002, 0.00004];
+const DISTANCES: [f64; 8] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002, 0.00004, 0.000_008];
+
+/// Changes of the parameter, in parts of the range, from which Newton's method begins.
+const LEANS: [f64; 5] = [0.0, 0.01, -0.01, 0.05, -0.05];
 
 /// Factor by which the branch is examined nearer to its beginning, and the ratios of the two changes of the parameter where it begins: this
 /// one to the power
@@ -22,20 +25,51 @@ const RATIOS: std::ops::RangeInclusive<f64> = 0.5 * NEARER..=2.0 * NEARER * NEAR
 /// Least change of the parameter that tells anything, in tolerances of Newton's method.
 const SEEN: f64 = 100.0;
 
+/// Ratios of growths that are about the same.
+const ABOUT: std::ops::RangeInclusive<f64> = 0.5..=1.5;
+
 /// A special point: its unknowns, a direction that a new branch leaves in, and in how many directions deviations grow on that branch at
 /// first.
 pub(super) struct Begin<'b> {
     origin: &'b [f64],
     direction: &'b [f64],
     growing: std::ops::RangeInclusive<usize>,
+    /// The growths at the special point, largest first; none where they are not compared.
+    there: Vec<f64>,
 }
 
 impl<'b> Begin<'b> {
     /// Deviations grow in the directions in which they do at the point, and at most in those of the critical levels too.
     pub(super) fn at(point: &Point, origin: &'b [f64], direction: &'b [f64]) -> Self {
         let twice = matches!(point.special, Some(Special::Pitchfork { breaks: Broken::Rotations }));
-        let critical = if twice { 2 } else { 1 };
-        Self::new(origin, direction, point.unstable..=point.unstable + critical)
+        let critical = point.critical.max(if twice { 2 } else { 1 });
+        let there = match &point.motion {
+            Motion::Equilibrium(at) => at.eigenvalues.iter().map(|value| value.0).collect(),
+            Motion::Orbit { .. } => Vec::new(),
+        };
+        let growing = point.unstable..=point.unstable + critical;
+        Self { there, ..Self::new(origin, direction, growing) }
+    }
+
+    /// Returns `true` if deviations grow in as many directions as the special point lets expect, and the growths next to the critical ones
+    /// are about what they are there: otherwise one of them may have passed 0 in the place of a critical one.
+    fn expects(&self, levels: &[Vec<Level>]) -> bool {
+        let mut here: Vec<f64> = levels.iter().flatten().map(|level| level.growth).collect();
+        here.sort_by(|a, b| b.total_cmp(a));
+        let count = here.iter().filter(|growth| **growth > 0.0).count();
+        let (above, below) = (*self.growing.start(), *self.growing.end());
+        let about = |there: Option<&f64>, here: Option<&f64>| match (there, here) {
+            (Some(there), Some(here)) => ABOUT.contains(&(here / there)),
+            _ => true,
+        };
+        // a direction may have become neutral: those that decay are counted from the other end
+        let from_end = self.there.len().checked_sub(below + 1);
+        let last = |all: &'_ [f64]| from_end.and_then(|k| all.iter().rev().nth(k).copied());
+        let first = |all: &'_ [f64]| above.checked_sub(1).and_then(|k| all.get(k).copied());
+        self.growing.contains(&count)
+            && (self.there.is_empty()
+                || about(first(&self.there).as_ref(), first(&here).as_ref())
+                    && about(last(&self.there).as_ref(), last(&here).as_ref()))
     }
 
     /// Deviations grow in so many directions.
@@ -44,7 +78,7 @@ impl<'b> Begin<'b> {
         direction: &'b [f64],
         growing: std::ops::RangeInclusive<usize>,
     ) -> Self {
-        Self { origin, direction, growing }
+        Self { origin, direction, growing, there: Vec::new() }
     }
 }
 
@@ -58,19 +92,21 @@ pub(super) fn nothing(parameter: f64) -> Error {
 /// changes as a branch begins: otherwise there may be another special point on the way, and a nearer one is looked for.
 pub(super) fn follow<P: Problem>(
     mut problem: P,
-    &Begin { origin, direction, ref growing }: &Begin<'_>,
+    begin: &Begin<'_>,
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Result<Tracer<P>> {
+    let (origin, direction) = (begin.origin, begin.direction);
     let mut farthest = f64::INFINITY;
     let mut doubtful = None;
-    for distance in DISTANCES {
-        if distance > farthest {
+    // where terms of high order decide the parameter is far from that of the point
+    for (lean, distance) in LEANS.into_iter().flat_map(|lean| DISTANCES.map(|distance| (lean, distance))) {
+        if distance > farthest || lean != 0.0 && doubtful.is_some() {
             continue;
         }
-        match Tracer::beside(problem, (origin, direction, distance), settings, watch) {
+        match Tracer::beside(problem, (origin, direction, distance), lean, settings, watch) {
             Ok(tracer)
-                if growing.contains(&tracer.growing())
+                if begin.expects(&tracer.place.levels)
                     && is_beginning(&tracer, (origin, direction, distance), settings, watch) =>
             {
                 return Ok(tracer);
@@ -78,14 +114,14 @@ pub(super) fn follow<P: Problem>(
             Ok(tracer) => {
                 farthest = distance;
                 problem = tracer.into_problem();
-                doubtful = Some(distance);
+                doubtful = Some((lean, distance));
             }
             Err((back, _)) => problem = back,
         }
     }
     let nothing = || nothing(origin.last().copied().unwrap_or(f64::NAN));
-    let distance = doubtful.ok_or_else(nothing)?;
-    Tracer::beside(problem, (origin, direction, distance), settings, watch).map_err(|_| nothing())
+    let (lean, distance) = doubtful.ok_or_else(nothing)?;
+    Tracer::beside(problem, (origin, direction, distance), lean, settings, watch).map_err(|_| nothing())
 }
 
 /// Returns `true` if nothing happens between the special point and the first point of a new branch: the parameter changes with the distance

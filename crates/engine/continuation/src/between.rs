@@ -13,6 +13,10 @@ pub(super) const APART: f64 = 1e-4;
 /// Errors of solutions by which the equations may be off in the middle of two of them.
 const UNSOLVED: f64 = 10.0;
 
+/// A solution is given up where the first correction is longer than this part of the step: what is found there may belong to another branch
+/// that comes near.
+pub(super) const ASTRAY: f64 = 0.1;
+
 /// The step from `old` to `new`, and the place before it.
 pub(super) struct Step<'s, L> {
     pub(super) old: &'s Place<L>,
@@ -29,11 +33,21 @@ pub(super) fn between<P: Problem>(
     s: f64,
     watch: &dyn Watch,
 ) -> Result<Place<P::Local>, Failure> {
+    between_exact(problem, step, s, watch).map(|found| found.0)
+}
+
+/// The same, and whether it is a solution of Newton's method, not the middle of two.
+pub(super) fn between_exact<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    s: f64,
+    watch: &dyn Watch,
+) -> Result<(Place<P::Local>, bool), Failure> {
     match solution(problem, step, s, watch) {
         Err(Failure::Obstructed(Obstruction::Newton | Obstruction::Singular)) => {
-            middle(problem, step, s, watch)
+            middle(problem, step, s, watch).map(|found| (found, false))
         }
-        found => found,
+        found => found.map(|found| (found, true)),
     }
 }
 
@@ -77,5 +91,8 @@ fn solution<P: Problem>(
         .map(|i| h00 * old.x[i] + h10 * old.tangent[i] + h01 * new.x[i] + h11 * new.tangent[i])
         .collect();
     let found = correct(problem, guess, &row, TIGHT, watch)?;
+    if found.first > ASTRAY * length {
+        return Err(Failure::Obstructed(Obstruction::Newton));
+    }
     place(problem, found, &row, old.arclength + s)
 }

@@ -101,13 +101,16 @@ pub(super) fn crossing(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
 /// slow ones.
 pub(super) fn unseen(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
     let all = seen(linear, weights);
+    let count = count_unseen(&all);
+    all.into_iter().take(count).map(|one| one.1).collect()
+}
+
+/// Number of these directions that are unseen, 0 where one branch is alone.
+pub(super) fn count_unseen(all: &[(f64, Vec<f64>)]) -> usize {
     let round_off = all.last().map_or(0.0, |last| f64::EPSILON * last.0);
     let gap = |count: usize| all.get(count).map_or(0.0, |next| next.0 / all[count - 1].0.max(round_off));
     let widest = (2..all.len().min(MOST_UNSEEN + 1)).max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
-    match widest {
-        Some(count) if gap(count) > GAP => all.into_iter().take(count).map(|one| one.1).collect(),
-        _ => Vec::new(),
-    }
+    widest.filter(|&count| gap(count) > GAP).unwrap_or(0)
 }
 
 /// Most directions that are unseen at once: that of a branch, and those of a deviation and its rotated copies.

@@ -54,7 +54,7 @@ impl Critical {
             Special::PeriodDoubling | Special::SymmetryBreaking => (Condition::Flip, 0.0),
             Special::Hopf(hopf) => (Condition::Pair, hopf.frequency * hopf.frequency),
             Special::Torus { angle } => (Condition::Pair, libm::cos(angle)),
-            Special::Continuum | Special::Unresolved { .. } => return None,
+            Special::Continuum | Special::Unresolved { .. } | Special::Touch { .. } => return None,
         };
         let read = |class| {
             let critical = Self { condition, class, orbits, rate };

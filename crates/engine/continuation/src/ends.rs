@@ -168,6 +168,9 @@ impl<P: Problem> Tracer<P> {
     /// five axes or more, say, another growth vanishes as the third power of the distance, and round-off places it.)
     pub(super) fn meets(&self, length: f64, changes: &mut Changes<P::Local>) -> Option<End> {
         let gains = |(place, (at, special)): (usize, &(Place<P::Local>, Special))| {
+            if matches!(special, Special::Touch { .. }) {
+                return None;
+            }
             // where the parameter does not turn back the place is found by itself, and as well as any other
             let same = if turns(*special) { GAINED } else { Isotropy::SAME };
             self.problem.gains(&at.x, &at.local, same).map(|gained| (place, gained))

@@ -1,6 +1,6 @@
 //! The equations of relative equilibria along a parameter.
 
-use super::classes::Classes;
+use super::classes::{Classes, GAINED};
 use super::correct::{TIGHT, correct, normal, scaled};
 use super::family::{Bodies, Neighbours, Sides};
 use super::hopf::first_lyapunov;
@@ -12,11 +12,11 @@ use super::point::Motion;
 use super::problem::{Border, Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
 use super::tracer::TOLERANCE;
-use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::Units;
 use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
 use motiform_analysis::linear::{add, apply, eigenvalues, leading_first, norm, restrict};
 use motiform_analysis::singular::svd;
+use motiform_analysis::{Isotropy, RelativeEquilibrium};
 use motiform_dynamics::sample::ascending;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Equivariant, Watch, model};
@@ -192,6 +192,13 @@ impl Problem for Equilibria<'_> {
             _ if class == 1 => Special::Pitchfork { breaks: Broken::Mirror },
             _ => Special::BranchPoint,
         }
+    }
+
+    fn alike(&self, x: &[f64], local: &Local) -> usize {
+        let body = local.body.as_ref();
+        let found = Isotropy::of(body, &x[..self.dim], GAINED);
+        let mixes = body.symmetry().rotations && (found.circle || found.folds > 2);
+        if mixes { 2 } else { 1 }
     }
 
     fn motion(&self, x: &[f64], local: &Local, levels: &[Vec<Level>]) -> Motion {

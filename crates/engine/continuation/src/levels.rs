@@ -1,5 +1,9 @@
 //! Growth rates whose signs count.
 
+use super::correct::TIGHT;
+use super::problem::Problem;
+use std::f64::consts::PI;
+
 /// An eigenvalue or a multiplier, as a number whose sign says whether it is stable, and an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Level {
@@ -35,6 +39,22 @@ pub(super) const ALONG_FAMILY: Level = Level { growth: 0.0, angle: 0.0 };
 
 /// A growth of fewer errors than this is not told from 0 where it should vanish: at special points.
 pub(super) const CLEAR: f64 = 100.0;
+
+/// Errors of levels within which one has no sign.
+const SIGN: f64 = 3.0;
+
+/// A growth below this may have either sign at a place that is solved for as well as it can be.
+pub(super) fn unclear<P: Problem>(problem: &P, levels: &[Vec<Level>]) -> f64 {
+    SIGN * problem.noise(levels).max(problem.unclear(levels, TIGHT))
+}
+
+/// Number of levels that may be 0, a pair counted once: of eigenvalues, or of multipliers (`orbits`).
+pub(super) fn vanishing(levels: &[Vec<Level>], (within, orbits): (f64, bool)) -> usize {
+    let real = |level: &Level| level.angle == 0.0 || orbits && level.angle.abs() == PI;
+    let all = || levels.iter().flatten().filter(|level| level.growth.abs() <= within);
+    let singles = all().filter(|level| real(level)).count();
+    singles + (all().count() - singles).div_ceil(2)
+}
 
 /// Number of growing levels.
 pub(super) fn unstable(levels: &[Vec<Level>]) -> usize {

@@ -3,13 +3,15 @@
 use super::between::{Step, between};
 use super::brackets::{BESIDE, Bracket, Test, brackets};
 use super::certificate::{Certificate, Passing, TestFunction};
-use super::correct::{TIGHT, product};
+use super::correct::TIGHT;
 use super::crossings::{at_crossing, crosses, is_alone, keep_course, nearly_crosses, solved};
 use super::levels::Level;
 use super::normal_form::{NormalForm, asked};
+use super::one_point::is_known;
 use super::place::Place;
 use super::problem::{Failure, Problem};
 use super::special::Special;
+use super::touch::touching;
 use super::tracer::neutral;
 use super::zero::solve;
 use motiform_dynamics::Watch;
@@ -35,13 +37,20 @@ pub(super) fn locate<P: Problem>(
     watch: &dyn Watch,
 ) -> Result<Changes<P::Local>, Stopped> {
     let mut changes = Changes { found: Vec::new(), missed: Vec::new() };
+    let mut touches = Vec::new();
     for round in 0..ROUNDS {
         let known: Vec<f64> = changes.found.iter().map(|(at, _)| at.arclength - step.old.arclength).collect();
         if round > 0 && known.is_empty() {
             break;
         }
-        for bracket in brackets(problem, step, &known, watch) {
-            add(problem, step, &bracket, &mut changes, watch)?;
+        let signs = brackets(problem, step, &known, watch);
+        for bracket in &signs.brackets {
+            add(problem, step, bracket, &mut changes, watch)?;
+        }
+        if round == 0 {
+            touches = touching(problem, step, &signs, watch);
+            let seen = signs.gaps.iter().map(|&test| kind(problem, step, step.new, test).name());
+            changes.missed.extend(seen.take(1));
         }
         changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
         if changes.found.len() == known.len() || !changes.missed.is_empty() {
@@ -50,6 +59,9 @@ pub(super) fn locate<P: Problem>(
     }
     without_folds(problem, &mut changes.found);
     name_folds(problem, &mut changes.found);
+    if changes.found.is_empty() {
+        changes.found = touches;
+    }
     Ok(changes)
 }
 
@@ -90,7 +102,7 @@ fn add<P: Problem>(
     let certificate = certified(problem, step, bracket.test, &at, watch)
         .map(|certificate| Certificate { normal_form: normal_form(problem, &at.x, special), ..certificate });
     let at = Place { certificate, ..at };
-    if !is_known(problem, &changes.found, &at, special, step.length) {
+    if !is_known((problem, step), &changes.found, (&at, bracket.test), special) {
         changes.found.push((at, special));
     }
     Ok(())
@@ -208,24 +220,4 @@ pub(super) fn kind<P: Problem>(
             problem.classify(&at.x, level, class)
         }
     }
-}
-
-/// Part of a step within which points of one kind are one.
-pub(super) const ONE: f64 = 1e-4;
-
-/// Returns `true` if another test has led to the same point. (The length at which a point lies that was solved for is that of the place
-/// from which it was.)
-fn is_known<P: Problem>(
-    problem: &P,
-    found: &[(Place<P::Local>, Special)],
-    at: &Place<P::Local>,
-    special: Special,
-    length: f64,
-) -> bool {
-    let weights = problem.weights(&at.x);
-    found.iter().filter(|(_, kind)| kind.name() == special.name()).any(|(other, _)| {
-        let between: Vec<f64> = other.x.iter().zip(&at.x).map(|(a, b)| a - b).collect();
-        let apart = product(&weights, &between, &between).sqrt();
-        apart.min((other.arclength - at.arclength).abs()) < ONE * length
-    })
 }

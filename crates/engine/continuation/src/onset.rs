@@ -38,7 +38,10 @@ pub(super) fn onset<'f>(
         return Err(nothing(point.parameter));
     }
     let several = oscillations.len() + usize::from(rotating.is_some()) > 1;
-    let growing = point.unstable..=point.unstable + if several { BESIDE.1 } else { BESIDE.0 };
+    // each other pair that is critical grows or decays on the branch as at the point
+    let pairs = 2 * point.critical.saturating_sub(1);
+    let most = pairs + if several { BESIDE.1 } else { BESIDE.0 };
+    let growing = point.unstable..=point.unstable + most;
     let turning = rotating.map(|(direction, rate)| {
         let turning = RelativeEquilibrium { turning_rate: rate, ..start.clone() };
         let mut x = start.shape.clone();

@@ -110,6 +110,11 @@ pub(super) trait Problem: Equations {
     /// The kind of special point where a level of class `class` vanishes, and the branch does not turn back.
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special;
 
+    /// Number of directions, or pairs, that the symmetry of the motion at `x` makes critical at once.
+    fn alike(&self, _x: &[f64], _local: &Self::Local) -> usize {
+        1
+    }
+
     /// The motion, as the caller receives it.
     fn motion(&self, x: &[f64], local: &Self::Local, levels: &[Vec<Level>]) -> Motion;
 

@@ -162,7 +162,8 @@ fn parts(matrix: &DMatrix<f64>) -> Result<(Vec<Part>, Vec<Part>), Undetermined> 
         seen.iter().fold(f64::INFINITY, |least, part| least.min(part.size))
     };
     let next = |count: usize| unseen.get(count).map_or(beyond, |next| next.size);
-    let gap = |count: usize| next(count) / unseen[count - 1].size;
+    // between two that are 0 but for rounding there is no gap
+    let gap = |count: usize| next(count) / unseen[count - 1].size.max(f64::EPSILON);
     let widest = (1..=unseen.len()).max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
     let count = widest.filter(|&count| gap(count) * CRITICAL > 1.0).ok_or(Undetermined::NotCritical)?;
     seen.extend(unseen.drain(count..));

@@ -45,6 +45,15 @@ pub enum Special {
         /// The parameter after it.
         to: f64,
     },
+    /// A growth comes to 0 within its error and has the same sign on both sides: branches cross here, or two special points lie closer to
+    /// each other than can be told.
+    Touch {
+        /// The name of what each of the two would be: that of another of these.
+        #[serde(deserialize_with = "known")]
+        seen: Name,
+        /// The parameters of two special points differ from this one by less.
+        within: f64,
+    },
 }
 
 /// Which symmetry a motion loses where others begin.
@@ -121,12 +130,13 @@ impl Special {
             Self::SymmetryBreaking => "symmetry-breaking",
             Self::Torus { .. } => "torus",
             Self::Unresolved { .. } => "unresolved",
+            Self::Touch { .. } => "touch",
         }
     }
 }
 
 /// All names.
-const NAMES: [&str; 9] = [
+const NAMES: [&str; 10] = [
     "fold",
     "pitchfork",
     "branch-point",
@@ -136,6 +146,7 @@ const NAMES: [&str; 9] = [
     "symmetry-breaking",
     "torus",
     "unresolved",
+    "touch",
 ];
 
 /// One of the names, read back.

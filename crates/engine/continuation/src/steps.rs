@@ -1,5 +1,6 @@
 //! Steps along a branch.
 
+use super::between::ASTRAY;
 use super::correct::{correct, normal, product};
 use super::families::holds;
 use super::levels::Level;
@@ -14,15 +15,11 @@ use motiform_dynamics::sample::ascending;
 /// the step.
 const CORRECTION: f64 = 1e-3;
 
-/// A step is given up where the first correction is longer than this part of it: what is found there may belong to another branch that
-/// comes near.
-const ASTRAY: f64 = 0.1;
-
 /// Part of the size of levels below which a real one says that another branch may be near.
 const NEAR: f64 = 0.1;
 
 /// Solutions that differ by more than this, in tolerances of Newton's method, are of different branches.
-const SAME: f64 = 30.0;
+pub(super) const SAME: f64 = 30.0;
 
 /// Ratios of two sizes that are about the same.
 const ABOUT: std::ops::RangeInclusive<f64> = 0.3..=3.0;

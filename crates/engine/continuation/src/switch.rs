@@ -7,6 +7,7 @@ use super::correct::{crossing, product, scaled};
 use super::equilibria::Equilibria;
 use super::family::{Bodies, Family};
 use super::leaving::leaving;
+use super::meeting::all;
 use super::onset::onset;
 use super::orbits::Orbits;
 use super::point::{Motion, Point};
@@ -40,23 +41,36 @@ pub fn switch<'f>(
     let Some(special) = point.special else { return Ok(Vec::new()) };
     let sides: &[f64] = if special == Special::BranchPoint { &[1.0, -1.0] } else { &[1.0] };
     match (&point.motion, special) {
-        (_, Special::Fold | Special::Continuum | Special::Torus { .. } | Special::Unresolved { .. }) => {
-            Ok(Vec::new())
-        }
+        (
+            _,
+            Special::Fold
+            | Special::Continuum
+            | Special::Torus { .. }
+            | Special::Unresolved { .. }
+            | Special::Touch { seen: "hopf", .. },
+        )
+        | (Motion::Orbit { .. }, Special::Touch { .. }) => Ok(Vec::new()),
         (Motion::Equilibrium(start), Special::Hopf(hopf)) => {
             onset(family, (point, start, hopf.frequency), settings, watch)
+        }
+        (Motion::Equilibrium(start), _) if point.critical > 1 || matches!(special, Special::Touch { .. }) => {
+            all(family, (point, start), settings, watch)
         }
         (Motion::Equilibrium(start), Special::Pitchfork { .. }) => {
             fork(family, (point, start), settings, watch)
         }
         (Motion::Equilibrium(start), _) => {
-            let (problem, x) = crossed(family, point, start, settings)?;
-            let direction = direction(&problem, &x, point).ok_or_else(|| nothing(point.parameter))?;
-            let leg = |&side| {
-                let direction = turned(&direction, side);
-                cross(family, (point, start, &Begin::at(point, &x, &direction)), settings, watch)
+            let usual = || {
+                let (problem, x) = crossed(family, point, start, settings)?;
+                let direction = direction(&problem, &x, point).ok_or_else(|| nothing(point.parameter))?;
+                let leg = |&side| {
+                    let direction = turned(&direction, side);
+                    cross(family, (point, start, &Begin::at(point, &x, &direction)), settings, watch)
+                };
+                sides.iter().map(leg).collect::<Result<_>>().map(|legs| vec![legs])
             };
-            sides.iter().map(leg).collect::<Result<_>>().map(|legs| vec![legs])
+            // where terms of higher order decide Newton's method finds nothing along a tangent
+            usual().or_else(|_| all(family, (point, start), settings, watch))
         }
         (Motion::Orbit { orbit, nodes }, _) => {
             let doubled = matches!(special, Special::PeriodDoubling | Special::SymmetryBreaking);
@@ -70,11 +84,12 @@ pub fn switch<'f>(
 const TURNS: f64 = 1e-6;
 
 /// The directions that the equations do not see to first order: the direction along the parameter, and those that leave the parameter as it
-/// is.
-fn unseen<P: Problem>(problem: &P, x: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+/// is; `most` of them, the least seen ones.
+fn unseen<P: Problem>(problem: &P, x: &[f64], most: usize) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
     let local = problem.local(x, &()).ok()?;
     let weights = problem.weights(x);
-    let null = crossing(problem.linear(&local), &weights);
+    let mut null = crossing(problem.linear(&local), &weights);
+    null.truncate(most);
     let last = |v: &Vec<f64>| v.last().copied().unwrap_or(0.0);
     let along = null.iter().max_by(|a, b| last(a).abs().total_cmp(&last(b).abs()))?;
     let across = |v: &Vec<f64>| {
@@ -92,7 +107,8 @@ fn unseen<P: Problem>(problem: &P, x: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>
 /// A direction of the new branch: the tangent of the branches that cross at a branch point which is not that of the point's own branch,
 /// known by its slope; elsewhere what the equations do not see to first order, and leaves the parameter as it is.
 fn direction<P: Problem>(problem: &P, x: &[f64], point: &Point) -> Option<Vec<f64>> {
-    if point.special == Some(Special::BranchPoint) {
+    let single = point.special == Some(Special::BranchPoint);
+    if single {
         let slope = |v: &Vec<f64>| (v.last().copied().unwrap_or(0.0).abs() - point.slope.abs()).abs();
         let width = problem.weights(x).last().map_or(1.0, |weight| 1.0 / weight.sqrt());
         let other = tangents(problem, x).into_iter().max_by(|a, b| slope(a).total_cmp(&slope(b)));
@@ -100,7 +116,7 @@ fn direction<P: Problem>(problem: &P, x: &[f64], point: &Point) -> Option<Vec<f6
             return Some(other);
         }
     }
-    unseen(problem, x)?.1.into_iter().next()
+    unseen(problem, x, if single { 2 } else { usize::MAX })?.1.into_iter().next()
 }
 
 fn turned(direction: &[f64], side: f64) -> Vec<f64> {
@@ -108,7 +124,7 @@ fn turned(direction: &[f64], side: f64) -> Vec<f64> {
 }
 
 /// The equations of all relative equilibria near one, and its unknowns.
-fn crossed<'f>(
+pub(super) fn crossed<'f>(
     family: &'f dyn Family,
     point: &Point,
     start: &RelativeEquilibrium,
@@ -131,7 +147,7 @@ fn fork<'f>(
 ) -> Result<Vec<Vec<Branch<'f>>>> {
     let (problem, x) = crossed(family, point, start, settings)?;
     let body = family.at(point.parameter)?;
-    let (_, critical) = unseen(&problem, &x).ok_or_else(|| nothing(point.parameter))?;
+    let (_, critical) = unseen(&problem, &x, usize::MAX).ok_or_else(|| nothing(point.parameter))?;
     let directions = leaving(body.as_ref(), &start.shape, &critical, &problem.weights(&x));
     let branch = |direction: &Vec<f64>| {
         cross(family, (point, start, &Begin::at(point, &x, direction)), settings, watch)

@@ -55,7 +55,7 @@ fn roots(aa: f64, ab: f64, bb: f64) -> Vec<(f64, f64)> {
     vec![(larger, aa), (bb, larger)]
 }
 
-/// The directions that the equations do not see to first order, where there are two.
+/// The two directions that the equations see least, where they do not see them to first order.
 struct Plane {
     /// An orthonormal basis.
     a: Vec<f64>,
@@ -71,7 +71,7 @@ impl Plane {
         let local = problem.local(x, &()).ok()?;
         let linear = problem.linear(&local);
         let null = crossing(linear, weights);
-        let [a, b] = &null[..] else { return None };
+        let [a, b, ..] = &null[..] else { return None };
         let svd = svd(linear.matrix.clone())?;
         let (least, _) = svd.singular_values.argmin();
         let psi: Vec<f64> = svd.u?.column(least).iter().copied().collect();

@@ -1,11 +1,10 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
 use super::between::{Step, between};
-use super::certificate::TestFunction;
 use super::correct::{correct, directions, normal, product, scaled};
 use super::families::border_at_start;
-use super::levels::{CLEAR, unstable};
-use super::locate::{Changes, ONE, locate};
+use super::levels::unstable;
+use super::locate::{Changes, locate};
 use super::periods::Periods;
 use super::place::{Before, Place, place};
 use super::point::{End, Motion, Obstruction, Point};
@@ -24,8 +23,8 @@ pub(super) const TOLERANCE: f64 = 1e-9;
 /// Distance, in the units of the unknowns, within which two special points of a branch are one.
 const AGAIN: f64 = 1e-7;
 
-/// Copies of the critical level, which symmetry makes equal to it, differ from it by less than its residual.
-const RESIDUALS: f64 = 3.0;
+/// Part of a step within which a level that touches 0 does so because of a special point.
+const NEXT_TO: f64 = 0.1;
 
 /// Where a step leads, its length, and what changes on it.
 type Examined<L> = (Place<L>, f64, Changes<L>);
@@ -102,16 +101,21 @@ impl<P: Problem> Tracer<P> {
         Ok(Self::at(problem, place, settings))
     }
 
-    /// From a solution near `origin + length direction`, on to the side of `direction`.
+    /// From a solution near `origin + length direction`, on to the side of `direction`; Newton's method begins there, with the parameter
+    /// changed by the part `lean` of the range.
     pub(super) fn beside(
         problem: P,
         (origin, direction, length): (&[f64], &[f64], f64),
+        lean: f64,
         settings: &Settings,
         watch: &dyn Watch,
     ) -> Result<Self, (P, Failure)> {
         let weights = problem.weights(origin);
         let row = normal(direction, &weights);
-        let guess = origin.iter().zip(direction).map(|(x, d)| x + length * d).collect();
+        let mut guess: Vec<f64> = origin.iter().zip(direction).map(|(x, d)| x + length * d).collect();
+        if let Some(last) = guess.last_mut() {
+            *last += lean * settings.width();
+        }
         let found = correct(&problem, guess, &row, settings.tolerance, watch);
         match found.and_then(|found| place(&problem, found, &row, 0.0)) {
             Ok(place) => Ok(Self::at(problem, place, settings)),
@@ -214,6 +218,7 @@ impl<P: Problem> Tracer<P> {
         }
         self.check(&new)?;
         let (new, length, mut changes) = self.examine(new, length, &mut last, watch)?;
+        changes.found.retain(|(at, special)| !self.has_touched(at, *special, length));
         if let Some(again) = changes.found.iter().position(|(at, special)| self.has_passed(at, *special)) {
             changes.found.truncate(again);
             self.hand_out_special(changes.found, (&new, length), watch);
@@ -275,6 +280,16 @@ impl<P: Problem> Tracer<P> {
         })
     }
 
+    /// Returns `true` if a place where a level touches 0 belongs to a special point that was handed out.
+    fn has_touched(&self, at: &Place<P::Local>, special: Special, length: f64) -> bool {
+        let weights = self.problem.weights(&at.x);
+        let near = |x: &[f64]| {
+            let apart: Vec<f64> = x.iter().zip(&at.x).map(|(a, b)| a - b).collect();
+            x.len() == at.x.len() && product(&weights, &apart, &apart).sqrt() < NEXT_TO * length
+        };
+        matches!(special, Special::Touch { .. }) && self.passed.iter().any(|one| near(&one.0))
+    }
+
     /// The special points of a step to `new`, and between two of them a point that is none: it says how many deviations grow there.
     fn hand_out_special(
         &mut self,
@@ -286,7 +301,7 @@ impl<P: Problem> Tracer<P> {
         for (at, special) in found {
             let step = Step { old: &self.place, new, before: self.before.as_ref(), length };
             let middle = last
-                .filter(|last| at.arclength - last > ONE * length)
+                .filter(|last| at.arclength - last > NEUTRAL * self.problem.accuracy())
                 .map(|last: f64| 0.5 * (last + at.arclength) - self.place.arclength)
                 .and_then(|s| between(&self.problem, &step, s, watch).ok());
             last = Some(at.arclength);
@@ -354,32 +369,5 @@ impl<P: Problem> Tracer<P> {
         };
         self.place = place;
         self.before = None;
-    }
-
-    /// Number of growing levels at a special point, those left out that are as close to 0 as the critical one was brought, or not told from
-    /// 0.
-    fn beside_critical(&self, place: &Place<P::Local>) -> usize {
-        let least = place.levels.first().into_iter().flatten().map(|level| level.growth.abs());
-        let residual = match place.certificate {
-            Some(shown) if shown.test == TestFunction::Growth => shown.residual.abs(),
-            _ => least.fold(f64::INFINITY, f64::min),
-        };
-        let critical = (CLEAR * self.problem.noise(&place.levels)).max(RESIDUALS * residual);
-        place.levels.iter().flatten().filter(|level| level.growth > critical).count()
-    }
-
-    fn point(&self, place: &Place<P::Local>, special: Option<Special>) -> Point {
-        let located = special.is_some_and(|special| !matches!(special, Special::Unresolved { .. }));
-        Point {
-            parameter: place.parameter(),
-            arclength: place.arclength,
-            motion: self.problem.motion(&place.x, &place.local, &place.levels),
-            unstable: if located { self.beside_critical(place) } else { unstable(&place.levels) },
-            family: self.problem.family(),
-            neutral: if special.is_some() { 0 } else { neutral(&self.problem, place) },
-            slope: place.slope(),
-            special,
-            certificate: special.and(place.certificate),
-        }
     }
 }

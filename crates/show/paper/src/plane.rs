@@ -42,6 +42,7 @@ impl Plane {
             unstable: at.unstable,
             neutral: 0,
             family: 0,
+            critical: 0,
             slope: 0.0,
             special: Some(at.special),
             certificate: None,

@@ -302,7 +302,8 @@ fn line(special: &SpecialEntry, units: &Shown) -> String {
         let word = if special.others.is_empty() { "branch" } else { "branches" };
         format!("to {word} {branch}{others}")
     });
-    for part in [period, pitchfork, words, coefficient, breaks, next].into_iter().flatten() {
+    let nothing = special.nothing.then(|| "no branch is found beside it".to_owned());
+    for part in [period, pitchfork, words, coefficient, breaks, next, nothing].into_iter().flatten() {
         line += "  ";
         line += &part;
     }

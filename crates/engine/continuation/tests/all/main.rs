@@ -2,6 +2,7 @@
 
 mod canards;
 mod classics;
+mod close;
 mod codimension_2;
 #[path = "../../../analysis/tests/all/common/mod.rs"]
 mod common;
@@ -11,3 +12,4 @@ mod ends;
 mod equilibria;
 mod families;
 mod flat;
+mod meeting;

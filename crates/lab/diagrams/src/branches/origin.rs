@@ -64,13 +64,16 @@ impl Origin {
             for (point, sample) in done.samples.iter().enumerate().filter(|(point, _)| !done.meets_at(*point))
             {
                 let leads_on = |special| {
-                    !matches!(
+                    let touches = matches!(special, Special::Touch { .. });
+                    let unfollowed = matches!(
                         special,
                         Special::Fold
                             | Special::Continuum
                             | Special::Torus { .. }
                             | Special::Unresolved { .. }
-                    )
+                            | Special::Touch { seen: "hopf", .. }
+                    );
+                    !(unfollowed || touches && sample.point.motion.orbit().is_some())
                 };
                 if sample.point.special.is_some_and(leads_on) {
                     all.push(Self::Special { branch: number, leg, point });

@@ -15,7 +15,7 @@ use serde_json::{Map, Value, json};
 /// A place where a branch changes or ends.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpecialEntry {
-    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, or the ends `homoclinic`,
+    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, `touch`, or the ends `homoclinic`,
     /// `heteroclinic` and `connection`.
     pub kind: &'static str,
     /// The value of the parameter.
@@ -42,6 +42,8 @@ pub struct SpecialEntry {
     pub connection: Option<Connection>,
     /// The branch that begins or lies there, from 0.
     pub branch: Option<usize>,
+    /// `true` where a branch was looked for and none was found.
+    pub nothing: bool,
     /// The other branches that do, where a shape loses its rotations in more than one way.
     pub others: Vec<usize>,
 }
@@ -72,6 +74,9 @@ impl SpecialEntry {
         }
         self.connection.iter().for_each(|connection| put_connection(&mut object, connection));
         object.extend(self.branch.map(|branch| ("branch".to_owned(), branch.into())));
+        if self.nothing {
+            object.insert("nothing_found".to_owned(), true.into());
+        }
         if !self.others.is_empty() {
             object.insert("others".to_owned(), json!(self.others));
         }
@@ -166,7 +171,10 @@ impl Branches {
         let origin =
             if ends { Origin::Meets { branch, leg } } else { Origin::Special { branch, leg, point } };
         let there = self.links.iter().filter(|link| link.origin == origin).filter_map(|link| link.branch);
-        let there: Vec<usize> = there.collect();
+        let mut there: Vec<usize> = there.collect();
+        if there.len() > 1 {
+            there.retain(|next| *next != branch); // where all branches are looked for its own is found as well
+        }
         let next = || self.criticality((branch, leg, point), &there, origin);
         let (criticality, undecided) = judged(&sample.point, next);
         Some(SpecialEntry {
@@ -189,6 +197,7 @@ impl Branches {
                 _ => None,
             },
             branch: there.first().copied(),
+            nothing: there.is_empty() && self.links.iter().any(|link| link.origin == origin),
             others: there.into_iter().skip(1).collect(),
         })
     }
@@ -233,12 +242,47 @@ fn coefficient(point: &Point) -> Option<(&'static str, Coefficient)> {
 /// Said of folds and crossings whose leading coefficient is 0 within its error.
 const VANISHES: &str = "the terms of second order vanish within their error: those of higher order decide";
 
+/// Why no normal form tells what begins at a point, where that is so.
+fn doubt(point: &Point) -> Option<String> {
+    match point.special? {
+        Special::Touch { seen, within } => {
+            let rest = if seen == "hopf" || point.motion.orbit().is_some() {
+                "; what may begin here is not looked for"
+            } else {
+                ""
+            };
+            Some(format!(
+                "a growth comes to 0 and back: two of the kind {seen} within {within:.1e}, or a crossing of both{rest}"
+            ))
+        }
+        Special::BranchPoint | Special::Pitchfork { .. }
+            if point.critical > 1 && point.motion.orbit().is_none() =>
+        {
+            Some(format!(
+                "{} directions are critical here: there may be more branches than are found",
+                point.critical
+            ))
+        }
+        _ if point.critical > 1 => Some(format!(
+            "{} directions are critical here: not all motions that begin here are followed",
+            point.critical
+        )),
+        _ => None,
+    }
+}
+
 /// The criticality by the sign of the coefficient, or `undecided` and why. Where there is no coefficient the one branch that begins may say
 /// it, by the side to which it goes.
 fn judged(point: &Point, next: impl Fn() -> Option<&'static str>) -> (Option<&'static str>, Option<String>) {
+    if let Some(why) = doubt(point) {
+        return (Some("undecided"), Some(why));
+    }
     let form = normal_form(point).map(|form| form.1);
     let silent = match point.special {
-        None | Some(Special::Fold | Special::Continuum | Special::Unresolved { .. }) => true,
+        None
+        | Some(Special::Fold | Special::Continuum | Special::Unresolved { .. } | Special::Touch { .. }) => {
+            true
+        }
         Some(Special::BranchPoint) => !point.is_unstated_pitchfork(),
         _ => false,
     };
@@ -352,6 +396,7 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
         connection: Some(connection.as_ref().clone()),
         breaks: None,
         branch: None,
+        nothing: false,
         others: Vec::new(),
     })
 }

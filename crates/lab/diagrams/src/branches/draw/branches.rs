@@ -325,6 +325,7 @@ fn mark(special: Special) -> (&'static str, Glyph) {
         Special::SymmetryBreaking => ("symmetry breaking", Glyph::Square),
         Special::Torus { .. } => ("torus", Glyph::Ring),
         Special::Unresolved { .. } => ("not located", Glyph::Question),
+        Special::Touch { .. } => ("touch", Glyph::Question),
         _ => ("branch point", Glyph::DownTriangle),
     }
 }

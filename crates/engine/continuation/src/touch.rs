@@ -1,0 +1,39 @@
+//! Places at which a level comes to 0 and back within its error.
+
+use super::between::{Step, between};
+use super::brackets::{Signs, Test};
+use super::levels::unclear;
+use super::locate::kind;
+use super::place::Place;
+use super::problem::Problem;
+use super::special::Special;
+use motiform_dynamics::Watch;
+
+/// The first such place on a step. Either branches cross there, or two special points lie closer to each other than can be told.
+pub(super) fn touching<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    signs: &Signs,
+    watch: &dyn Watch,
+) -> Vec<(Place<P::Local>, Special)> {
+    let first = signs.touches.iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    let found = first.and_then(|&(s, test)| {
+        let at = between(problem, step, s, watch).ok()?;
+        let seen = kind(problem, step, &at, test).name();
+        let within = width(problem, step, (&at, s), test) * at.slope().abs();
+        Some((at, Special::Touch { seen, within }))
+    });
+    found.into_iter().collect()
+}
+
+/// The length on both sides over which a level that vanishes as the square of the distance is within its error.
+fn width<P: Problem>(
+    problem: &P,
+    step: &Step<'_, P::Local>,
+    (at, s): (&Place<P::Local>, f64),
+    test: Test,
+) -> f64 {
+    let far = if s < 0.5 * step.length { (step.new, step.length - s) } else { (step.old, s) };
+    let part = unclear(problem, &at.levels).max(test.of(at).abs()) / test.of(far.0).abs();
+    far.1 * part.sqrt()
+}
