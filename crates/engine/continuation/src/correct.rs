@@ -30,7 +30,7 @@ pub(super) fn product(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The solution near `guess` in the plane through it that is normal to `row`. Has converged with the first step shorter than
-/// `tolerance`, or where round-off stops the progress not far above it.
+/// `tolerance` or than the resolution of the equations, or where round-off stops the progress not far above it.
 pub(super) fn correct<P: Equations>(
     problem: &P,
     guess: Vec<f64>,
@@ -39,6 +39,7 @@ pub(super) fn correct<P: Equations>(
     watch: &dyn Watch,
 ) -> Result<Corrected<P::Local>, Failure> {
     let weights = problem.weights(&guess);
+    let tolerance = tolerance.max(problem.resolution());
     let mut x = guess;
     problem.tidy(&mut x);
     let (mut first, mut last) = (f64::INFINITY, f64::INFINITY);
@@ -93,13 +94,15 @@ pub(super) fn directions(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
 /// Directions that the equations do not see where branches cross, at least two; empty where one branch is alone. The unseen parts are
 /// told from the others by the widest gap between them: a part that would be small beside the rates of fast modes is large beside those of
 /// slow ones.
-pub(super) fn crossing(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
-    let all = seen(linear, weights);
+pub(super) fn crossing<P: Equations>(problem: &P, local: &P::Local, weights: &[f64]) -> Vec<Vec<f64>> {
+    let all = seen(problem.linear(local), weights);
+    // round-off of the equations parts the branches: at their place what is not seen is as large as its root
+    let least = GAP.min(BLURRED / problem.resolution().sqrt());
     let round_off = all.last().map_or(0.0, |last| f64::EPSILON * last.0);
     let gap = |count: usize| all.get(count).map_or(0.0, |next| next.0 / all[count - 1].0.max(round_off));
     let widest = (2..all.len().min(MOST_UNSEEN + 1)).max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
     match widest {
-        Some(count) if gap(count) > GAP => all.into_iter().take(count).map(|one| one.1).collect(),
+        Some(count) if gap(count) > least => all.into_iter().take(count).map(|one| one.1).collect(),
         _ => Vec::new(),
     }
 }
@@ -107,8 +110,9 @@ pub(super) fn crossing(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
 /// Most directions that are unseen at once: that of a branch, and those of a deviation and its rotated copies.
 const MOST_UNSEEN: usize = 4;
 
-/// Least ratio of a part that is seen to one that is not.
+/// Least ratio of a part that is seen to one that is not; with round-off, in its inverse roots.
 const GAP: f64 = 1e5;
+const BLURRED: f64 = 0.1;
 
 /// The same direction with length 1.
 pub(super) fn scaled(mut direction: Vec<f64>, weights: &[f64]) -> Option<Vec<f64>> {

@@ -73,6 +73,7 @@ mod tangents;
 mod tracer;
 mod vanishing;
 mod variation;
+mod vicinity;
 mod whole_curve;
 mod zero;
 

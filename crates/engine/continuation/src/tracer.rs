@@ -95,7 +95,8 @@ impl<P: Problem> Tracer<P> {
         Ok(Self::at(problem, place, settings))
     }
 
-    /// From a solution near `origin + length direction`, on to the side of `direction`.
+    /// From a solution near `origin + length direction`, on to the side of `direction`. What grows there is small as the square of the
+    /// length: the solution is as exact as if no tolerance were asked for.
     pub(super) fn beside(
         problem: P,
         (origin, direction, length): (&[f64], &[f64], f64),
@@ -105,7 +106,7 @@ impl<P: Problem> Tracer<P> {
         let weights = problem.weights(origin);
         let row = normal(direction, &weights);
         let guess = origin.iter().zip(direction).map(|(x, d)| x + length * d).collect();
-        let found = correct(&problem, guess, &row, settings.tolerance, watch);
+        let found = correct(&problem, guess, &row, settings.tolerance.min(TOLERANCE), watch);
         match found.and_then(|found| place(&problem, found, &row, 0.0)) {
             Ok(place) => Ok(Self::at(problem, place, settings)),
             Err(failure) => Err((problem, failure)),
@@ -115,8 +116,8 @@ impl<P: Problem> Tracer<P> {
     fn at(problem: P, place: Place<P::Local>, settings: &Settings) -> Self {
         let mut tracer = Self {
             first: First::of(&problem, &place),
+            settings: Settings { tolerance: settings.tolerance.max(problem.resolution()), ..*settings },
             problem,
-            settings: *settings,
             place,
             before: None,
             step: settings.first_step.abs().min(settings.largest_step),
@@ -129,6 +130,10 @@ impl<P: Problem> Tracer<P> {
         let first = tracer.point(&tracer.place, None);
         tracer.queue.push_back(first);
         tracer
+    }
+
+    pub(super) fn parameter(&self) -> f64 {
+        self.place.parameter()
     }
 
     pub(super) fn unknowns(&self) -> &[f64] {

@@ -288,7 +288,8 @@ fn line(special: &SpecialEntry, units: &Shown) -> String {
         let word = if special.others.is_empty() { "branch" } else { "branches" };
         format!("to {word} {branch}{others}")
     });
-    for part in [period, pitchfork, words, coefficient, breaks, next].into_iter().flatten() {
+    let without = special.without.as_ref().map(|why| format!("without a branch: {why}"));
+    for part in [period, pitchfork, words, coefficient, breaks, next, without].into_iter().flatten() {
         line += "  ";
         line += &part;
     }

@@ -40,6 +40,8 @@ pub struct SpecialEntry {
     pub connection: Option<Connection>,
     /// The branch that begins or lies there, from 0.
     pub branch: Option<usize>,
+    /// Why none was found, where one was looked for.
+    pub without: Option<String>,
     /// The other branches that do, where a shape loses its rotations in more than one way.
     pub others: Vec<usize>,
 }
@@ -69,6 +71,7 @@ impl SpecialEntry {
         }
         self.connection.iter().for_each(|connection| put_connection(&mut object, connection));
         object.extend(self.branch.map(|branch| ("branch".to_owned(), branch.into())));
+        object.extend(self.without.as_ref().map(|why| ("without".to_owned(), why.as_str().into())));
         if !self.others.is_empty() {
             object.insert("others".to_owned(), json!(self.others));
         }
@@ -182,6 +185,7 @@ impl Branches {
                 _ => None,
             },
             branch: there.first().copied(),
+            without: self.links.iter().find(|link| link.origin == origin).and_then(|link| link.why.clone()),
             others: there.into_iter().skip(1).collect(),
         })
     }
@@ -333,6 +337,7 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
         connection: Some(connection.as_ref().clone()),
         breaks: None,
         branch: None,
+        without: None,
         others: Vec::new(),
     })
 }
