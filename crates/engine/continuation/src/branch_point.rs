@@ -1,6 +1,7 @@
 //! The point where two branches cross, as the solution of equations that are regular there.
 
 use super::correct::TIGHT;
+use super::family::apart;
 use super::problem::{Equations, Failure, Linear};
 use motiform_analysis::singular::svd;
 use motiform_dynamics::Watch;
@@ -19,9 +20,9 @@ pub(super) fn blurred<P: Equations>(problem: &P) -> f64 {
     problem.resolution() / distance(problem)
 }
 
-/// The distance at which errors of differences by round-off and by terms of third order are alike.
+/// The distance of differences.
 fn distance<P: Equations>(problem: &P) -> f64 {
-    DIFFERENCE.max(libm::cbrt(problem.resolution()))
+    apart(DIFFERENCE, problem.resolution())
 }
 
 /// Half the distance of central differences of the Jacobian, in the units of the unknowns.

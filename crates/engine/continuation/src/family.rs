@@ -1,6 +1,7 @@
 //! Bodies that depend on one parameter or two.
 
 use super::allowance::Allowance;
+use super::correct::TIGHT;
 use super::problem::Failure;
 use motiform_analysis::equilibrium::prefix;
 use motiform_analysis::{Error, Result};
@@ -117,6 +118,12 @@ impl Bodies<'_> {
     }
 }
 
+/// The distance at which errors of differences by round-off and by terms of third order are alike; `usual` where round-off is below the
+/// tolerance of Newton's method, as it is where terms do not cancel.
+pub(super) fn apart(usual: f64, round_off: f64) -> f64 {
+    if round_off > TIGHT { usual.max(libm::cbrt(round_off)) } else { usual }
+}
+
 /// A body and its neighbours, whose differences are the derivatives by the parameters.
 pub(super) struct Neighbours {
     /// The body itself.
@@ -151,7 +158,7 @@ impl Neighbours {
         let body = bodies.at(parameters)?;
         let mut sides = Vec::new();
         for (i, (&parameter, &width)) in parameters.iter().zip(widths).enumerate() {
-            let step = APART.max(libm::cbrt(round_off)) * (prefix(width) + parameter.abs());
+            let step = apart(APART, round_off) * (prefix(width) + parameter.abs());
             let at = |value: f64| {
                 let mut moved = parameters.to_vec();
                 moved[i] = value;
