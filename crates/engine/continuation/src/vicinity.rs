@@ -43,6 +43,8 @@ impl Bodies<'_> {
         let (centre, extent) = spread(shapes.iter().copied());
         let largest = shapes.iter().map(|shape| norm(shape)).fold(0.0, f64::max);
         let near = vicinity(&all, &centre).map(|size| size.max(extent)).filter(|size| *size < largest);
+        // a shape that is as good as nothing is no offset
+        let near = near.filter(|_| Units::among(&all).size(largest) <= largest);
         let (centre, size, units) = match near {
             Some(size) => {
                 let units = Units::beside(&all, &centre, size);
