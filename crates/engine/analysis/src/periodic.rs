@@ -96,6 +96,16 @@ impl Flow {
         (rtol > 2.0 * TIGHTEST).then_some(Self { control, ..*self })
     }
 
+    /// The same with an absolute tolerance of at least this: steps of a tighter one are round-off of the equations.
+    #[must_use]
+    pub fn above(self, least: f64) -> Self {
+        let control = match self.control {
+            StepControl::Adaptive { rtol, atol } => StepControl::Adaptive { rtol, atol: atol.max(least) },
+            fixed => fixed,
+        };
+        Self { control, ..self }
+    }
+
     /// The residual of an orbit that is closed, as a part of the size of its shape.
     pub(crate) fn closed(&self) -> f64 {
         match self.control {

@@ -1,12 +1,12 @@
 //! The first point of a new branch: near enough to the special point that nothing lies between.
 
-use super::correct::{correct, normal};
+use super::correct::{correct, normal, scaled};
 use super::levels::Level;
 use super::point::{Motion, Point};
 use super::problem::Problem;
 use super::settings::Settings;
 use super::special::{Broken, Special};
-use super::tracer::Tracer;
+use super::tracer::{TOLERANCE, Tracer};
 use motiform_analysis::{Error, Result};
 use motiform_dynamics::Watch;
 
@@ -21,6 +21,9 @@ const LEANS: [f64; 5] = [0.0, 0.01, -0.01, 0.05, -0.05];
 /// 1 or 2, within a factor 2.
 const NEARER: f64 = 8.0;
 const RATIOS: std::ops::RangeInclusive<f64> = 0.5 * NEARER..=2.0 * NEARER * NEARER;
+
+/// At the nearest distance a change of the parameter by its square is this many times what round-off of the equations makes of it.
+const CLEAR: f64 = 10.0;
 
 /// Least change of the parameter that tells anything, in tolerances of Newton's method.
 const SEEN: f64 = 100.0;
@@ -96,25 +99,33 @@ pub(super) fn follow<P: Problem>(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Result<Tracer<P>> {
-    let (origin, direction) = (begin.origin, begin.direction);
+    let origin = begin.origin;
+    let direction = scaled(begin.direction.to_vec(), &problem.weights(origin))
+        .ok_or_else(|| nothing(origin.last().copied().unwrap_or(f64::NAN)))?;
+    let direction = direction.as_slice();
+    let (low, high) = settings.range;
+    let nearest = libm::cbrt(CLEAR * problem.resolution()).min(DISTANCES[3]);
     let mut farthest = f64::INFINITY;
     let mut doubtful = None;
     // where terms of high order decide the parameter is far from that of the point
     for (lean, distance) in LEANS.into_iter().flat_map(|lean| DISTANCES.map(|distance| (lean, distance))) {
-        if distance > farthest || lean != 0.0 && doubtful.is_some() {
+        if distance > farthest || distance < nearest || lean != 0.0 && doubtful.is_some() {
             continue;
         }
         match Tracer::beside(problem, (origin, direction, distance), lean, settings, watch) {
             Ok(tracer)
-                if begin.expects(&tracer.place.levels)
+                if (low..=high).contains(&tracer.parameter())
+                    && begin.expects(&tracer.place.levels)
                     && is_beginning(&tracer, (origin, direction, distance), settings, watch) =>
             {
                 return Ok(tracer);
             }
             Ok(tracer) => {
                 farthest = distance;
+                // one outside of the range is none of this branch
+                doubtful =
+                    (low..=high).contains(&tracer.parameter()).then_some((lean, distance)).or(doubtful);
                 problem = tracer.into_problem();
-                doubtful = Some((lean, distance));
             }
             Err((back, _)) => problem = back,
         }
@@ -135,10 +146,13 @@ fn is_beginning<P: Problem>(
     let problem = tracer.problem();
     let row = normal(direction, &problem.weights(origin));
     let guess = origin.iter().zip(direction).map(|(x, d)| x + distance / NEARER * d).collect();
-    let Ok(near) = correct(problem, guess, &row, settings.tolerance, watch) else { return false };
+    let tolerance = settings.tolerance.min(TOLERANCE);
+    let Ok(near) = correct(problem, guess, &row, tolerance, watch) else { return false };
     let changed = |x: &[f64]| x.last().copied().unwrap_or(f64::NAN) - origin.last().copied().unwrap_or(0.0);
     let (closer, far) = (changed(&near.x), changed(tracer.unknowns()));
-    let seen = SEEN * settings.tolerance * settings.width();
+    // close to the special point the equations see a change of the parameter the less the nearer it is
+    let resolved = problem.resolution() / (distance / NEARER).min(1.0);
+    let seen = SEEN * tolerance.max(resolved) * settings.width();
     let begins =
         if closer.abs() > seen { RATIOS.contains(&(far / closer)) } else { far.abs() <= RATIOS.end() * seen };
     begins

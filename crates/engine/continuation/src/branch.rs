@@ -9,7 +9,6 @@ use super::problem::Failure;
 use super::settings::Settings;
 use super::shooting::shape_after;
 use super::tracer::Tracer;
-use motiform_analysis::linear::norm;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
 
@@ -141,7 +140,7 @@ fn shoot<'f>(
         body.rotate(-0.5 * start.angle, &mut node);
     }
     let (bodies, widths) = (Bodies::One(family), [settings.width()]);
-    let length = bodies.units(body.as_ref(), &[parameter], &widths).length;
+    let length = bodies.vicinity(body.as_ref(), (&[parameter], &widths), &[&node]).units.length;
     let span = start.time / settings.parts as f64;
     let mut nodes = vec![node];
     for _ in 1..settings.parts {
@@ -163,20 +162,9 @@ pub(super) fn shoot_nodes<'f>(
     settings: &Settings,
 ) -> (Orbits<'f>, Vec<f64>) {
     let shapes: Vec<&[f64]> = nodes.iter().map(Vec::as_slice).collect();
-    let units = bodies.units(body, parameters, widths);
-    let problem = Orbits {
-        bodies,
-        flow: units.flow(settings.flow),
-        classes: Classes::of(body, &shapes),
-        dim: body.dim(),
-        parts: nodes.len(),
-        mirrored: orbit.mirrored,
-        turns: body.symmetry().rotations && !orbit.mirrored,
-        size: nodes.iter().map(|node| norm(node)).fold(0.0, f64::max),
-        length: units.length,
-        widths: widths.to_vec(),
-        family: Vec::new(),
-    };
+    let classes = Classes::of(body, &shapes);
+    let along = (orbit.time, orbit.mirrored);
+    let problem = Orbits::through(bodies, (body, classes), (&shapes, along), (parameters, widths), settings);
     let mut x = nodes.concat();
     x.push(orbit.time);
     if problem.turns {

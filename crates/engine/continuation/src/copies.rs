@@ -2,7 +2,7 @@
 
 use super::point::Motion;
 use super::shooting::shape_after;
-use motiform_analysis::equilibrium::Units;
+use motiform_analysis::equilibrium::{Units, size_beside};
 use motiform_analysis::linear::norm;
 use motiform_analysis::periodic::Flow;
 use motiform_analysis::symmetry::align;
@@ -36,8 +36,8 @@ fn same_shape(
     b: &RelativeEquilibrium,
     tolerance: f64,
 ) -> bool {
-    distance(body, &a.shape, &b.shape)
-        <= tolerance * norm(&a.shape).max(norm(&b.shape)).max(NOTHING * Units::of(body).length)
+    let size = size_beside(body, &a.shape).max(size_beside(body, &b.shape));
+    distance(body, &a.shape, &b.shape) <= tolerance * size.max(NOTHING * Units::of(body).length)
 }
 
 /// Distance of two shapes up to rotations and the mirror.

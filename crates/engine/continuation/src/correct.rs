@@ -30,7 +30,7 @@ pub(super) fn product(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The solution near `guess` in the plane through it that is normal to `row`. Has converged with the first step shorter than
-/// `tolerance`, or where round-off stops the progress not far above it.
+/// `tolerance` or than the resolution of the equations, or where round-off stops the progress not far above it.
 pub(super) fn correct<P: Equations>(
     problem: &P,
     guess: Vec<f64>,
@@ -39,6 +39,7 @@ pub(super) fn correct<P: Equations>(
     watch: &dyn Watch,
 ) -> Result<Corrected<P::Local>, Failure> {
     let weights = problem.weights(&guess);
+    let tolerance = tolerance.max(problem.resolution());
     let mut x = guess;
     problem.tidy(&mut x);
     let (mut first, mut last) = (f64::INFINITY, f64::INFINITY);
@@ -91,33 +92,36 @@ pub(super) fn directions(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
 }
 
 /// Directions that the equations do not see where branches cross, at least two beside those of a family; empty where one branch is alone.
-pub(super) fn crossing(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
-    let found = unseen(linear, weights);
-    if found.len() > 1 + linear.family.len() { found } else { Vec::new() }
+pub(super) fn crossing<P: Equations>(problem: &P, local: &P::Local, weights: &[f64]) -> Vec<Vec<f64>> {
+    let found = unseen(problem, local, weights);
+    if found.len() > 1 + problem.linear(local).family.len() { found } else { Vec::new() }
 }
 
 /// Directions that the equations do not see, where there are two at least; empty where there is one. The unseen parts are
 /// told from the others by the widest gap between them: a part that would be small beside the rates of fast modes is large beside those of
 /// slow ones.
-pub(super) fn unseen(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
-    let all = seen(linear, weights);
-    let count = count_unseen(&all);
+pub(super) fn unseen<P: Equations>(problem: &P, local: &P::Local, weights: &[f64]) -> Vec<Vec<f64>> {
+    let all = seen(problem.linear(local), weights);
+    let count = count_unseen(&all, problem.resolution());
     all.into_iter().take(count).map(|one| one.1).collect()
 }
 
-/// Number of these directions that are unseen, 0 where one branch is alone.
-pub(super) fn count_unseen(all: &[(f64, Vec<f64>)]) -> usize {
+/// Number of these directions that are unseen, 0 where one branch is alone. Round-off of the equations, of relative size `resolution`, parts
+/// the branches: at their place what is not seen is as large as its root.
+pub(super) fn count_unseen(all: &[(f64, Vec<f64>)], resolution: f64) -> usize {
+    let least = GAP.min(BLURRED / resolution.sqrt());
     let round_off = all.last().map_or(0.0, |last| f64::EPSILON * last.0);
     let gap = |count: usize| all.get(count).map_or(0.0, |next| next.0 / all[count - 1].0.max(round_off));
     let widest = (2..all.len().min(MOST_UNSEEN + 1)).max_by(|&a, &b| gap(a).total_cmp(&gap(b)));
-    widest.filter(|&count| gap(count) > GAP).unwrap_or(0)
+    widest.filter(|&count| gap(count) > least).unwrap_or(0)
 }
 
 /// Most directions that are unseen at once: that of a branch, and those of a deviation and its rotated copies.
 const MOST_UNSEEN: usize = 4;
 
-/// Least ratio of a part that is seen to one that is not.
+/// Least ratio of a part that is seen to one that is not; with round-off, in its inverse roots.
 const GAP: f64 = 1e5;
+const BLURRED: f64 = 0.1;
 
 /// The same direction with length 1.
 pub(super) fn scaled(mut direction: Vec<f64>, weights: &[f64]) -> Option<Vec<f64>> {

@@ -13,7 +13,7 @@ use motiform_dynamics::Watch;
 
 /// Returns `true` if the equations leave two directions to first order.
 pub(super) fn crosses<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
-    !crossing(problem.linear(&at.local), &problem.weights(&at.x)).is_empty()
+    !crossing(problem, &at.local, &problem.weights(&at.x)).is_empty()
 }
 
 /// The second smallest part of the equations beside those that do not see a family, and the next one: at a crossing the former vanishes, at
@@ -126,36 +126,27 @@ pub(super) fn keep_course<P: Problem>(
 /// Part of the step by which the equations of a branch point may move it.
 const MOVED: f64 = 0.1;
 
-/// The place where branches cross, solved for; as it is, where that fails. (For orbits the second derivatives would cost more than they
+/// The place where branches cross, solved for; `None` where that fails. (For orbits the second derivatives would cost more than they
 /// bring.)
 pub(super) fn solved<P: Problem>(
     problem: &P,
     step: &Step<'_, P::Local>,
-    at: Place<P::Local>,
+    at: &Place<P::Local>,
     watch: &dyn Watch,
-) -> Place<P::Local> {
+) -> Option<Place<P::Local>> {
     if problem.time().is_some() || problem.family() > 0 {
-        return at;
+        return None;
     }
     let weights = problem.weights(&at.x);
-    let better = || {
-        let x = branch_point(problem, &at.x, watch)?;
-        let between = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f64>>();
-        let (moved, chord) = (between(&x, &at.x), between(&step.new.x, &step.old.x));
-        let part = product(&weights, &chord, &moved) / product(&weights, &chord, &chord);
-        let arclength = at.arclength + part * step.length;
-        let local = problem.local(&x, watch).ok()?;
-        let levels = problem.levels(&x, &local)?;
-        let inside = (step.old.arclength..=step.new.arclength).contains(&arclength);
-        let near = product(&weights, &moved, &moved).sqrt() < MOVED * step.length;
-        (inside && near).then(|| Place {
-            x,
-            local,
-            levels,
-            arclength,
-            tangent: at.tangent.clone(),
-            certificate: None,
-        })
-    };
-    better().unwrap_or(at)
+    let x = branch_point(problem, &at.x, watch)?;
+    let between = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f64>>();
+    let (moved, chord) = (between(&x, &at.x), between(&step.new.x, &step.old.x));
+    let part = product(&weights, &chord, &moved) / product(&weights, &chord, &chord);
+    let arclength = at.arclength + part * step.length;
+    let local = problem.local(&x, watch).ok()?;
+    let levels = problem.levels(&x, &local)?;
+    let inside = (step.old.arclength..=step.new.arclength).contains(&arclength);
+    let near = product(&weights, &moved, &moved).sqrt() < MOVED * step.length;
+    let tangent = at.tangent.clone();
+    (inside && near).then_some(Place { x, local, levels, arclength, tangent, certificate: None })
 }

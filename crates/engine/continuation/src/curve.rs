@@ -11,7 +11,7 @@ use super::point::{End, Motion, Point};
 use super::problem::{Failure, Problem};
 use super::settings::Settings;
 use super::special::{Hopf, Special};
-use motiform_analysis::equilibrium::Units;
+use motiform_analysis::equilibrium::{Units, size_beside};
 use motiform_analysis::{Error, Result};
 use motiform_dynamics::Watch;
 use std::collections::VecDeque;
@@ -239,8 +239,9 @@ fn point<P: Problem>(
             let body = tracer.problem.body(&spot.local);
             let frequency = spot.reading.angle.max(0.0).sqrt();
             let solved = tracer.problem.solved(&spot.x);
-            let first_lyapunov =
-                first_lyapunov(body, &spot.x[..body.dim()], frequency, solved, Units::of(body).length);
+            let shape = &spot.x[..body.dim()];
+            let scale = (size_beside(body, shape), Units::of(body).length);
+            let first_lyapunov = first_lyapunov(body, shape, frequency, solved, scale);
             Special::Hopf(Hopf { frequency, part, first_lyapunov })
         }
         Special::Torus { .. } => Special::Torus { angle: libm::acos(spot.reading.angle.clamp(-1.0, 1.0)) },

@@ -5,7 +5,7 @@ use super::hopf::first_lyapunov;
 use super::levels::Level;
 use super::normal_form::Coefficient;
 use super::special::Special;
-use motiform_analysis::equilibrium::Units;
+use motiform_analysis::equilibrium::{Units, size_beside};
 use motiform_dynamics::Equivariant;
 
 /// Where a curve of special points changes.
@@ -110,7 +110,8 @@ const VANISHES: f64 = 1e-3;
 
 fn first_lyapunov_of(seen: &Seen<'_>) -> Option<Coefficient> {
     let frequency = seen.reading.angle.max(0.0).sqrt();
-    first_lyapunov(seen.body, seen.shape, frequency, seen.solved, Units::of(seen.body).length).coefficient()
+    let scale = (size_beside(seen.body, seen.shape), Units::of(seen.body).length);
+    first_lyapunov(seen.body, seen.shape, frequency, seen.solved, scale).coefficient()
 }
 
 impl Sign {

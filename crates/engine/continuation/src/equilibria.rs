@@ -12,6 +12,7 @@ use super::point::Motion;
 use super::problem::{Border, Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
 use super::tracer::TOLERANCE;
+use super::vicinity::Vicinity;
 use motiform_analysis::equilibrium::Units;
 use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
 use motiform_analysis::linear::{add, apply, eigenvalues, leading_first, norm, restrict};
@@ -41,10 +42,8 @@ pub(super) struct Equilibria<'f> {
     pub(super) classes: Classes,
     /// Length of the state.
     pub(super) dim: usize,
-    /// Least unit of the shape; that of a far larger shape is a part of its own size.
-    pub(super) size: f64,
-    /// Those of the equations.
-    pub(super) units: Units,
+    /// The scale of the shapes; the unit of one that changes by far more is a part of its change.
+    pub(super) vicinity: Vicinity,
     /// Units of the parameters.
     pub(super) widths: Vec<f64>,
     /// A family of equilibria through each of a branch.
@@ -70,17 +69,9 @@ impl<'f> Equilibria<'f> {
     ) -> Result<Self, motiform_analysis::Error> {
         let body = bodies.at(parameters)?;
         let classes = Classes::of(body.as_ref(), &[shape]);
-        let units = bodies.units(body.as_ref(), parameters, widths);
-        let size = units.size(norm(shape));
-        Ok(Self {
-            bodies,
-            classes,
-            dim: shape.len(),
-            size,
-            units,
-            widths: widths.to_vec(),
-            family: Vec::new(),
-        })
+        let vicinity = bodies.vicinity(body.as_ref(), (parameters, widths), &[shape]);
+        let (dim, widths) = (shape.len(), widths.to_vec());
+        Ok(Self { bodies, classes, dim, vicinity, widths, family: Vec::new() })
     }
 }
 
@@ -103,7 +94,9 @@ impl Equations for Equilibria<'_> {
 
     fn local(&self, x: &[f64], _watch: &dyn Watch) -> Result<Local, Failure> {
         let (shape, omega) = (&x[..self.dim], x[self.dim]);
-        let Neighbours { body, sides, .. } = Neighbours::of(self.bodies, x, &self.widths, self.units.length)?;
+        let &Vicinity { units, round_off, .. } = &self.vicinity;
+        let Neighbours { body, sides, .. } =
+            Neighbours::of(self.bodies, x, &self.widths, (units.length, round_off))?;
         let matrix = linearisation(body.as_ref(), shape, omega);
         let neutral = neutral_direction(body.as_ref(), shape);
         let linear = Linear { residual: Vec::new(), matrix: DMatrix::zeros(0, 0), family: Vec::new() };
@@ -117,12 +110,15 @@ impl Equations for Equilibria<'_> {
     }
 
     fn weights(&self, x: &[f64]) -> Vec<f64> {
-        // a branch that begins small may grow by powers of ten: its steps grow with it
-        let size = self.size.max(GROWN * norm(&x[..self.dim]));
-        let mut weights = vec![1.0 / (size * size); self.dim];
-        weights.push(1.0 / (self.units.rate * self.units.rate));
+        let rate = self.vicinity.units.rate;
+        let mut weights: Vec<f64> = self.sizes(x).iter().map(|size| 1.0 / (size * size)).collect();
+        weights.push(1.0 / (rate * rate));
         weights.extend(self.widths.iter().map(|width| 1.0 / (width * width)));
         weights
+    }
+
+    fn resolution(&self) -> f64 {
+        self.vicinity.round_off
     }
 
     fn tidy(&self, x: &mut [f64]) {
@@ -157,7 +153,7 @@ impl Problem for Equilibria<'_> {
     }
 
     fn accuracy(&self) -> f64 {
-        TIGHT
+        TIGHT.max(self.vicinity.round_off)
     }
 
     fn noise(&self, levels: &[Vec<Level>]) -> f64 {
@@ -166,12 +162,13 @@ impl Problem for Equilibria<'_> {
         let mut sizes: Vec<f64> =
             levels.iter().flatten().map(|level| level.growth.hypot(level.angle)).collect();
         ascending(&mut sizes);
-        TIGHT * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
+        let slow = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
+        TIGHT * slow + self.vicinity.round_off * self.vicinity.units.rate
     }
 
     fn unclear(&self, _levels: &[Vec<Level>], _tolerance: f64) -> f64 {
         // slow rates change by the unit of rates over the size of a shape; fast modes, whose rates are millions of it, have no part in them
-        TIGHT * self.units.rate
+        self.accuracy() * self.vicinity.units.rate
     }
 
     fn classify(&self, x: &[f64], critical: Level, class: usize) -> Special {
@@ -179,7 +176,8 @@ impl Problem for Equilibria<'_> {
         if critical.angle != 0.0 {
             let (body, shape, frequency) = (local.body.as_ref(), &x[..self.dim], critical.angle.abs());
             let part = Oscillation::all(body, shape, frequency).first().map_or(1.0, Oscillation::period_part);
-            let first_lyapunov = first_lyapunov(body, shape, frequency, self.solved(x), self.units.length);
+            let scale = (self.extent(x), self.vicinity.units.length);
+            let first_lyapunov = first_lyapunov(body, shape, frequency, self.solved(x), scale);
             return Special::Hopf(Hopf { frequency, part, first_lyapunov });
         }
         let body = local.body.as_ref();
@@ -209,10 +207,11 @@ impl Problem for Equilibria<'_> {
         eigenvalues.sort_by(leading_first);
         let neutral = local.neutral.len();
         let scale = local.matrix.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        let units = self.vicinity.units;
         Motion::Equilibrium(RelativeEquilibrium {
             velocity: model::velocity(local.body.as_ref(), &shape),
             turning_rate: if neutral == 0 { 0.0 } else { x[self.dim] },
-            residual: norm(&local.linear.residual) * self.units.length * self.units.rate,
+            residual: norm(&local.linear.residual) * units.length * units.rate,
             errors: vec![rounding(self.dim, scale); eigenvalues.len()],
             eigenvalues,
             neutral,
@@ -227,7 +226,7 @@ impl Problem for Equilibria<'_> {
             return None;
         }
         let mut symmetric = x.to_vec();
-        let vanishes = norm(shape) < same * self.size;
+        let vanishes = norm(shape) < same * self.vicinity.size;
         if vanishes && body.symmetry().rotations {
             symmetric[..=self.dim].fill(0.0);
             return Some((Broken::Rotations, symmetric));
@@ -245,7 +244,7 @@ impl Problem for Equilibria<'_> {
 
     /// A shape that turns while it vanishes is a wave of the motion with more symmetry, which oscillates there.
     fn met(&self, x: &[f64], symmetric: &[f64], gains: Broken) -> Special {
-        let (pitchfork, turns) = (gains.special(), |rate: f64| rate.abs() > TURNS * self.units.rate);
+        let (pitchfork, turns) = (gains.special(), |rate: f64| rate.abs() > TURNS * self.vicinity.units.rate);
         let Ok(local) = self.local(symmetric, &()) else { return pitchfork };
         let columns: Vec<Vec<f64>> = local.matrix.chunks(self.dim).map(<[f64]>::to_vec).collect();
         let all = Level::of_pairs(&eigenvalues(&columns).unwrap_or_default());
@@ -275,11 +274,27 @@ impl Problem for Equilibria<'_> {
     }
 
     fn rate(&self) -> f64 {
-        self.units.rate
+        self.vicinity.units.rate
     }
 }
 
 impl Equilibria<'_> {
+    /// The units of the entries of the shape. A branch that begins small may grow by powers of ten: its steps grow with it. Beside an
+    /// offset each entry is one of its own: one that changes by powers of ten says nothing about the others.
+    fn sizes(&self, x: &[f64]) -> Vec<f64> {
+        let Vicinity { centre, size, .. } = &self.vicinity;
+        let shape = &x[..self.dim];
+        if self.vicinity.is_offset() {
+            return shape.iter().zip(centre).map(|(u, c)| size.max(GROWN * (u - c).abs())).collect();
+        }
+        vec![size.max(GROWN * norm(shape)); self.dim]
+    }
+
+    /// The size of the shape, or beside an offset that of its changes.
+    pub(super) fn extent(&self, x: &[f64]) -> f64 {
+        if self.vicinity.is_offset() { self.vicinity.size } else { norm(&x[..self.dim]) }
+    }
+
     /// The equations, in their units. What breaks the symmetry of the shape is left to itself, `du = 0`: where such a deviation is critical
     /// the equations of the motion itself stay regular.
     fn fill(&self, shape: &[f64], omega: f64, sides: &[Sides], local: &Local) -> Linear {
@@ -289,7 +304,8 @@ impl Equilibria<'_> {
         add(&mut residual, -omega, &spin);
         residual.push(0.0);
         let mut all = DMatrix::zeros(dim + 1, dim + 1 + sides.len());
-        let (Units { length, rate: pace }, unit) = (self.units, self.units.length * self.units.rate);
+        let Units { length, rate: pace } = self.vicinity.units;
+        let unit = length * pace;
         residual.iter_mut().for_each(|value| *value /= unit);
         let mut put = |column: usize, values: &[f64]| {
             values.iter().enumerate().for_each(|(i, value)| all[(i, column)] = *value / unit);
@@ -315,8 +331,8 @@ impl Equilibria<'_> {
     pub(super) fn free(&self, x: &[f64]) -> Option<Self> {
         let classes = Classes::of(self.bodies.at(x).ok()?.as_ref(), &[]);
         let widths = self.widths.clone();
-        let (bodies, dim, size, units, family) = (self.bodies, self.dim, self.size, self.units, Vec::new());
-        Some(Self { bodies, classes, dim, size, units, widths, family })
+        let (bodies, dim, vicinity, family) = (self.bodies, self.dim, self.vicinity.clone(), Vec::new());
+        Some(Self { bodies, classes, dim, vicinity, widths, family })
     }
 
     /// Returns `true` if motions in the direction `vector` exist for the same parameter, at two distances: beside a pitchfork the parameter
@@ -330,7 +346,9 @@ impl Equilibria<'_> {
         let row = normal(&direction, &weights);
         let last = x.len() - 1;
         // close to nothing a part of the shape is too short to see the parameter change
-        let longer = (FAMILY[0] * self.units.length / norm(&direction[..self.dim])).max(1.0);
+        let longer = (FAMILY[0] * self.vicinity.units.length / norm(&direction[..self.dim])).max(1.0);
+        // the unit beside an offset is a part of what it is elsewhere
+        let longer = if self.vicinity.is_offset() { longer / GROWN } else { longer };
         FAMILY.iter().all(|distance| {
             let guess = x.iter().zip(&direction).map(|(x, d)| x + distance * longer * d).collect();
             let found = correct(&free, guess, &row, TOLERANCE, &());

@@ -87,7 +87,7 @@ fn enter<P: Problem>(problem: &mut P, x: &[f64]) -> Option<Directions> {
     problem.set_family(Vec::new());
     let weights = problem.weights(x);
     let local = problem.local(x, &()).ok()?;
-    let found = Directions::of(&unseen(problem.linear(&local), &weights), &weights)?;
+    let found = Directions::of(&unseen(problem, &local, &weights), &weights)?;
     let all = borders(problem, &local, &found.family, &weights)?;
     problem.set_family(all);
     let is_family = found.family.iter().all(|direction| {

@@ -1,8 +1,9 @@
 //! Bodies that depend on one parameter or two.
 
 use super::allowance::Allowance;
+use super::correct::TIGHT;
 use super::problem::Failure;
-use motiform_analysis::equilibrium::{Units, prefix};
+use motiform_analysis::equilibrium::prefix;
 use motiform_analysis::{Error, Result};
 use motiform_dynamics::Equivariant;
 
@@ -95,13 +96,16 @@ impl<'f> Bodies<'f> {
     }
 }
 
+/// Distance of the bodies whose differences are derivatives, in widths of the parameters.
+const APART: f64 = 1e-5;
+
 /// Distance of the bodies whose units are compared, in widths of the parameters.
 const BESIDE: f64 = 0.05;
 
 impl Bodies<'_> {
-    /// The units of the equations at these parameters and at values beside them. At a bifurcation a growth rate is zero, and the equations
-    /// at that value alone would give a wrong unit.
-    pub(super) fn units(self, body: &dyn Equivariant, parameters: &[f64], widths: &[f64]) -> Units {
+    /// The bodies at values beside these parameters. At a bifurcation a growth rate is zero, and the equations at that value alone would
+    /// give a wrong unit.
+    pub(super) fn beside(self, parameters: &[f64], widths: &[f64]) -> Vec<Box<dyn Equivariant>> {
         let mut beside = Vec::new();
         for (i, width) in widths.iter().enumerate() {
             for side in [-BESIDE, BESIDE] {
@@ -110,9 +114,14 @@ impl Bodies<'_> {
                 beside.extend(self.at(&moved));
             }
         }
-        let all: Vec<&dyn Equivariant> = [body].into_iter().chain(beside.iter().map(AsRef::as_ref)).collect();
-        Units::among(&all)
+        beside
     }
+}
+
+/// The distance at which errors of differences by round-off and by terms of third order are alike; `usual` where round-off is below the
+/// tolerance of Newton's method, as it is where terms do not cancel.
+pub(super) fn apart(usual: f64, round_off: f64) -> f64 {
+    if round_off > TIGHT { usual.max(libm::cbrt(round_off)) } else { usual }
 }
 
 /// A body and its neighbours, whose differences are the derivatives by the parameters.
@@ -137,19 +146,19 @@ pub(super) struct Sides {
 
 impl Neighbours {
     /// The body whose parameters are the last of `x`, varied over these widths, for shapes of this unit, with neighbours so close that the
-    /// central difference has about ten digits: more than a Newton step needs, whose residual is exact. At the end of what the model allows
-    /// the difference is one-sided.
+    /// central difference has about ten digits: more than a Newton step needs, whose residual is exact. Equations with a larger `round_off`
+    /// have neighbours farther apart. At the end of what the model allows the difference is one-sided.
     pub(super) fn of(
         bodies: Bodies<'_>,
         x: &[f64],
         widths: &[f64],
-        length: f64,
+        (length, round_off): (f64, f64),
     ) -> std::result::Result<Self, Failure> {
         let parameters = &x[x.len() - bodies.count()..];
         let body = bodies.at(parameters)?;
         let mut sides = Vec::new();
         for (i, (&parameter, &width)) in parameters.iter().zip(widths).enumerate() {
-            let step = 1e-5 * (prefix(width) + parameter.abs());
+            let step = apart(APART, round_off) * (prefix(width) + parameter.abs());
             let at = |value: f64| {
                 let mut moved = parameters.to_vec();
                 moved[i] = value;

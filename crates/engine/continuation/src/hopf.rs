@@ -148,9 +148,9 @@ const SAME: f64 = 1e-7;
 /// `l1 = Re( <p, C(q,q,q*)> - 2 <p, B(q, A^-1 B(q,q*))> + <p, B(q*, (2 i omega - A)^-1 B(q,q))> ) / (2 omega)`.
 ///
 /// Its error is the difference of two results from steps of different size, and of those for two shapes that differ by `solved`, the error
-/// of the solution: near a double eigenvalue 0, and where a part of the shape vanishes, the latter is the larger one; `length` is the
-/// unit of the equations. Where two pairs have the same frequency (a rotating and a standing oscillation of a symmetric shape) one
-/// coefficient says nothing.
+/// of the solution: near a double eigenvalue 0, and where a part of the shape vanishes, the latter is the larger one; `extent` is the
+/// size that changes of the shape are small against, and `length` the unit of the equations. Where two pairs have the same frequency (a
+/// rotating and a standing oscillation of a symmetric shape) one coefficient says nothing.
 ///
 /// Source: Kuznetsov (2004), Elements of Applied Bifurcation Theory, eq. (5.62).
 ///
@@ -160,9 +160,9 @@ pub(super) fn first_lyapunov(
     shape: &[f64],
     frequency: f64,
     solved: f64,
-    length: f64,
+    (extent, length): (f64, f64),
 ) -> NormalForm {
-    let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let size = shape.iter().fold(0.0, |m: f64, x| m.max(x.abs())).min(extent);
     // Newton's method leaves a body at rest at round-off: that is no size.
     let size = if size > ROUND_OFF * length { size } else { 0.0 };
     let found = at_shape(body, shape, (size, length), frequency);

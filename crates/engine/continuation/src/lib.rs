@@ -81,6 +81,7 @@ mod tracer;
 mod twice;
 mod vanishing;
 mod variation;
+mod vicinity;
 mod whole_curve;
 mod zero;
 

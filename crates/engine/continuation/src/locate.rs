@@ -2,6 +2,7 @@
 
 use super::between::{Step, between};
 use super::brackets::{BESIDE, Bracket, Test, brackets};
+use super::branch_point::blurred;
 use super::certificate::{Certificate, Passing, TestFunction};
 use super::correct::TIGHT;
 use super::crossings::{at_crossing, crosses, is_alone, keep_course, nearly_crosses, solved};
@@ -95,11 +96,17 @@ fn add<P: Problem>(
         return Ok(());
     }
     let crosses = special == Special::BranchPoint && !is_alone(problem, &at);
-    let mut at = if crosses { solved(problem, step, at, watch) } else { at };
+    let better = if crosses { solved(problem, step, &at, watch) } else { None };
+    let blur = match &better {
+        _ if !crosses || problem.time().is_some() => 0.0,
+        Some(_) => blurred(problem),
+        None => problem.resolution().sqrt(),
+    };
+    let mut at = better.unwrap_or(at);
     if crosses {
         keep_course(problem, step, (bracket.test, &mut at), watch);
     }
-    let certificate = certified(problem, step, bracket.test, &at, watch)
+    let certificate = certified(problem, step, (bracket.test, blur), &at, watch)
         .map(|certificate| Certificate { normal_form: normal_form(problem, &at.x, special), ..certificate });
     let at = Place { certificate, ..at };
     if !is_known((problem, step), &changes.found, (&at, bracket.test), special) {
@@ -116,11 +123,12 @@ pub(super) fn value<L>(step: &Step<'_, L>, at: &Place<L>, test: Test) -> f64 {
     }
 }
 
-/// The evidence that a test vanishes at a place.
+/// The evidence that a test vanishes at a place; `blur` is the error by round-off of the equations that the growth has
+/// where branches cross: that of the place if it is solved for, its root on the way along a branch.
 fn certified<P: Problem>(
     problem: &P,
     step: &Step<'_, P::Local>,
-    test: Test,
+    (test, blur): (Test, f64),
     at: &Place<P::Local>,
     watch: &dyn Watch,
 ) -> Option<Certificate> {
@@ -143,7 +151,7 @@ fn certified<P: Problem>(
     };
     let (kind, noise) = match test {
         Test::Slope => (TestFunction::Slope, problem.accuracy()),
-        Test::Level(..) => (TestFunction::Growth, problem.noise(&at.levels)),
+        Test::Level(..) => (TestFunction::Growth, problem.noise(&at.levels).max(blur * problem.rate())),
     };
     let width = problem.weights(&at.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
     let solved = problem.accuracy().max(TIGHT) * width;

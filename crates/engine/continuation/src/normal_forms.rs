@@ -8,6 +8,7 @@ use super::orbits::Orbits;
 use super::problem::Equations;
 use super::reduction::{Size, System, leading};
 use super::shooting::segment;
+use motiform_analysis::equilibrium::Units;
 use motiform_analysis::linear::{add, apply, basis, dot, norm};
 use motiform_dynamics::Equivariant;
 
@@ -17,6 +18,9 @@ const ROUND_OFF: f64 = 1e-9;
 /// The step is doubled so often; at rest it begins far smaller, as a part of the unit of the equations, and is doubled more often.
 const DOUBLINGS: usize = 7;
 const AT_REST: (f64, usize) = (0.05, 15);
+
+/// The same beside an offset: up to the size of changes.
+const BESIDE: usize = 12;
 
 /// Error of the pairing of null vectors, as a part of their lengths: what their location leaves.
 const PAIRED: f64 = 1e-9;
@@ -29,10 +33,16 @@ pub(super) fn of_equilibrium(problem: &Equilibria<'_>, x: &[f64], order: Order) 
     let Some(free) = problem.free(x) else { return NormalForm::Undetermined(Undetermined::Obstructed) };
     let (dim, shape) = (free.dim, &x[..free.dim]);
     let alike = free.bodies.at(x).is_ok_and(|body| Classes::of(body.as_ref(), &[shape]).circle);
-    let size = norm(shape);
-    let (length, scale) = (free.units.length, free.units.length * free.units.rate);
+    let size = free.extent(x);
+    let Units { length, rate } = free.vicinity.units;
+    let scale = length * rate;
     let at_rest = (AT_REST.0 * length, AT_REST.1);
-    let (unit, doublings) = if size > ROUND_OFF * length { (size, DOUBLINGS) } else { at_rest };
+    let (unit, doublings) = match size > ROUND_OFF * length {
+        // the size of changes is a part of what that of a shape would be
+        true if free.vicinity.is_offset() => (size, BESIDE),
+        true => (size, DOUBLINGS),
+        false => at_rest,
+    };
     leading(
         &System {
             matrix: &|x| {
@@ -87,17 +97,15 @@ fn free<'f>(problem: &Orbits<'f>, x: &[f64], doubled: bool) -> Option<(Orbits<'f
     let (parts, rows) = (problem.parts, problem.parts * problem.dim);
     let mirrored = problem.mirrored && !doubled;
     let free = Orbits {
-        bodies: problem.bodies,
-        flow: problem.flow,
         classes: Classes::of(body.as_ref(), &[]),
-        dim: problem.dim,
         parts: if doubled { 2 * parts } else { parts },
         mirrored,
         turns: body.symmetry().rotations && !mirrored,
-        size: (0..parts).map(|i| norm(problem.node(x, i))).fold(0.0, f64::max),
-        length: problem.length,
+        size: problem.extent(x),
         widths: problem.widths.clone(),
         family: Vec::new(),
+        drift: if doubled { 2.0 * problem.drift } else { problem.drift },
+        ..*problem
     };
     if !doubled {
         return Some((free, x.to_vec()));
@@ -122,7 +130,8 @@ fn free<'f>(problem: &Orbits<'f>, x: &[f64], doubled: bool) -> Option<(Orbits<'f
 /// The root mean square over the period of a deviation `v` of the unknowns, normal to the flow and the group, and its error: the difference
 /// from the mean over half of the places. (The rule of trapezoids: of a periodic function it converges faster than any power.)
 fn size_along(orbits: &Orbits<'_>, x: &[f64], v: &[f64]) -> Option<Size> {
-    let neighbours = Neighbours::of(orbits.bodies, x, &orbits.widths, orbits.length).ok()?;
+    let neighbours =
+        Neighbours::of(orbits.bodies, x, &orbits.widths, (orbits.length, orbits.round_off)).ok()?;
     let (parts, rows) = (orbits.parts, orbits.parts * orbits.dim);
     let each = PLACES.div_ceil(parts).next_multiple_of(2);
     let (span, stretch) = (orbits.span(x) / each as f64, v[rows] / (parts * each) as f64);

@@ -81,7 +81,7 @@ fn swinging<'f>(
         nodes.push(node);
         swings.push(swing);
     }
-    let problem = orbits(family, (body, parameter), (&nodes, across.is_some()), settings);
+    let problem = orbits(family, (body, parameter), (&nodes, (time, across.is_some())), settings);
     let x = unknowns(&problem, &nodes, (time, turning_rate * time + turned, parameter));
     let mut direction = swings.concat();
     direction.resize(x.len(), 0.0);

@@ -6,7 +6,9 @@ use super::classes::Classes;
 use super::equilibria::linearisation;
 use super::family::{Bodies, Neighbours};
 use super::problem::{Border, Equations, Failure, Linear};
+use super::settings::Settings;
 use super::shooting::{Segment, segments};
+use super::vicinity::{Vicinity, spread};
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::neutral_direction;
 use motiform_analysis::linear::{add, apply, basis, dot, eigenvalues, norm, restrict};
@@ -37,6 +39,11 @@ pub(super) struct Orbits<'f> {
     pub(super) widths: Vec<f64>,
     /// A family of orbits through each of a branch.
     pub(super) family: Vec<Border>,
+    /// The round-off of the equations, in the units of size and rate.
+    pub(super) round_off: f64,
+    /// What an orbit is known to less than one whose size is that of its shapes: by an offset, and by the round-off over its time.
+    pub(super) offset: f64,
+    pub(super) drift: f64,
 }
 
 /// The equations at one place.
@@ -49,10 +56,46 @@ pub(super) struct Local {
     pub(super) spins: Vec<Vec<f64>>,
 }
 
+impl<'f> Orbits<'f> {
+    /// The equations of an orbit of this time, mirrored or not, with nodes at these shapes.
+    pub(super) fn through(
+        bodies: Bodies<'f>,
+        (body, classes): (&dyn Equivariant, Classes),
+        (shapes, (time, mirrored)): (&[&[f64]], (f64, bool)),
+        (parameters, widths): (&[f64], &[f64]),
+        settings: &Settings,
+    ) -> Self {
+        let Vicinity { size, units, round_off, .. } = bodies.vicinity(body, (parameters, widths), shapes);
+        let largest = shapes.iter().map(|shape| norm(shape)).fold(0.0, f64::max);
+        Self {
+            bodies,
+            flow: units.flow(settings.flow).above(round_off * size),
+            classes,
+            dim: body.dim(),
+            parts: shapes.len(),
+            mirrored,
+            turns: body.symmetry().rotations && !mirrored,
+            size,
+            length: units.length,
+            widths: widths.to_vec(),
+            family: Vec::new(),
+            round_off,
+            offset: (largest / size).max(1.0),
+            drift: round_off * units.rate * time,
+        }
+    }
+}
+
 impl Orbits<'_> {
     /// Number of unknowns.
     pub(super) fn unknowns(&self) -> usize {
         self.parts * self.dim + 1 + usize::from(self.turns) + self.bodies.count()
+    }
+
+    /// The size of the shapes, or, beside an offset, that of their changes along the orbit.
+    pub(super) fn extent(&self, x: &[f64]) -> f64 {
+        let nodes = || (0..self.parts).map(|i| self.node(x, i));
+        if self.offset > 1.0 { spread(nodes()).1 } else { nodes().map(norm).fold(0.0, f64::max) }
     }
 
     pub(super) fn node<'x>(&self, x: &'x [f64], i: usize) -> &'x [f64] {
@@ -189,7 +232,7 @@ impl Equations for Orbits<'_> {
     type Local = Local;
 
     fn local(&self, x: &[f64], watch: &dyn Watch) -> Result<Local, Failure> {
-        let neighbours = Neighbours::of(self.bodies, x, &self.widths, self.length)?;
+        let neighbours = Neighbours::of(self.bodies, x, &self.widths, (self.length, self.round_off))?;
         let span = self.span(x);
         let nodes = || (0..self.parts).map(|i| self.node(x, i));
         let segments = segments(&neighbours, nodes(), span, &self.flow, watch)?;
@@ -226,6 +269,10 @@ impl Equations for Orbits<'_> {
         }
         weights.extend(self.widths.iter().map(|width| 1.0 / (width * width)));
         weights
+    }
+
+    fn resolution(&self) -> f64 {
+        self.drift
     }
 
     fn is_sound(&self, x: &[f64]) -> bool {

@@ -62,6 +62,11 @@ pub(super) trait Equations {
     /// The unknowns' units, squared and inverted: `|dx|^2 = sum_i weight_i dx_i^2`.
     fn weights(&self, x: &[f64]) -> Vec<f64>;
 
+    /// The size of steps that round-off of the equations leaves where these are regular, in the units of the unknowns.
+    fn resolution(&self) -> f64 {
+        0.0
+    }
+
     /// Restores what symmetry makes exact.
     fn tidy(&self, _x: &mut [f64]) {}
 

@@ -44,7 +44,7 @@ pub(super) fn rays(
     let units: Vec<f64> = weights.iter().map(|weight| 1.0 / weight.sqrt()).collect();
     let Ok(local) = problem.local(x, watch) else { return Vec::new() };
     let all = seen(problem.linear(&local), &weights);
-    let count = count_unseen(&all).max(point.critical + 1);
+    let count = count_unseen(&all, problem.resolution()).max(point.critical + 1);
     let plane: Vec<Vec<f64>> = all
         .into_iter()
         .take(count)

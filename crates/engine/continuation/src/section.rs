@@ -36,6 +36,10 @@ impl<E: Equations> Equations for Section<'_, E> {
         self.equations.weights(x)
     }
 
+    fn resolution(&self) -> f64 {
+        self.equations.resolution()
+    }
+
     fn tidy(&self, x: &mut [f64]) {
         self.equations.tidy(x);
     }

@@ -16,7 +16,7 @@ use super::settings::Settings;
 use super::special::Special;
 use super::tangents::tangents;
 use super::tracer::Tracer;
-use motiform_analysis::linear::{add, norm};
+use motiform_analysis::linear::add;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
 
@@ -88,7 +88,7 @@ const TURNS: f64 = 1e-6;
 fn unseen<P: Problem>(problem: &P, x: &[f64], most: usize) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
     let local = problem.local(x, &()).ok()?;
     let weights = problem.weights(x);
-    let mut null = crossing(problem.linear(&local), &weights);
+    let mut null = crossing(problem, &local, &weights);
     null.truncate(most);
     let last = |v: &Vec<f64>| v.last().copied().unwrap_or(0.0);
     let along = null.iter().max_by(|a, b| last(a).abs().total_cmp(&last(b).abs()))?;
@@ -208,7 +208,7 @@ fn leave<'f>(
         angle = if orbit.mirrored { 0.0 } else { 2.0 * angle };
     }
     let mirrored = orbit.mirrored && !doubled;
-    let problem = orbits(family, (body.as_ref(), parameter), (&all, mirrored), settings);
+    let problem = orbits(family, (body.as_ref(), parameter), (&all, (time, mirrored)), settings);
     let x = unknowns(&problem, &all, (time, angle, parameter));
     let direction = direction(&problem, &x, point).ok_or_else(|| nothing(parameter))?;
     let direction: Vec<f64> = direction.iter().map(|d| side * d).collect();
@@ -230,25 +230,18 @@ pub(super) fn symmetric(mut tracer: Tracer<Orbits<'_>>) -> Tracer<Orbits<'_>> {
 pub(super) fn orbits<'f>(
     family: &'f dyn Family,
     (body, parameter): (&dyn Equivariant, f64),
-    (nodes, mirrored): (&[Vec<f64>], bool),
+    (nodes, along): (&[Vec<f64>], (f64, bool)),
     settings: &Settings,
 ) -> Orbits<'f> {
-    let size = nodes.iter().map(|node| norm(node)).fold(0.0, f64::max);
-    let (bodies, width) = (Bodies::One(family), settings.width());
-    let units = bodies.units(body, &[parameter], &[width]);
-    Orbits {
-        bodies,
-        flow: units.flow(settings.flow),
-        classes: Classes::of(body, &[]),
-        dim: body.dim(),
-        parts: nodes.len(),
-        mirrored,
-        turns: body.symmetry().rotations && !mirrored,
-        size: units.size(size),
-        length: units.length,
-        widths: vec![width],
-        family: Vec::new(),
-    }
+    let shapes: Vec<&[f64]> = nodes.iter().map(Vec::as_slice).collect();
+    let classes = Classes::of(body, &[]);
+    Orbits::through(
+        Bodies::One(family),
+        (body, classes),
+        (&shapes, along),
+        (&[parameter], &[settings.width()]),
+        settings,
+    )
 }
 
 pub(super) fn unknowns(

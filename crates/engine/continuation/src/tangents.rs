@@ -5,7 +5,7 @@ use super::problem::Problem;
 use motiform_analysis::linear::{add, dot};
 use motiform_analysis::singular::svd;
 
-/// Distance of the second differences, in the units of the unknowns.
+/// Least distance of the second differences, in the units of the unknowns.
 const STEP: f64 = 1e-3;
 
 /// The tangents, of length 1, of the branches that cross at `x`, where `equations(x + v)` vanishes to first order for `v` in a plane: the
@@ -19,13 +19,14 @@ const STEP: f64 = 1e-3;
 pub(super) fn tangents<P: Problem>(problem: &P, x: &[f64]) -> Vec<Vec<f64>> {
     let weights = problem.weights(x);
     let Some(Plane { a, b, psi, here }) = Plane::at(problem, x, &weights) else { return Vec::new() };
+    let step = STEP.max(problem.resolution().sqrt().sqrt()); // where errors by round-off and by terms of fourth order are alike
     let seen = |v: &[f64]| {
         let at = |side: f64| {
             let mut moved = x.to_vec();
-            add(&mut moved, side * STEP, v);
+            add(&mut moved, side * step, v);
             Some(dot(&psi, &problem.linear(&problem.local(&moved, &()).ok()?).residual))
         };
-        Some((at(1.0)? + at(-1.0)? - 2.0 * here) / (STEP * STEP))
+        Some((at(1.0)? + at(-1.0)? - 2.0 * here) / (step * step))
     };
     let mixed = |side: f64| {
         let mut v = a.clone();
@@ -70,7 +71,7 @@ impl Plane {
     fn at<P: Problem>(problem: &P, x: &[f64], weights: &[f64]) -> Option<Self> {
         let local = problem.local(x, &()).ok()?;
         let linear = problem.linear(&local);
-        let null = crossing(linear, weights);
+        let null = crossing(problem, &local, weights);
         let [a, b, ..] = &null[..] else { return None };
         let svd = svd(linear.matrix.clone())?;
         let (least, _) = svd.singular_values.argmin();

@@ -102,7 +102,8 @@ impl<P: Problem> Tracer<P> {
     }
 
     /// From a solution near `origin + length direction`, on to the side of `direction`; Newton's method begins there, with the parameter
-    /// changed by the part `lean` of the range.
+    /// changed by the part `lean` of the range. What grows there is small as the square of the length: the solution is as exact as if no
+    /// tolerance were asked for.
     pub(super) fn beside(
         problem: P,
         (origin, direction, length): (&[f64], &[f64], f64),
@@ -116,7 +117,7 @@ impl<P: Problem> Tracer<P> {
         if let Some(last) = guess.last_mut() {
             *last += lean * settings.width();
         }
-        let found = correct(&problem, guess, &row, settings.tolerance, watch);
+        let found = correct(&problem, guess, &row, settings.tolerance.min(TOLERANCE), watch);
         match found.and_then(|found| place(&problem, found, &row, 0.0)) {
             Ok(place) => Ok(Self::at(problem, place, settings)),
             Err(failure) => Err((problem, failure)),
@@ -126,8 +127,8 @@ impl<P: Problem> Tracer<P> {
     fn at(problem: P, place: Place<P::Local>, settings: &Settings) -> Self {
         let mut tracer = Self {
             first: First::of(&problem, &place),
+            settings: Settings { tolerance: settings.tolerance.max(problem.resolution()), ..*settings },
             problem,
-            settings: *settings,
             place,
             before: None,
             step: settings.first_step.abs().min(settings.largest_step),
@@ -144,6 +145,10 @@ impl<P: Problem> Tracer<P> {
         let first = tracer.point(&tracer.place, None);
         tracer.queue.push_back(first);
         tracer
+    }
+
+    pub(super) fn parameter(&self) -> f64 {
+        self.place.parameter()
     }
 
     pub(super) fn unknowns(&self) -> &[f64] {

@@ -302,8 +302,8 @@ fn line(special: &SpecialEntry, units: &Shown) -> String {
         let word = if special.others.is_empty() { "branch" } else { "branches" };
         format!("to {word} {branch}{others}")
     });
-    let nothing = special.nothing.then(|| "no branch is found beside it".to_owned());
-    for part in [period, pitchfork, words, coefficient, breaks, next, nothing].into_iter().flatten() {
+    let without = special.without.as_ref().map(|why| format!("without a branch: {why}"));
+    for part in [period, pitchfork, words, coefficient, breaks, next, without].into_iter().flatten() {
         line += "  ";
         line += &part;
     }

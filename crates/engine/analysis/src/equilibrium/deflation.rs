@@ -2,7 +2,7 @@
 
 use super::newton::equations;
 use super::uncertainty::residual;
-use super::{RelativeEquilibrium, Units, linearisation, matrix_of, neutral_direction};
+use super::{RelativeEquilibrium, Units, linearisation, matrix_of, neutral_direction, size_beside};
 use crate::graded::EPS;
 use crate::linear::{add, dot, least_squares, norm, solve};
 use crate::singular::svd;
@@ -103,7 +103,8 @@ impl Deflation {
         new: &RelativeEquilibrium,
         known: &RelativeEquilibrium,
     ) -> bool {
-        new.residual < known.residual && !near(new.distance(body, &known.shape), &known.shape, self.unit)
+        new.residual < known.residual
+            && !near(body, new.distance(body, &known.shape), &known.shape, self.unit)
     }
 
     /// Adds an equilibrium to the known ones.
@@ -164,7 +165,7 @@ impl Deflation {
             let errors = error + if known.isolated { known.error } else { 0.0 };
             let distance = found.distance(body, known.copies.shape());
             distance > APART * errors
-                && !near(distance, known.copies.shape(), self.unit)
+                && !near(body, distance, known.copies.shape(), self.unit)
                 && !is_flat(body, found, (&known.copies, known.turning_rate), self.unit)
         };
         found.is_isolated(error, self.unit) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
@@ -225,7 +226,7 @@ impl RelativeEquilibrium {
     /// rotations.
     #[must_use]
     pub fn is_same(&self, body: &dyn Equivariant, other: &Self, unit: f64) -> bool {
-        near(self.distance(body, &other.shape), &other.shape, unit)
+        near(body, self.distance(body, &other.shape), &other.shape, unit)
             || is_flat(body, self, (&Copies::of(body, &other.shape), other.turning_rate), unit)
     }
 }
@@ -240,8 +241,9 @@ fn is_flat(
 ) -> bool {
     let copy = copies.nearest(body, &found.shape);
     let apart: Vec<f64> = copy.iter().zip(&found.shape).map(|(a, b)| a - b).collect();
-    let size = norm(&found.shape).max(LEAST * unit);
-    if norm(&apart) > FLAT * size {
+    let distance = norm(&apart);
+    let whole = norm(&found.shape).max(LEAST * unit);
+    if distance > FLAT * whole || distance > FLAT * size(body, &found.shape, unit) {
         return false;
     }
     let middle: Vec<f64> = copy.iter().zip(&found.shape).map(|(a, b)| 0.5 * (a + b)).collect();
@@ -254,7 +256,7 @@ fn is_flat(
     let between = DVector::from_vec(residual(body, &middle, omega));
     let theirs = |shape: &[f64], omega| norm(&residual(body, shape, omega));
     let solved = theirs(&copy, turning_rate).max(theirs(&found.shape, found.turning_rate));
-    let most = BETWEEN * solved.max(EPS * largest * size);
+    let most = BETWEEN * solved.max(EPS * largest * whole);
     // across the others a small step leads back to the solutions
     let along = |k: usize| left.column(k).rows(0, between.len()).dot(&between).abs();
     null.peek().is_some() && null.all(|k| along(k) <= most)
@@ -275,6 +277,11 @@ fn bordered(body: &dyn Equivariant, shape: &[f64], omega: f64) -> DMatrix<f64> {
 }
 
 /// Returns `true` if a shape at this distance from `shape` is the same.
-fn near(distance: f64, shape: &[f64], unit: f64) -> bool {
-    distance < SAME * norm(shape).max(LEAST * unit)
+fn near(body: &dyn Equivariant, distance: f64, shape: &[f64], unit: f64) -> bool {
+    distance < SAME * norm(shape).max(LEAST * unit) && distance < SAME * size(body, shape, unit)
+}
+
+/// The size that differences from a shape count against.
+fn size(body: &dyn Equivariant, shape: &[f64], unit: f64) -> f64 {
+    size_beside(body, shape).max(LEAST * unit)
 }

@@ -24,8 +24,8 @@ pub use saddle::Saddle;
 use serde::{Deserialize, Serialize};
 pub use silent::modes;
 pub use spectrum::rounding;
-pub use uncertainty::Uncertainty;
-pub use units::{Units, balance, prefix};
+pub use uncertainty::{Uncertainty, round_off};
+pub use units::{Units, balance, prefix, size_beside, vicinity};
 
 /// A solution of `f(u) = omega G u`, with `G` the infinitesimal rotation: at rest or straight (`omega = 0`), or
 /// circular.

@@ -98,6 +98,23 @@ impl RelativeEquilibrium {
     }
 }
 
+/// The rounding of each rate `f - omega Gu` of a shape and of some beside it: what is left of terms that cancel. (At a shape whose
+/// entries are short numbers they may cancel exactly.)
+#[must_use]
+pub fn round_off(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
+    let mut most = rounding_of(body, (shape, omega), &linearisation(body, shape, omega));
+    for seed in 0..TRIES {
+        let mut random = SplitMix(400 + seed);
+        let moved: Vec<f64> = shape.iter().map(|x| x + x * BESIDE * random.next()).collect();
+        let beside = rounding_of(body, (&moved, omega), &linearisation(body, &moved, omega));
+        most.iter_mut().zip(beside).for_each(|(most, beside)| *most = most.max(beside));
+    }
+    most
+}
+
+/// Relative distance of those beside it.
+const BESIDE: f64 = 1e-7;
+
 /// Relative changes of a shape under which its residual changes by its derivatives, and by rounding.
 const NUDGE: f64 = 8.0 * EPS;
 

@@ -1,6 +1,7 @@
 //! The units that equations have of themselves.
 
-use super::balance::balances;
+use super::balance::{balances, beside};
+use super::uncertainty::round_off;
 use crate::linear::norm;
 use crate::periodic::Flow;
 use motiform_dynamics::sample::ascending;
@@ -11,6 +12,15 @@ const RAYS: usize = 2;
 
 /// A shape of no more than this part of the unit is no size.
 const NOTHING: f64 = 1e-6;
+
+/// Rates of fewer than this many errors by rounding say nothing about the size of a term.
+const CLEAR: f64 = 30.0;
+
+/// Least degree of terms by which rates change otherwise than in proportion.
+const NONLINEAR: f64 = 2.0;
+
+/// A shape that is larger than another size by more than this factor is far larger.
+const FAR: f64 = 4.0;
 
 /// The units of bounds and steps where the motion itself has no size: at rest, and for turning rates.
 ///
@@ -36,9 +46,14 @@ impl Units {
     #[must_use]
     pub fn among(bodies: &[&dyn Equivariant]) -> Self {
         let length = balance(bodies);
-        let rates =
-            bodies.iter().flat_map(|body| rays(*body).into_iter().map(|ray| rate(*body, &ray, length)));
-        Self { length: prefix(length), rate: prefix(rates.fold(0.0, f64::max)) }
+        let centre = bodies.first().map_or_else(Vec::new, |body| vec![0.0; body.dim()]);
+        Self { length: prefix(length), rate: prefix(fastest(bodies, &centre, length)) }
+    }
+
+    /// The same for shapes beside one, with changes of the size `vicinity`.
+    #[must_use]
+    pub fn beside(bodies: &[&dyn Equivariant], shape: &[f64], vicinity: f64) -> Self {
+        Self { length: prefix(vicinity), rate: prefix(fastest(bodies, shape, vicinity)) }
     }
 
     /// A flow whose absolute tolerance is that of shapes of the unit's size.
@@ -78,6 +93,36 @@ pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
     sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
 }
 
+/// The size of changes of a shape at which terms of its equations balance, if that is far smaller than the shape: of each equation the median,
+/// and the least of these. `None` where the size of the shape itself is the scale of its changes, as with rotations about the shape 0.
+///
+/// Where nothing says that the shape 0 is a particular one, the size of a shape is that of an offset, or of a part that does not act on the
+/// others: distances are not small because they are small against it.
+#[must_use]
+pub fn vicinity(bodies: &[&dyn Equivariant], shape: &[f64]) -> Option<f64> {
+    let first = bodies.first().filter(|body| !body.symmetry().rotations && norm(shape) > 0.0)?;
+    let mut sizes = vec![Vec::new(); first.dim()];
+    for body in bodies {
+        let noise: Vec<f64> = round_off(*body, shape, 0.0).iter().map(|error| CLEAR * error).collect();
+        for ray in diagonals(body.dim()) {
+            let found = beside(*body, (shape, &noise), (&ray, norm(shape)), NONLINEAR);
+            sizes.iter_mut().zip(found).for_each(|(all, found)| all.extend(found));
+        }
+    }
+    let median = |all: &mut Vec<f64>| {
+        ascending(all);
+        all.get(all.len() / 2).copied()
+    };
+    let least = sizes.iter_mut().filter_map(median).fold(f64::INFINITY, f64::min);
+    (FAR * least < norm(shape)).then_some(least)
+}
+
+/// The size that distances from a shape are small against.
+#[must_use]
+pub fn size_beside(body: &dyn Equivariant, shape: &[f64]) -> f64 {
+    vicinity(&[body], shape).unwrap_or_else(|| norm(shape))
+}
+
 /// The power of 1000 closest to a number; 1 for what is none.
 #[must_use]
 pub fn prefix(x: f64) -> f64 {
@@ -104,9 +149,26 @@ fn rays(body: &dyn Equivariant) -> Vec<Vec<f64>> {
     (0..RAYS).map(ray).collect()
 }
 
-/// `sum_i |f_i w_i| / sum_i t w_i^2` at the shape `t w`.
-fn rate(body: &dyn Equivariant, ray: &[f64], t: f64) -> f64 {
-    let shape: Vec<f64> = ray.iter().map(|w| t * w).collect();
+/// Directions in general position in which all entries change by about the same.
+fn diagonals(dim: usize) -> Vec<Vec<f64>> {
+    let entry = |place: usize| {
+        let part = libm::cos((1.0 + place as f64) * 2.4);
+        part.signum() * (1.0 + 0.2 * part)
+    };
+    (0..RAYS).map(|ray| (0..dim).map(|i| entry(i + ray * dim)).collect()).collect()
+}
+
+/// The largest rate of some fields at changes of the size `length` from a shape.
+fn fastest(bodies: &[&dyn Equivariant], shape: &[f64], length: f64) -> f64 {
+    let of = |body: &&dyn Equivariant| {
+        rays(*body).iter().map(|ray| rate(*body, shape, ray, length)).fold(0.0, f64::max)
+    };
+    bodies.iter().map(of).fold(0.0, f64::max)
+}
+
+/// `sum_i |f_i w_i| / sum_i t w_i^2` at `u + t w`.
+fn rate(body: &dyn Equivariant, shape: &[f64], ray: &[f64], t: f64) -> f64 {
+    let shape: Vec<f64> = shape.iter().zip(ray).map(|(u, w)| u + t * w).collect();
     let rate = body.rates(&shape);
     rate.iter().zip(ray).map(|(f, w)| (f * w).abs()).sum::<f64>() / t
 }

@@ -60,10 +60,11 @@ impl Problem for Orbits<'_> {
     }
 
     fn accuracy(&self) -> f64 {
-        match self.flow.method {
+        let relative = match self.flow.method {
             Method::Explicit(_) => EXPLICIT,
             Method::Exponential(_) => STIFF,
-        }
+        };
+        relative * self.offset + self.drift
     }
 
     fn noise(&self, _levels: &[Vec<Level>]) -> f64 {

@@ -31,6 +31,40 @@ impl<T: Scalar> VectorField<T> for Bent {
     }
 }
 
+/// `x' = y`, `y' = p + b y + x^2 + x y`: at `p = -b^2` an unstable orbit begins about `x = -b`, which meets a saddle below.
+struct Shrinking {
+    p: f64,
+    b: f64,
+}
+motiform_models::plain!(Shrinking, 2);
+impl<T: Scalar> VectorField<T> for Shrinking {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let (x, y) = (u[0], u[1]);
+        du[0] = y;
+        du[1] = x.constant(self.p) + y * self.b + x * x + x * y;
+    }
+}
+
+#[test]
+fn orbits_that_begin_unstable_are_unstable_whatever_the_tolerance() {
+    let b = 0.3;
+    let family = |p: f64| -> Body { Ok(Box::new(Shrinking { p, b })) };
+    for tolerance in [1e-6, 1e-7, 1e-8, 1e-9, 1e-10] {
+        for (low, high) in [(-0.3, 0.1), (-0.25, -0.01)] {
+            let settings = Settings { tolerance, ..Settings::over(low, high) };
+            let start = RelativeEquilibrium::find(&Shrinking { p: -0.2, b }, &[-0.45, 0.0]).unwrap();
+            let mut equilibria = Branch::of_equilibria(&family, -0.2, &start, &settings, &()).unwrap();
+            let hopf = equilibria.find(|point| matches!(point.special, Some(Special::Hopf(_)))).unwrap();
+            near(hopf.parameter, -b * b, 1e-9);
+            let orbits = switch(&family, &hopf, &settings, &()).unwrap().pop().unwrap().pop().unwrap();
+            for point in orbits.take(40) {
+                let case = format!("{tolerance} in {low} to {high}: {}", point.parameter);
+                assert!(point.special.is_none() && point.unstable == 1, "{case} {:?}", point.special);
+            }
+        }
+    }
+}
+
 fn bent(p: f64) -> Body {
     Ok(Box::new(Bent(p)))
 }

@@ -159,8 +159,9 @@ impl Work<'_> {
 
     /// Follows what begins at an origin. Whether it came to its end.
     fn grow(&mut self, origin: Origin) -> Result<bool, Error> {
-        let Ok(new) = origin.branches(self.bodies, &self.done.branches, self.stop) else {
-            return Ok(!self.watch.stopped() && self.link(origin, &[]));
+        let new = match origin.branches(self.bodies, &self.done.branches, self.stop) {
+            Ok(new) => new,
+            Err(why) => return Ok(!self.watch.stopped() && self.link(origin, &[], Some(why.to_string()))),
         };
         let mut found = Vec::new();
         for legs in new {
@@ -177,7 +178,7 @@ impl Work<'_> {
                 }
             }
         }
-        Ok(self.link(origin, &found))
+        Ok(self.link(origin, &found, None))
     }
 
     /// Follows one branch from an origin, as long as it is not one that is known.
@@ -261,15 +262,15 @@ impl Work<'_> {
         let whole = followed.is_whole();
         let (number, origin) = (self.done.branches.len(), followed.origin);
         self.done.branches.push(followed);
-        whole && self.link(origin, &[number])
+        whole && self.link(origin, &[number], None)
     }
 
-    /// Notes what was found at an origin.
-    fn link(&mut self, origin: Origin, found: &[usize]) -> bool {
-        let all = found.iter().map(|&number| Link { origin, branch: Some(number) });
+    /// Notes what was found at an origin, or why nothing was.
+    fn link(&mut self, origin: Origin, found: &[usize], why: Option<String>) -> bool {
+        let all = found.iter().map(|&number| Link { origin, branch: Some(number), why: None });
         self.done.links.extend(all);
         if found.is_empty() {
-            self.done.links.push(Link { origin, branch: None });
+            self.done.links.push(Link { origin, branch: None, why });
         }
         true
     }

@@ -54,6 +54,9 @@ pub struct Link {
     pub origin: Origin,
     /// The branch that begins there, or lies there: it may have been followed from elsewhere before. `None` if none was found.
     pub branch: Option<usize>,
+    /// Why none was found, where that was refused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
 }
 
 /// Branches, as far as they are followed.

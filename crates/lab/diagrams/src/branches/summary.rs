@@ -42,8 +42,8 @@ pub struct SpecialEntry {
     pub connection: Option<Connection>,
     /// The branch that begins or lies there, from 0.
     pub branch: Option<usize>,
-    /// `true` where a branch was looked for and none was found.
-    pub nothing: bool,
+    /// Why none was found, where one was looked for.
+    pub without: Option<String>,
     /// The other branches that do, where a shape loses its rotations in more than one way.
     pub others: Vec<usize>,
 }
@@ -74,9 +74,7 @@ impl SpecialEntry {
         }
         self.connection.iter().for_each(|connection| put_connection(&mut object, connection));
         object.extend(self.branch.map(|branch| ("branch".to_owned(), branch.into())));
-        if self.nothing {
-            object.insert("nothing_found".to_owned(), true.into());
-        }
+        object.extend(self.without.as_ref().map(|why| ("without".to_owned(), why.as_str().into())));
         if !self.others.is_empty() {
             object.insert("others".to_owned(), json!(self.others));
         }
@@ -197,9 +195,15 @@ impl Branches {
                 _ => None,
             },
             branch: there.first().copied(),
-            nothing: there.is_empty() && self.links.iter().any(|link| link.origin == origin),
+            without: self.without(origin, there.is_empty()),
             others: there.into_iter().skip(1).collect(),
         })
+    }
+
+    /// Why no branch was found at a point beside which one was looked for.
+    fn without(&self, origin: Origin, nothing: bool) -> Option<String> {
+        let link = self.links.iter().find(|link| nothing && link.origin == origin)?;
+        Some(link.why.clone().unwrap_or_else(|| "none is found beside it".to_owned()))
     }
 
     /// Criticality: the branch that begins at a point is stable in the critical direction, or not.
@@ -396,7 +400,7 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
         connection: Some(connection.as_ref().clone()),
         breaks: None,
         branch: None,
-        nothing: false,
+        without: None,
         others: Vec::new(),
     })
 }
