@@ -59,7 +59,7 @@ pub use stage::{Beside, StageVelocity, WithStage, handed_beside, stage_velocitie
 pub use subsets::{
     Averaged, Selection, Subset, Subsets, TIE, averaged, refit_tied, refit_with, select, subsets,
 };
-pub use walk::{Bounded, Fix, Misfit, PersistentWalk, persistent_walk, walk_likelihood};
+pub use walk::{Bounded, Fix, Misfit, PersistentWalk, SPREAD_SCATTER, persistent_walk, walk_likelihood};
 pub use warnings::{
     COARSE, Channel, Drift, DriftPoint, Stretch, UnequalNoise, Warning, drift, fastest_rate, warnings,
     whiteness,
