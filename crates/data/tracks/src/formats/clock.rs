@@ -93,10 +93,7 @@ mod tests {
 
     #[test]
     fn a_clock_is_found_whatever_its_interval_start_and_gaps() {
-        for (interval, unit) in [(1.0 / 6.0, 0.1), (0.7, 0.5), (100.0 / 3.0, 1.0), (0.0125, 0.01)] {
-            if unit == 0.5 {
-                continue; // no power of ten: see the next test
-            }
+        for (interval, unit) in [(1.0 / 6.0, 0.1), (100.0 / 3.0, 1.0), (0.0125, 0.01)] {
             for start in [0.0, 0.377 * interval, -4321.0 * unit] {
                 for every in [1000, 7] {
                     let stamps = rounded(interval, unit, start, |k| k % every == every - 1);
@@ -116,7 +113,7 @@ mod tests {
         let even: Vec<f64> = (0..50).map(|k| 0.25 * f64::from(k)).collect();
         assert_eq!(Clock::of(&even, None), None);
         let two_rates: Vec<f64> =
-            (0..50).map(|k| f64::from(k)).chain((25..50).map(|k| 2.0 * f64::from(k))).collect();
+            (0..50).map(f64::from).chain((25..50).map(|k| 2.0 * f64::from(k))).collect();
         assert_eq!(Clock::of(&two_rates, None), None);
         // an uneven camera: times that no clock has within half a unit
         let uneven: Vec<f64> = (0..50).map(|k| f64::from(k) + 0.1 * f64::from((k * k) % 7)).collect();
