@@ -271,7 +271,7 @@ fn along(path: impl Iterator<Item = [f64; 2]>, z2: impl Fn(usize) -> [f64; 2], s
     let frame = |(k, centre): (usize, [f64; 2])| {
         let mut points = Synthetic { centre, r0: 10.0, z: vec![z2(k), [0.1, 0.0]] }.vertices(48, 0.0);
         blur(&mut points, 0.1, || random.next());
-        Outline { frame: k as i64, t: k as f64, points, missing: 0 }
+        Outline { frame: i64::try_from(k).unwrap(), t: k as f64, points, missing: 0 }
     };
     path.enumerate().map(frame).collect()
 }
@@ -335,7 +335,7 @@ fn a_record_and_the_same_backwards_have_one_name() {
         let forward = along(path, z2, seed);
         let mut backward: Vec<Outline> = forward.iter().rev().cloned().collect();
         for (k, outline) in backward.iter_mut().enumerate() {
-            (outline.frame, outline.t) = (k as i64, k as f64);
+            (outline.frame, outline.t) = (i64::try_from(k).unwrap(), k as f64);
         }
         let [one, other] = [forward, backward].map(seen);
         assert_eq!(one.motion.regime, other.motion.regime, "{}\n{}", one.motion.why, other.motion.why);
