@@ -69,7 +69,8 @@ fn what_noise_sustains_has_none() {
     assert!(found.coefficients.iter().all(Option::is_some), "{:?}", found.reasons);
 }
 
-/// A speed of its own and a heading that noise alone turns, `dz1 = (g - g |z1|^2) z1 dt + eta dW`: on the circle of its speed the law has no
+/// A speed of its own and a heading that noise alone turns, `dz1 = (g - g |z1|^2) z1 dt + eta dW`: on the circle of its speed the law has
+/// no
 /// rate, and what the windows see is noise and errors of the places. No sign is stated, whatever the sampling.
 #[test]
 fn a_velocity_that_noise_alone_turns_has_none() {

@@ -78,7 +78,8 @@ impl Times {
         median(both.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])))
     }
 
-    /// Takes the times of an even clock for stamps that are rounded from it: its interval, and the unit of the stamps. `None` where they stay as
+    /// Takes the times of an even clock for stamps that are rounded from it: its interval, and the unit of the stamps. `None` where they
+    /// stay as
     /// they are: without fractions numbers that stand for frames are counts.
     pub(super) fn even_clock(&mut self) -> Option<[f64; 2]> {
         let (stamps, frames): (Vec<f64>, Option<Vec<f64>>) = if self.framed {

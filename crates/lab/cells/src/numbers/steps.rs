@@ -100,7 +100,8 @@ fn reaching_up(mean: Measured) -> Measured {
     Measured { interval: mean.interval.and_then(upper), ..mean }
 }
 
-/// The mean with an interval that also holds the path over its time, which errors of the times between frames do not change: these raise the
+/// The mean with an interval that also holds the path over its time, which errors of the times between frames do not change: these raise
+/// the
 /// mean of quotients, and choose the steps of one sampling interval. At even times both are the same.
 fn holding(mean: Measured, other: f64) -> Measured {
     let wider = |[low, high]: [f64; 2]| {

@@ -49,7 +49,8 @@ pub struct Measures {
     /// Amplitude, relative to its mean, of the speed as a function of the axis along which the cell moves (twice per turn); 0 where that is
     /// within 4 of its errors.
     pub speed_axis: f64,
-    /// Mean turning rate of the heading (rad per time), and its standard error from the scatter of turns over up to an eighth of the record.
+    /// Mean turning rate of the heading (rad per time), and its standard error from the scatter of turns over up to an eighth of the
+    /// record.
     pub turning: f64,
     /// See `turning`.
     pub turning_error: f64,

@@ -364,7 +364,8 @@ fn a_circle_at_two_rates_has_one_turning_rate() {
 /// The place of a frame, from all places of a path.
 type Change = dyn Fn(&[[f64; 2]], usize) -> [f64; 2];
 
-/// Cells in reflecting squares have no diffusion coefficient, neither each nor together, and the reason says that they are held back; the same
+/// Cells in reflecting squares have no diffusion coefficient, neither each nor together, and the reason says that they are held back; the
+/// same
 /// walkers without walls have one. So are walkers that rest from the middle on without one: the record is not stationary.
 #[test]
 fn cells_that_are_held_or_come_to_rest_have_no_diffusion() {
