@@ -104,7 +104,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
         let seen = numbers(cell).seen;
         let others = match seen > frames {
             true => format!(
-                " ({seen} frames are seen: numbers without a model are from all of them, a motion is named by frames with modes of the radius)"
+                " ({seen} frames are seen: numbers without a model are from all of them, names from those with modes of the radius)"
             ),
             false => String::new(),
         };
