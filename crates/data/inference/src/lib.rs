@@ -26,6 +26,7 @@ mod null;
 mod observation;
 mod p_value;
 mod place;
+mod pooled;
 mod scales;
 mod senses;
 mod stage;
@@ -53,13 +54,14 @@ pub use null::{WALK_RATE, walk_p_value};
 pub use observation::{LEAST_FRAMES, Observation, Track};
 pub use p_value::PValue;
 pub use place::{Coordinate, Place, Placement, Plane, coordinates, place, place_among};
+pub use pooled::{Pooled, pooled, pooled_fits};
 pub use scales::Scales;
 pub use senses::{HandedCell, Senses, senses};
 pub use stage::{Beside, StageVelocity, WithStage, handed_beside, stage_velocities, with_stage};
 pub use subsets::{
     Averaged, Selection, Subset, Subsets, TIE, averaged, refit_tied, refit_with, select, subsets,
 };
-pub use walk::{Bounded, Fix, Misfit, PersistentWalk, persistent_walk, walk_likelihood};
+pub use walk::{Bounded, Fix, Misfit, PersistentWalk, SPREAD_SCATTER, persistent_walk, walk_likelihood};
 pub use warnings::{
     COARSE, Channel, Drift, DriftPoint, Stretch, UnequalNoise, Warning, drift, fastest_rate, warnings,
     whiteness,

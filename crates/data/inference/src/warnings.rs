@@ -84,8 +84,8 @@ pub enum Warning {
         /// The velocity of highest likelihood, to first order, with its standard errors (length/time); `None` where it exceeds the
         /// speed of the cell, and first order is not enough.
         velocity: Option<[[f64; 2]; 2]>,
-        /// Its significance.
-        p_value: f64,
+        /// Its significance; `None` where the innovations are not white: then the test does not hold.
+        p_value: Option<f64>,
         /// The unit of the velocity; empty where the caller did not say it.
         #[serde(default)]
         unit: String,
@@ -154,11 +154,16 @@ impl std::fmt::Display for Warning {
                 let size = velocity.map_or_else(String::new, |[[x, y], [dx, dy]]| {
                     format!(" of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) {unit}")
                 });
+                let p = match p_value {
+                    Some(p) => PValue(*p).to_string(),
+                    None => {
+                        "the innovations are not white, so that no p-value says how sure that is".to_owned()
+                    }
+                };
                 write!(
                     f,
-                    "a velocity{size} does not turn with the cell ({}): the stage drifts, a flow carries it, or it is held \
-                    near a place; {remedy}",
-                    PValue(*p_value)
+                    "a velocity{size} does not turn with the cell ({p}): the stage drifts, a flow carries it, it is held near a place, \
+                    or the equations do not describe it; {remedy}"
                 )
             }
             Self::ErrorsDiffer { ratio } => {
@@ -213,14 +218,15 @@ pub fn warnings(tracks: &[Track], fit: &Fit, drift: Option<&Drift>) -> Result<Ve
     let mut channels = whiteness(fit);
     let limit = WHITE / channels.len().max(1) as f64;
     channels.retain(|channel| channel.p_value < limit);
-    if !channels.is_empty() {
+    let white = channels.is_empty();
+    if !white {
         all.push(Warning::Coloured { channels });
     }
     if let Some(names) = drift.map(Drift::names).filter(|names| !names.is_empty()) {
         all.push(Warning::Drifting { names });
     }
     all.extend(stretched(tracks));
-    all.extend(carried(tracks, fit)?);
+    all.extend(carried(tracks, fit, white)?);
     all.extend(errors_differ(fit));
     all.extend(UnequalNoise::of(fit).map(Warning::UnequalNoise));
     Ok(all)
@@ -234,7 +240,7 @@ fn stretched(tracks: &[Track]) -> Option<Warning> {
 }
 
 /// The clearest velocity of a stage, if there is one.
-fn carried(tracks: &[Track], fit: &Fit) -> Result<Option<Warning>> {
+fn carried(tracks: &[Track], fit: &Fit, white: bool) -> Result<Option<Warning>> {
     if !fit.converged() {
         return Ok(None);
     }
@@ -249,7 +255,7 @@ fn carried(tracks: &[Track], fit: &Fit) -> Result<Option<Warning>> {
         let is_small = libm::hypot(velocity[0], velocity[1]) <= fit.scales.amplitudes[0];
         Warning::Carried {
             velocity: is_small.then_some([velocity, errors]),
-            p_value,
+            p_value: Some(p_value).filter(|_| white),
             unit: String::new(),
             remedy: "the correction 'drift' subtracts a drift".to_owned(),
         }

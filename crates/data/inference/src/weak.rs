@@ -10,9 +10,9 @@
 //! Least squares over windows; the velocity inside of `M_k` comes from a parabola through five frames. Process noise adds
 //! `eta int phi dW` to the left side, which goes with `int phi M_k` and not away with more frames. Of a stationary process that noise
 //! sustains (`dz = -c z dt + eta dW`) the estimate is 0: the left side is odd in time, and the correlations are even. So an equation has
-//! coefficients where noise makes at most a tenth of the mean square of its left side; what the terms explain is then wrong by at most
-//! `sqrt(0.1)` of the left side (Cauchy and Schwarz). It is a check of sign and order of magnitude of the large terms, and no estimate
-//! to quote.
+//! coefficients where noise makes at most a tenth of the mean square of its left side without the part of the errors of the observations;
+//! what the terms explain is then wrong by at most `sqrt(0.1)` of the left side (Cauchy and Schwarz). It is a check of sign and order of
+//! magnitude of the large terms, and no estimate to quote.
 //!
 //! Source: Messenger and Bortz (2021), Multiscale Model. Simul. 19, 1474.
 
@@ -108,19 +108,30 @@ struct Normal {
     right: DVector<f64>,
     /// Sum of the squares of the left sides.
     left: f64,
-    /// Sum of the integrals of the squared test functions, of both parts of the amplitude.
+    /// Sum of the integrals of the squared test functions, of both parts of the amplitude, over the square of the interval, as sums over
+    /// frames have it.
     test: f64,
+    /// Expected sum of the squares of what the errors of the observations add to the left sides.
+    errors: f64,
 }
 
 impl Normal {
     fn new(terms: Vec<usize>) -> Self {
         let n = terms.len();
-        Self { terms, matrix: DMatrix::zeros(n, n), right: DVector::zeros(n), left: 0.0, test: 0.0 }
+        Self {
+            terms,
+            matrix: DMatrix::zeros(n, n),
+            right: DVector::zeros(n),
+            left: 0.0,
+            test: 0.0,
+            errors: 0.0,
+        }
     }
 
-    fn add(&mut self, integrals: &[Complex<f64>], left: Complex<f64>, width: f64) {
+    fn add(&mut self, integrals: &[Complex<f64>], (left, errors): (Complex<f64>, f64), test: f64) {
         self.left += left.re * left.re + left.im * left.im;
-        self.test += 2.0 * SQUARE * width;
+        self.errors += errors;
+        self.test += test;
         let row = |part: fn(&Complex<f64>) -> f64| {
             DVector::from_iterator(self.terms.len(), self.terms.iter().map(|&term| part(&integrals[term])))
         };
@@ -132,7 +143,7 @@ impl Normal {
 
     /// The coefficients beside noise of this amplitude, or why there are none.
     fn solution(&self, eta: f64) -> std::result::Result<Vec<f64>, String> {
-        let noise = eta * eta * self.test / self.left.max(f64::MIN_POSITIVE);
+        let noise = eta * eta * self.test / (self.left - self.errors).max(f64::MIN_POSITIVE);
         if !self.terms.is_empty() && noise > MOST_NOISE {
             return Err(format!(
                 "noise makes {:.0} % of the mean square of its rates over a window, above {:.0} %, and biases the estimate towards 0",
@@ -193,7 +204,7 @@ fn add<const SHAPE: usize>(
     let zero = Complex::new(0.0, 0.0);
     let origin = [0, 1].map(|axis| frames[frames.len() / 2].y[axis]);
     let c = vec![zero; values.monomials.len()];
-    let (mut integrals, mut left) = (c.clone(), vec![zero; SHAPE / 2]);
+    let (mut integrals, mut left) = (c.clone(), vec![(zero, 0.0); SHAPE / 2]);
     for (k, (frame, shape)) in frames.iter().zip(shapes).enumerate() {
         let u = (k as f64 - half) / half;
         let w = 1.0 - u * u;
@@ -205,12 +216,17 @@ fn add<const SHAPE: usize>(
             *integral += *monomial * phi;
         }
         // the sum of phi'' is 0 but for the rule of integration: far from the origin this rest would be a rate
-        left[0] += Complex::new(frame.y[0] - origin[0], origin[1] - frame.y[1]) * second;
+        left[0].0 += Complex::new(frame.y[0] - origin[0], origin[1] - frame.y[1]) * second;
         for n in 1..SHAPE / 2 {
-            left[n] += Complex::new(shape[2 * n], shape[2 * n + 1]) * -first;
+            left[n].0 += Complex::new(shape[2 * n], shape[2 * n + 1]) * -first;
+        }
+        for (n, left) in left.iter_mut().enumerate() {
+            let weight = if n == 0 { second } else { first };
+            left.1 +=
+                weight * weight * (frame.covariance[2 * n][2 * n] + frame.covariance[2 * n + 1][2 * n + 1]);
         }
     }
     for (sum, left) in sums.iter_mut().zip(left) {
-        sum.add(&integrals, left, width);
+        sum.add(&integrals, left, 2.0 * SQUARE * width / (dt * dt));
     }
 }

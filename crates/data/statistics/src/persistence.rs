@@ -99,24 +99,22 @@ impl Walk {
 
     /// Takes back what the lags do not reach.
     fn limit(&mut self, persistence: f64, (first, last): (f64, f64)) {
-        let [shortest, longest, about] = [first, last, persistence].map(four_digits);
+        let reached = four_digits(last / persistence);
         if first > 2.0 * persistence {
-            let reason = format!(
-                "not resolved: the motion turns within the shortest lag {shortest}; record more often"
-            );
-            self.persistence = Answer::unknown(&reason);
+            let reason = "not resolved: the motion turns within the shortest lag; record more often";
+            self.persistence = Answer::unknown(reason);
             self.speed = Answer::unknown(reason);
         }
         let (diffusive, seen) = REACHED;
         if last < diffusive * persistence {
             self.diffusion = Answer::unknown(format!(
-                "not reached: the longest lag {longest} is below {diffusive} persistence times (of about {about}); record longer"
+                "not reached: the longest lag is that of {reached} persistence times, and {diffusive} are needed; record longer"
             ));
         }
         if last < seen * persistence {
-            self.persistence = Answer::unknown(format!(
-                "not reached: the motion is still ballistic at the longest lag {longest}; record longer"
-            ));
+            self.persistence = Answer::unknown(
+                "not reached: the motion is still ballistic at the longest lag; record longer",
+            );
         }
     }
 }

@@ -155,6 +155,16 @@ pub enum Error {
         /// That of the others.
         before: String,
     },
+    /// A unit of an option that is not known.
+    #[error("{key} = {value:?}: this unit is not known; choose one of {known}")]
+    OptionUnit {
+        /// Its name.
+        key: &'static str,
+        /// Its value.
+        value: String,
+        /// The units.
+        known: String,
+    },
     /// An option out of its range.
     #[error("{key} = {value}: {remedy}")]
     Setting {

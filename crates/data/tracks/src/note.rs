@@ -26,6 +26,8 @@ pub enum Note {
     LargeArea { area: f64 },
     /// Times are not multiples of one interval: frames are numbered in order.
     UnevenTimes { cell: String },
+    /// Times are those of an even clock, rounded: its own times are used.
+    RoundedTimes { file: String, interval: f64, unit: f64 },
     /// A cell divides: it ends, and each daughter is a cell of its own.
     Split { track: String, frame: i64, into: usize },
     /// Cells merge: they end, and what follows is a cell of its own.
@@ -119,6 +121,15 @@ impl fmt::Display for Note {
                 write!(
                     f,
                     "cell {cell}: times are not multiples of one interval; frames are numbered in order"
+                )
+            }
+            Self::RoundedTimes { file, interval, unit } => {
+                let decimals = (-libm::log10(*unit)).round().max(0.0) as usize;
+                let digits = decimals + 3;
+                write!(
+                    f,
+                    "{file}: times are those of an even clock, {interval:.digits$} from frame to frame, rounded to {unit:.decimals$}: \
+                     the times of the clock are used"
                 )
             }
             Self::Split { track, frame, into } => {

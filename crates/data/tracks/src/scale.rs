@@ -1,5 +1,6 @@
 //! Scale and interval: what the file says, what the options say, and what follows.
 
+use crate::units::{LENGTHS, TIMES};
 use crate::{Cell, Error, FRAME, Note, Options, PIXEL, Result};
 use motiform_store::quantity::Unit;
 use std::path::Path;
@@ -48,6 +49,7 @@ struct Question<'a> {
 
 /// Factor and unit of lengths and of times.
 pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([Use; 2], Vec<Note>)> {
+    known(options)?;
     let mut notes = Vec::new();
     let name = || file.display().to_string();
     let mut said = said.clone();
@@ -86,6 +88,20 @@ pub(crate) fn scales(said: &Scale, options: &Options, file: &Path) -> Result<([U
         notes.extend((time.unit == FRAME).then(|| Note::UnknownInterval { file: name() }));
     }
     Ok(([length, time], notes))
+}
+
+/// Checks the units of the options.
+///
+/// # Errors
+/// [`Error::OptionUnit`] if one is not known.
+fn known(options: &Options) -> Result<()> {
+    let asked = [("length_unit", &options.length_unit, LENGTHS), ("time_unit", &options.time_unit, TIMES)];
+    for (key, value, units) in asked {
+        if let Some(value) = value.as_ref().filter(|value| !units.contains(&&*unit(value))) {
+            return Err(Error::OptionUnit { key, value: value.clone(), known: units.join(", ") });
+        }
+    }
+    Ok(())
 }
 
 /// Takes a pixel of exactly 1 as unknown, and with it an interval of exactly 1: what programs write that were

@@ -6,8 +6,8 @@ use crate::{Error, FRAME, PIXEL, Result};
 use std::path::Path;
 
 /// Units of lengths and of times that are known in a header.
-const LENGTHS: &[&str] = &["nm", "um", "mm", "cm", "m", PIXEL];
-const TIMES: &[&str] = &["ms", "s", "min", "h", "d", FRAME];
+pub(crate) const LENGTHS: &[&str] = &["nm", "um", "mm", "cm", "m", PIXEL];
+pub(crate) const TIMES: &[&str] = &["ms", "s", "min", "h", "d", FRAME];
 
 /// The header of a column in its parts.
 pub(crate) struct Divided<'a> {

@@ -44,6 +44,8 @@ const MOST_STRAIGHT: f64 = 0.3;
 const SWING: (f64, f64) = (0.05, 2.0);
 /// Net rotations per period below this (rad) are none.
 const NO_TURN: f64 = 0.1;
+/// Largest turn over the record (rad) of a straight path, its error included twice.
+const MOST_TURN: f64 = 1.0;
 /// Share of resamples that must give the same name.
 const LEAST_CONFIDENCE: f64 = 0.95;
 
@@ -99,7 +101,14 @@ pub fn observe(cell: &CellTrack) -> Observation {
     }
     if frames < LEAST_FRAMES {
         let count = if frames == 1 { "1 frame counts".to_owned() } else { format!("{frames} frames count") };
-        return bare(format!("{count}; at least {LEAST_FRAMES} are needed to name a motion"));
+        let seen = numbers(cell).seen;
+        let others = match seen > frames {
+            true => format!(
+                " ({seen} frames are seen: numbers without a model are from all of them, names from those with modes of the radius)"
+            ),
+            false => String::new(),
+        };
+        return bare(format!("{count}; at least {LEAST_FRAMES} are needed to name a motion{others}"));
     }
     let Some(measures) = Measures::of(&cell.path()) else {
         return bare(measures::without(&cell.path(), cell.modes.frames.len(), &cell.units.time));
@@ -112,11 +121,18 @@ pub fn observe(cell: &CellTrack) -> Observation {
     };
     let motion = beside_drift(cell, motion);
     let mut statistics = statistics::of_records(std::iter::once(&measures.series));
-    if let (Some(Regime::Circular), Some(statistics)) = (motion.regime, &mut statistics) {
-        statistics.walk = Walk::unknown("the heading turns steadily: this is no persistent random walk");
-    }
     let relatives = Some(Relatives::of(&measures));
     let numbers = numbers(cell);
+    if let Some(statistics) = &mut statistics {
+        // one answer: what refuses the walk of the path refuses that of its displacements
+        let misfit = numbers.walk.as_ref().and_then(motiform_inference::PersistentWalk::misfit);
+        let refused = misfit.and(numbers.stated_walk.reason.clone());
+        if motion.regime == Some(Regime::Circular) {
+            statistics.walk = Walk::unknown("the heading turns steadily: this is no persistent random walk");
+        } else if let Some(reason) = refused {
+            statistics.walk = Walk::unknown(&reason);
+        }
+    }
     let cell = cell.name.clone();
     Observation { cell, frames, motion, numbers, measures: Some(measures), repeats, statistics, relatives }
 }
@@ -173,11 +189,10 @@ fn decide(m: &Measures, cell: &CellTrack, repeats: Option<&Repeats>) -> (Option<
         return rest(m, units);
     }
     let steady_speed = m.speed_scatter < STEADY;
-    if steady_speed
-        && m.heading_scatter < STEADY
-        && m.turning.abs() <= CLEAR * m.turning_error
-        && m.directness > 0.97
-    {
+    if steady_speed && m.heading_scatter < STEADY && m.directness > 0.97 {
+        if let Some(why) = arc(m, units) {
+            return (None, why);
+        }
         if m.shape_wobble > (MOST_WOBBLE * radius).max(m.mean_shape) {
             let why = format!(
                 "the path is straight, but the shape changes by {:.1} % of the radius: more than its mean deformation, \
@@ -188,7 +203,7 @@ fn decide(m: &Measures, cell: &CellTrack, repeats: Option<&Repeats>) -> (Option<
         }
         let why = format!(
             "straight over a path of {} {}: net displacement is {:.1} % of the path, and the turning rate, {}, is within {CLEAR} of its \
-             errors of 0",
+             errors of 0: less than {MOST_TURN} rad over the record",
             four_digits(m.length),
             units.length,
             100.0 * m.directness,
@@ -229,11 +244,32 @@ fn decide(m: &Measures, cell: &CellTrack, repeats: Option<&Repeats>) -> (Option<
     match repeats {
         Some(repeats) => repeating(repeats, m, units),
         None => {
-            let why = "neither steady nor repeating: noise and chaos cannot be told apart by samples alone; equations \
+            let why = "neither steady nor repeating in speed and shape (by correlations of the speed, and of z2 beside the heading, one \
+             period later; paths that repeat alone are not looked for): noise and chaos cannot be told apart by samples alone; equations \
              fitted to them can decide";
             (None, why.to_owned())
         }
     }
+}
+
+/// The reason why a path that is nearly straight is not named so: it turns, or may turn.
+fn arc(m: &Measures, units: &Units) -> Option<String> {
+    let (turn, error) = (m.turning * m.duration, m.turning_error * m.duration);
+    if m.turning.abs() > CLEAR * m.turning_error {
+        return Some(format!(
+            "the path is nearly straight, but turns by {} rad over the record, {}: {} turns of a circle, and {LEAST_TURNS} are needed to \
+             name one",
+            with_error(turn, error),
+            rate(m, units),
+            four_digits(turn.abs() / TAU)
+        ));
+    }
+    (turn.abs() + 2.0 * error > MOST_TURN).then(|| {
+        format!(
+            "the path is nearly straight, but the record does not exclude a turn by {MOST_TURN} rad: {} rad",
+            with_error(turn, error)
+        )
+    })
 }
 
 /// The course of the speed of a cell that turns steadily, if it has one: a circle of the models has one speed.

@@ -4,7 +4,7 @@ use crate::{CellFit, Fitted, Observation};
 use motiform_analysis::Share;
 use motiform_dynamics::Normal;
 use motiform_dynamics::sample::{ascending, mean, median, quantile};
-use motiform_inference::{Coefficient, Fit};
+use motiform_inference::{Coefficient, Fit, PValue, Pooled, pooled_fits};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -47,7 +47,8 @@ pub struct OverCells {
     pub median_interval: Option<[f64; 2]>,
 }
 
-/// A coefficient over cells.
+/// A coefficient over cells. Where they follow one law within their errors the mean is that with the weights of their information
+/// ([`pooled_fits`]); else it is the plain one, without an interval.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PopulationCoefficient {
     /// The term.
@@ -79,6 +80,8 @@ pub struct FittedPopulation {
     pub fitted: usize,
     /// Coefficients over these cells.
     pub coefficients: Vec<PopulationCoefficient>,
+    /// The reason why their means have no intervals, with the remedy; `None` where they have them, and with fewer than 8 cells.
+    pub no_intervals: Option<String>,
     /// Process noise of the velocity and of the shape over these cells.
     pub noise: Option<[OverCells; 2]>,
 }
@@ -185,12 +188,20 @@ pub fn fitted_population(fits: &[CellFit]) -> FittedPopulation {
     let law = |of: &Fitted| (of.motion_name(), of.model().library.modes, of.is_handed());
     let frequent = most_frequent(sound().map(law).filter(|(name, ..)| *name != UNDECIDED));
     let usable: Vec<&Fitted> = sound().filter(|fitted| Some(law(fitted)) == frequent).collect();
-    let coefficient = |c: &Coefficient| {
+    let (together, no_intervals) = common(&usable);
+    let coefficient = |(place, c): (usize, &Coefficient)| {
         let same = |other: &&Coefficient| (&other.name, other.imaginary) == (&c.name, c.imaginary);
         let has = |fit: &Fit| fit.coefficients.iter().find(same).map(|c| c.estimate.value);
         let values: Vec<f64> = usable.iter().filter_map(|of| has(compared(of))).collect();
         let asked_for = usable.iter().filter(|of| has(of.model()).is_some()).count();
-        let over = over_cells(&values).filter(|over| over.cells == usable.len())?;
+        let plain = over_cells(&values).filter(|over| over.cells == usable.len())?;
+        let bare = OverCells { mean_interval: None, median_interval: None, ..plain };
+        let over = match &together {
+            Some(found) => {
+                OverCells { mean: found.values[place], mean_interval: Some(found.intervals[place]), ..bare }
+            }
+            None => bare,
+        };
         Some(PopulationCoefficient { over, term: c.name.clone(), imaginary: c.imaginary, asked_for })
     };
     let noise = |of: &dyn Fn(&Fit) -> f64| {
@@ -205,8 +216,36 @@ pub fn fitted_population(fits: &[CellFit]) -> FittedPopulation {
         law: frequent.map(|(name, ..)| name),
         handed: frequent.is_some_and(|(.., handed)| handed),
         fitted: usable.len(),
-        coefficients: first.iter().filter_map(coefficient).collect(),
+        coefficients: first.iter().enumerate().filter_map(coefficient).collect(),
+        no_intervals,
         noise: velocity.zip(shape).map(|(velocity, shape)| [velocity, shape]),
+    }
+}
+
+/// Probability below which cells differ.
+const DIFFER: f64 = 0.01;
+
+/// The coefficients that cells of one law have in common, or why there is no interval of a plain mean over them: estimates from single
+/// records are biased by a part of their errors, and a mean over many cells keeps that, while its interval shrinks.
+fn common(usable: &[&Fitted]) -> (Option<Pooled>, Option<String>) {
+    if usable.len() < LEAST_CELLS {
+        return (None, None);
+    }
+    let bias = "estimates from single records are biased by a part of their errors, which a mean over cells keeps; --together fits one set \
+                of coefficients, with errors that count the differences between cells";
+    let fits: Vec<&Fit> = usable.iter().map(|one| compared(one)).collect();
+    match pooled_fits(&fits) {
+        Some(found) if found.p_value >= DIFFER => (Some(found), None),
+        Some(found) => (
+            None,
+            Some(format!("cells differ by more than their errors ({}), and {bias}", PValue(found.p_value))),
+        ),
+        None => (
+            None,
+            Some(format!(
+                "the fits of these cells have different terms, or errors without a bound, and {bias}"
+            )),
+        ),
     }
 }
 

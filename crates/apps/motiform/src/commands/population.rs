@@ -46,6 +46,9 @@ pub(crate) fn fitted(
     for coefficient in &population.coefficients {
         line(&mut text, &coefficient.name(), &coefficient.over, "")?;
     }
+    if let Some(why) = &population.no_intervals {
+        writeln!(text, "  no intervals     {why}")?;
+    }
     if let Some([velocity, shape]) = &population.noise {
         let Units { length, time, .. } = units;
         line(&mut text, "noise, velocity", velocity, &format!("{length}/{time}^1.5"))?;

@@ -1,5 +1,6 @@
 //! Tests of a path for what no persistent random walk has.
 
+use super::course;
 use super::filter::Step;
 use std::fmt::{Display, Formatter};
 
@@ -13,6 +14,16 @@ const TURNS: f64 = 0.01;
 /// Significance below which a path has a direction.
 const DIRECTED: f64 = 1e-3;
 
+/// Significance below which a path is held back, or keeps a direction: a share of the walks has that by chance, and loses its numbers.
+const HELD: f64 = 0.02;
+const KEEPS: f64 = 1e-3;
+
+/// Significance below which the changes of the velocity are not as large over the whole record.
+const UNSTEADY: f64 = 1e-3;
+
+/// Fewest steps among which the changes of the velocity may be shared out.
+const FEWEST: f64 = 16.0;
+
 /// The reason why a persistent random walk does not describe a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Misfit {
@@ -22,6 +33,14 @@ pub enum Misfit {
     Directed,
     /// The changes of the velocity have a memory: circling, zigzagging, alternating.
     Coloured,
+    /// The path stays closer to one place than the walk: in a trap, between walls all around.
+    Held,
+    /// The path goes further than the walk.
+    Keeps,
+    /// The changes of the velocity have another size in one part of the record than in another: slowing down, coming to rest.
+    Unsteady,
+    /// The velocity changes in a few steps alone: straight, and at rest from some time on.
+    Rare,
 }
 
 impl Display for Misfit {
@@ -32,6 +51,16 @@ impl Display for Misfit {
                 "the changes of the velocity, or the errors of the places, have a direction of their own"
             }
             Self::Coloured => "the changes of the velocity are not independent",
+            Self::Held => {
+                "over long times the mean-square displacement is smaller than that of the walk: the cell is held back, or comes back"
+            }
+            Self::Keeps => {
+                "over long times the mean-square displacement is larger than that of the walk: the cell keeps a direction"
+            }
+            Self::Unsteady => {
+                "the record is not stationary: the changes of the velocity have another size in one part of it than in another"
+            }
+            Self::Rare => "the velocity changes in a few steps alone, which determine neither number",
         })
     }
 }
@@ -43,6 +72,12 @@ pub(super) struct Tests {
     pub(super) turning: f64,
     /// See [`super::PersistentWalk::direction_p_value`].
     pub(super) direction: f64,
+    /// See [`super::PersistentWalk::spread`].
+    pub(super) spread: f64,
+    /// See [`super::PersistentWalk::steady_p_value`].
+    pub(super) steady: f64,
+    /// See [`super::PersistentWalk::changes`].
+    pub(super) changes: f64,
 }
 
 impl Tests {
@@ -71,16 +106,27 @@ impl Tests {
         }
         let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let axis = over(direction[0] * direction[0] + direction[1] * direction[1], fourth);
-        Self { turning: over(turning, turning_squares.sqrt()), direction: libm::exp(-axis) }
+        Self {
+            turning: over(turning, turning_squares.sqrt()),
+            direction: libm::exp(-axis),
+            spread: course::spread(steps),
+            steady: course::steady(steps),
+            changes: course::changes(steps),
+        }
     }
 }
 
-/// The misfit with this score of turning and these p-values, if there is one.
-pub(super) fn misfit(turning: f64, direction: f64, coloured: f64) -> Option<Misfit> {
+/// The misfit of a walk with these numbers, if there is one; `coloured`: p-value of the autocorrelations.
+pub(super) fn misfit(tests: &Tests, coloured: f64) -> Option<Misfit> {
+    let [below, above] = course::tails(tests.spread);
     let all = [
-        (libm::erfc(turning.abs() * std::f64::consts::FRAC_1_SQRT_2) < TURNS, Misfit::Turns),
-        (direction < DIRECTED, Misfit::Directed),
+        (libm::erfc(tests.turning.abs() * std::f64::consts::FRAC_1_SQRT_2) < TURNS, Misfit::Turns),
+        (tests.direction < DIRECTED, Misfit::Directed),
         (coloured < COLOURED, Misfit::Coloured),
+        (tests.changes < FEWEST, Misfit::Rare),
+        (tests.steady < UNSTEADY, Misfit::Unsteady),
+        (below < HELD, Misfit::Held),
+        (above < KEEPS, Misfit::Keeps),
     ];
     all.into_iter().find(|one| one.0).map(|one| one.1)
 }

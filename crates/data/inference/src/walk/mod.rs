@@ -1,5 +1,6 @@
 //! The persistent random walk with errors of the positions: the first null of every law of motion.
 
+mod course;
 mod filter;
 mod misfit;
 mod ridge;
@@ -60,7 +61,17 @@ pub struct PersistentWalk {
     pub turning_score: f64,
     /// Probability that the changes of the velocity of such a walk have an axis as clear as these.
     pub direction_p_value: f64,
+    /// The mean over all lags of the mean-square displacement of the path over that of the walk, as sums of innovations show it: 1 on
+    /// average, with a standard deviation of [`SPREAD_SCATTER`]; below 1 the path is held back.
+    pub spread: f64,
+    /// Probability of a change of the size of the innovations over the record as large as this one, of such a walk.
+    pub steady_p_value: f64,
+    /// The number of steps that share the changes of the velocity; infinite where it cannot be told from all of them.
+    pub changes: f64,
 }
+
+/// Standard deviation of [`PersistentWalk::spread`] of a walk: three times `sqrt(4 sum over j of (pi j)^-4)`.
+pub const SPREAD_SCATTER: f64 = 0.632_455_532_033_675_9;
 
 impl PersistentWalk {
     /// The mean-square displacement after a time `lag`, without the errors of the places.
@@ -70,7 +81,8 @@ impl PersistentWalk {
         4.0 * self.diffusion.value * (lag + p * libm::expm1(-lag / p))
     }
 
-    /// Returns `true` if the walk describes the places: its innovations are white, isotropic, and turn neither way.
+    /// Returns `true` if the walk describes the places: its innovations are white, isotropic, of one size, turn neither way, and their sums
+    /// go as far as those of independent ones.
     #[must_use]
     pub fn describes(&self) -> bool {
         self.misfit().is_none()
@@ -79,7 +91,15 @@ impl PersistentWalk {
     /// The reason why the walk does not describe the places; `None` where it does.
     #[must_use]
     pub fn misfit(&self) -> Option<Misfit> {
-        misfit::misfit(self.turning_score, self.direction_p_value, self.p_value)
+        let Self { turning_score, direction_p_value, spread, steady_p_value, changes, p_value, .. } = *self;
+        let tests = Tests {
+            turning: turning_score,
+            direction: direction_p_value,
+            spread,
+            steady: steady_p_value,
+            changes,
+        };
+        misfit::misfit(&tests, p_value)
     }
 }
 
@@ -134,6 +154,9 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
         p_value: ljung_box(&filter::by_coordinate(&found, pieces.len())).1,
         turning_score: tests.turning,
         direction_p_value: tests.direction,
+        spread: tests.spread,
+        steady_p_value: tests.steady,
+        changes: tests.changes,
     })
 }
 

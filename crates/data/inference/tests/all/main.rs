@@ -14,6 +14,7 @@ mod library;
 mod null;
 mod order_five;
 mod place;
+mod pooled;
 mod stage;
 mod stretch;
 mod subsets;

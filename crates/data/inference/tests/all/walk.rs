@@ -105,7 +105,8 @@ fn intervals_hold_the_truth() {
         let (held, described) = held(truth, sampling, seen, runs);
         // 95 % of 60 are 57 -+ 1.7; ends that are open hold every value
         assert!(held.iter().all(|&count| count >= 52), "{held:?}");
-        assert!(described >= 58, "{described}");
+        // 1 % turn one way and 2 % are held back by chance
+        assert!(described >= 56, "{described}");
     }
 }
 
@@ -337,4 +338,106 @@ fn profile(fixes: &[Fix], persistence: f64, error: f64) -> f64 {
         }
     }
     best
+}
+
+/// A walk with its walls: reflected by a disc of this radius, in twenty steps from place to place.
+fn confined(radius: f64, [persistence, speed, error]: [f64; 3], frames: usize, seed: u64) -> Vec<Fix> {
+    let mut normal = Normal::new(seed, 11);
+    let (h, s) = (0.05, std::f64::consts::FRAC_1_SQRT_2 * speed);
+    let (mut x, mut v) = ([0.0; 2], [s * normal.next(), s * normal.next()]);
+    let mut fixes = Vec::new();
+    for k in 0..20 * frames {
+        if k % 20 == 0 {
+            fixes.push(Fix { t: (k / 20) as f64, at: x.map(|x| x + error * normal.next()) });
+        }
+        for c in 0..2 {
+            v[c] += -v[c] * h / persistence + s * libm::sqrt(2.0 * h / persistence) * normal.next();
+            x[c] += v[c] * h;
+        }
+        let r = libm::hypot(x[0], x[1]);
+        if r > radius {
+            let outward = (v[0] * x[0] + v[1] * x[1]) / r;
+            for c in 0..2 {
+                v[c] -= 2.0 * outward.max(0.0) * x[c] / r;
+                x[c] *= (2.0 * radius - r) / r;
+            }
+        }
+    }
+    fixes
+}
+
+/// Persistent walks inside a reflecting disc, free ones, and free ones that rest or slow down from the middle on: the first are held
+/// back, of
+/// the second as few as chance makes, and the others are not stationary, whatever their units and axes.
+#[test]
+fn walks_that_are_held_or_not_stationary_are_not_described() {
+    let count = |is: Misfit, path: &dyn Fn(u64) -> Vec<Fix>| {
+        (0..40).filter(|&seed| found(&path(seed)).misfit() == Some(is)).count()
+    };
+    let truth = [8.0, 1.0, 0.02];
+    let slower = |part: f64, seed: u64| {
+        let mut fixes = walk(truth, (1.0, 400), 1.0, 500 + seed);
+        let [x, y] = fixes[200].at;
+        let turned = |[a, b]: [f64; 2]| [60.0 * (0.6 * a - 0.8 * b), 60.0 * (0.8 * a + 0.6 * b)];
+        for (k, fix) in fixes.iter_mut().enumerate() {
+            let wobble = 0.02 * [libm::sin(1.7 * (k * k) as f64), libm::cos(1.1 * (k * k) as f64)][k % 2];
+            if k > 200 {
+                fix.at = [x + part * (fix.at[0] - x) + wobble, y + part * (fix.at[1] - y)];
+            }
+            *fix = Fix { t: 0.1 * fix.t, at: turned(fix.at) };
+        }
+        fixes
+    };
+    let free = count(Misfit::Held, &|seed| walk(truth, (1.0, 300), 1.0, 3000 + seed));
+    let held = count(Misfit::Held, &|seed| confined(12.0, truth, 400, seed));
+    let rests = count(Misfit::Unsteady, &|seed| slower(0.0, seed));
+    let slows = count(Misfit::Unsteady, &|seed| slower(0.15, seed));
+    println!("free {free}, held {held}, rest {rests}, slow down {slows} of 40");
+    assert!(free <= 3 && held >= 37 && rests >= 36 && slows >= 36, "{free} {held} {rests} {slows}");
+    for seed in 0..10 {
+        let still = found(&walk(truth, (1.0, 300), 1.0, 3000 + seed));
+        assert!(still.steady_p_value > 1e-3 && still.changes.is_infinite(), "{still:?}");
+    }
+}
+
+/// Straight, and at rest from one frame on: the record has one change of the velocity, which says neither how long it lasts nor how far the
+/// cell diffuses. With a change every ten frames (run and rest) there are enough.
+#[test]
+fn one_change_of_the_velocity_is_no_walk() {
+    for (seed, stop) in [(1, 200), (2, 150), (3, 300)] {
+        let mut normal = Normal::new(seed, 13);
+        let fixes: Vec<Fix> = (0..400)
+            .map(|k| {
+                let way = f64::from(k.min(stop));
+                let at = [0.8 * way, 0.6 * way].map(|x| x + 0.02 * normal.next());
+                Fix { t: f64::from(k), at }
+            })
+            .collect();
+        let one = found(&fixes);
+        assert_eq!(one.misfit(), Some(Misfit::Rare), "{one:?}");
+    }
+}
+
+/// The share of walks with a spread at least as small as that of the limit, by its closed form and among 4000 sums of independent
+/// numbers: as
+/// the fit of three numbers takes up little of it, the same holds of walks, within a factor of two.
+#[test]
+fn spreads_have_their_distribution() {
+    for (truth, sampling, seen, most) in [
+        ([4.0, 1.2, 0.4], (0.7, 280), 0.8, 6),
+        ([0.5, 1.0, 0.2], (1.0, 300), 0.9, 10),
+        ([8.0, 1.0, 0.02], (1.0, 300), 1.0, 6),
+    ] {
+        let spreads: Vec<f64> =
+            (0..150).map(|seed| found(&walk(truth, sampling, seen, 3000 + seed)).spread).collect();
+        let mean = spreads.iter().sum::<f64>() / 150.0;
+        let square = spreads.iter().map(|x| (x - 1.0) * (x - 1.0)).sum::<f64>() / 150.0;
+        // the closed form: 2 % are below .2685
+        let below = spreads.iter().filter(|x| **x < 0.2685).count();
+        println!("mean {mean}, scatter {}, {below} of 150 below", square.sqrt());
+        assert!(
+            (mean - 1.0).abs() < 0.16 && (0.5..0.75).contains(&square.sqrt()) && below <= most,
+            "{below}"
+        );
+    }
 }

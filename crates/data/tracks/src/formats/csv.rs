@@ -8,7 +8,7 @@ use crate::input::{Input, decimal, number, whole};
 use crate::scale::{Said, Scale};
 use crate::split::split;
 use crate::units::{lengths, no_time, time};
-use crate::{Error, Options, Place, Result};
+use crate::{Error, Note, Options, Place, Result};
 use std::borrow::Cow;
 
 /// The remedy where several cells have one name.
@@ -51,6 +51,12 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
     }
     let finished = gather.finish(&input.place, REMEDY);
     let (mut cells, mut notes) = finished.map_err(|error| times.in_words(error))?;
+    let rounded = times.even_clock();
+    notes.extend(rounded.map(|[interval, unit]| Note::RoundedTimes {
+        file: file.display().to_string(),
+        interval,
+        unit,
+    }));
     let said = table.time(times.interval());
     let given = table.frame.is_some() && options.interval.is_some();
     if given && (said.step.is_none() || said.unit.is_none() && times.repeats_frames()) {

@@ -1,6 +1,7 @@
 //! One reader per format: bytes -> cells in the units of the file.
 
 mod amoepy;
+mod clock;
 mod csv;
 mod parquet;
 mod quimp_nodes;

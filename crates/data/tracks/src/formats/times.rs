@@ -1,5 +1,6 @@
 //! Frames of a table from its columns of frames and times.
 
+use super::clock::Clock;
 use crate::numbering::{median_difference, numbers};
 use crate::{Cell, Error, Note, Place, Result};
 use motiform_dynamics::sample::median;
@@ -75,6 +76,27 @@ impl Times {
         let both: Vec<[f64; 2]> =
             self.times.iter().filter_map(|(key, time)| Some([*self.values.get(key)?, *time])).collect();
         median(both.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])))
+    }
+
+    /// Takes the times of an even clock for stamps that are rounded from it: its interval, and the unit of the stamps. `None` where they
+    /// stay as
+    /// they are: without fractions numbers that stand for frames are counts.
+    pub(super) fn even_clock(&mut self) -> Option<[f64; 2]> {
+        let (stamps, frames): (Vec<f64>, Option<Vec<f64>>) = if self.framed {
+            let both = self.times.iter().filter_map(|(key, time)| Some((*time, *self.values.get(key)?)));
+            let (times, frames): (Vec<f64>, Vec<f64>) = both.unzip();
+            (times, Some(frames))
+        } else {
+            (self.values.values().copied().collect(), None)
+        };
+        let whole = stamps.iter().all(|value| *value == value.trunc());
+        if !self.framed && whole || self.framed && self.fraction.is_some() {
+            return None;
+        }
+        let clock = Clock::of(&stamps, frames.as_deref())?;
+        let own = if self.framed { &mut self.times } else { &mut self.values };
+        own.values_mut().zip(clock.times).for_each(|(time, even)| *time = even);
+        Some([clock.interval, clock.unit])
     }
 
     /// Returns `true` if a column of times beside one of frames only repeats these.

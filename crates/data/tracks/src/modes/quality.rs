@@ -47,14 +47,18 @@ pub(super) fn gaps(modes: &mut [FrameModes]) {
 
 /// Areas that differ from the median of the 3 frames on each side by more than the threshold, and by more
 /// than 6 robust standard deviations of all such differences (1.4826 times their median size). Logarithms:
-/// half and double are as far. Areas that step to another level and stay there are flagged as steps; the
+/// half and double are as far. Areas of outlines that are not clipped which step to another level and stay there are flagged as steps; the
 /// frames on both sides of a step are not compared.
 pub(super) fn jumps(modes: &mut [FrameModes], threshold: f64) {
     let logs: Vec<Option<f64>> =
         modes.iter().map(|frame| (frame.area > 0.0).then(|| libm::log(frame.area))).collect();
     let scatter = median(deviations(&logs, &[]).iter().flatten().map(|d| d.abs())).unwrap_or(0.0);
     let limit = threshold.max(SCATTER * 1.4826 * scatter);
-    let steps = areas(modes, &logs, limit);
+    // what the border of the images cuts off is no change of the cell
+    let whole = |frame: &FrameModes| !frame.flags.iter().any(|flag| matches!(flag, Flag::Clipped { .. }));
+    let known: Vec<Option<f64>> =
+        logs.iter().zip(modes.iter()).map(|(log, frame)| log.filter(|_| whole(frame))).collect();
+    let steps = areas(modes, &known, limit);
     for (frame, deviation) in modes.iter_mut().zip(deviations(&logs, &steps)) {
         if let Some(deviation) = deviation.filter(|deviation| deviation.abs() > limit) {
             frame.flags.push(Flag::AreaJump { factor: libm::exp(deviation) });

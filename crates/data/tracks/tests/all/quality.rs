@@ -209,6 +209,36 @@ fn clipped_outlines() {
     assert!(all[0].left_out().count() >= found.len());
 }
 
+/// A cell that glides into the border of the images, of which a half is left for the second half of the record: its area is cut off, and
+/// steps
+/// to no other level. The same halved in size steps.
+#[test]
+fn clipped_areas_do_not_step() {
+    let record = |clipped: bool| {
+        let mut frames = wandering(120);
+        for (k, points) in &mut frames {
+            let centre =
+                [0, 1].map(|c| points.iter().map(|point| point[c]).sum::<f64>() / points.len() as f64);
+            // up to x = 0, from frame 60 on with the centre there
+            let by = if clipped && *k >= 60 { centre[0] } else { centre[0] + 40.0 };
+            let size = if !clipped && *k >= 60 { 0.7 } else { 1.0 };
+            for point in points.iter_mut() {
+                *point = [0, 1].map(|c| centre[c] + size * (point[c] - centre[c]));
+                point[0] = (point[0] - by).min(if clipped { 0.0 } else { f64::INFINITY });
+            }
+        }
+        modes(&tracks(frames), &ModeOptions::default()).remove(0)
+    };
+    let steps = |clipped: bool| {
+        let found = record(clipped);
+        let is = |test: fn(&Flag) -> bool| found.frames.iter().filter(|f| f.flags.iter().any(test)).count();
+        (is(|flag| matches!(flag, Flag::AreaStep { .. })), is(|flag| matches!(flag, Flag::Clipped { .. })))
+    };
+    let (cut, clipped) = steps(true);
+    assert!(cut == 0 && clipped >= 55, "{cut} {clipped}");
+    assert_eq!(steps(false).0, 1);
+}
+
 /// Whole outlines that come back to the same places, with noise of the vertices: a circle of 10 or 15 frames a turn, from any phase, and a
 /// cell that goes for 20 frames and rests for 20. There is no border.
 #[test]

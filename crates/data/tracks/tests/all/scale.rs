@@ -151,3 +151,45 @@ fn files_in_different_units_are_refused() {
         .collect();
     assert_eq!(names, ["a: a", "b: a"]);
 }
+
+/// A unit that nobody knows is an error, and the known ones are named.
+#[test]
+fn unknown_units_of_options_are_refused() {
+    for (time, length) in [(Some("fortnight"), None), (None, Some("ell"))] {
+        let unit = |name: Option<&str>| name.map(str::to_owned);
+        let options = Options {
+            interval: Some(1.0),
+            pixel_size: Some(1.0),
+            time_unit: unit(time),
+            length_unit: unit(length),
+            ..Options::default()
+        };
+        let error = read_with(csv(3), &options).unwrap_err().to_string();
+        assert!(error.contains("is not known") && error.contains(time.or(length).unwrap()), "{error}");
+    }
+    for unit in ["min", "h", "Frames", "s"] {
+        let options = Options { interval: Some(1.0), time_unit: Some(unit.to_owned()), ..Options::default() };
+        assert!(read_with(csv(3), &options).is_ok(), "{unit}");
+    }
+}
+
+/// Times of an even clock of a sixth of a minute, rounded to a tenth: the times are those of the clock, and a note says so.
+#[test]
+fn rounded_times_are_those_of_their_clock() {
+    for start in [0.0, 12.34] {
+        let mut table = "cell,time (min),i,x (um),y (um)\n".to_owned();
+        for k in 0..30 {
+            let t = start + f64::from(k) / 6.0;
+            for i in 0..20 {
+                let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / 20.0);
+                table += &format!("a,{t:.1},{i},{},{}\n", f64::from(k) + 5.0 * cos, 5.0 * sin);
+            }
+        }
+        let tracks = read(table).unwrap();
+        let times: Vec<f64> = tracks.cells[0].frames.iter().map(|outline| outline.t).collect();
+        assert!(times.windows(2).all(|pair| (pair[1] - pair[0] - 1.0 / 6.0).abs() < 0.003), "{times:?}");
+        let even = times.windows(2).map(|pair| pair[1] - pair[0]);
+        assert!(even.clone().fold(0.0, f64::max) - even.fold(1.0, f64::min) < 1e-9, "{times:?}");
+        assert!(notes(&tracks).contains("even clock"), "{}", notes(&tracks));
+    }
+}

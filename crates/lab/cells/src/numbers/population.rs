@@ -1,12 +1,12 @@
 //! Numbers over cells.
 
+use super::Wobble;
 use super::displacement;
 use super::places::Places;
-use super::{Numbers, Wobble};
 use crate::{AtLag, Observation, OverCells, over_cells};
 use motiform_dynamics::distributions::chi_square_tail;
 use motiform_dynamics::sample::{ascending, median};
-use motiform_inference::{Bounded, PValue, PersistentWalk};
+use motiform_inference::{Bounded, Misfit, PValue, PersistentWalk, SPREAD_SCATTER};
 use motiform_statistics::four_digits;
 use motiform_study::Quantity;
 use motiform_study::quantity::cell;
@@ -74,14 +74,12 @@ pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
 
 /// Numbers of the walk that too many cells only bound, or that single cells know too poorly.
 fn withheld(found: &[Observation]) -> Vec<Withheld> {
-    let cells: Vec<(&Numbers, &PersistentWalk)> = found
-        .iter()
-        .filter_map(|one| Some((&one.numbers, one.numbers.walk.as_ref().filter(|walk| walk.describes())?)))
-        .collect();
-    let walks: Vec<&PersistentWalk> = cells.iter().map(|cell| cell.1).collect();
+    let described = |one: &&PersistentWalk| one.describes();
+    let walks: Vec<&PersistentWalk> =
+        found.iter().filter_map(|one| one.numbers.walk.as_ref().filter(described)).collect();
     let refused = found.iter().filter_map(|one| one.numbers.walk.as_ref()?.misfit()).count();
     let together =
-        few_left(walks.len(), refused).or_else(|| turning_together(&walks)).or_else(|| elsewhere(&cells));
+        few_left(walks.len(), refused).or_else(|| turning_together(&walks)).or_else(|| elsewhere(found));
     let together = together.or_else(|| wobbling(found));
     let all = |of: fn(&PersistentWalk) -> Bounded| walks.iter().map(|walk| of(walk)).collect::<Vec<_>>();
     let numbers =
@@ -151,32 +149,24 @@ fn turning_together(walks: &[&PersistentWalk]) -> Option<String> {
     })
 }
 
-/// The lag, as a part of the record, at which displacements are compared with those of the walks, and the ratio beyond which they disagree
-/// where their difference is so many standard errors.
-const FAR: f64 = 0.25;
+/// The ratio of mean-square displacements beyond which cells and their walks disagree, where their difference is so many standard errors.
 const APART: f64 = 1.5;
 const ERRORS: f64 = 4.0;
 
-/// The sentence that cells displace themselves by far less or more than their walks, over long times, if they do.
-fn elsewhere(cells: &[(&Numbers, &PersistentWalk)]) -> Option<String> {
-    let ratio = |(numbers, walk): &(&Numbers, &PersistentWalk)| {
-        let [first, last] = numbers.span?;
-        let lag = FAR * (last - first);
-        let off = |point: &&AtLag| (point.lag - lag).abs();
-        let near = numbers.displacement.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
-        let error = walk.error.value;
-        Some(near.value.value / (walk.displacement(near.lag) + 4.0 * error * error))
-    };
-    let ratios: Vec<f64> = cells.iter().filter_map(ratio).filter(|ratio| ratio.is_finite()).collect();
-    let count = ratios.len() as f64;
-    let mean = ratios.iter().sum::<f64>() / count;
-    let variance = ratios.iter().map(|ratio| (ratio - mean) * (ratio - mean)).sum::<f64>() / (count - 1.0);
+/// The sentence that cells displace themselves by far less or more than their walks, over long times, if they do: the test of one cell
+/// ([`PersistentWalk::spread`]) for all together. Those that show it by themselves count.
+fn elsewhere(found: &[Observation]) -> Option<String> {
+    let walks = found.iter().filter_map(|one| one.numbers.walk.as_ref());
+    let meant = walks.filter(|walk| matches!(walk.misfit(), None | Some(Misfit::Held | Misfit::Keeps)));
+    let spreads: Vec<f64> = meant.map(|walk| walk.spread).collect();
+    let count = spreads.len() as f64;
+    let mean = spreads.iter().sum::<f64>() / count;
     let apart =
-        (mean - 1.0).abs() > ERRORS * (variance / count).sqrt() && !(1.0 / APART..=APART).contains(&mean);
-    (ratios.len() >= FEWEST && apart).then(|| {
+        (mean - 1.0).abs() > ERRORS * SPREAD_SCATTER / count.sqrt() && !(1.0 / APART..=APART).contains(&mean);
+    (spreads.len() >= FEWEST && apart).then(|| {
         format!(
-            "over a quarter of the record the mean-square displacement of {} cells is {} times that of their walks: {}",
-            ratios.len(),
+            "over long times the mean-square displacement of {} cells is {} times that of their walks: {}",
+            spreads.len(),
             four_digits(mean),
             if mean < 1.0 { "they are held back, or come back" } else { "they keep a direction" }
         )

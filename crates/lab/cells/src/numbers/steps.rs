@@ -59,6 +59,10 @@ impl Steps {
             Some(reaching_up(averaged(&squares)?).map(|square| (square - noise).max(0.0).sqrt()))
         };
         let no_gap = |pair: &[Fix]| pair[1].t - pair[0].t <= NO_GAP * places.interval;
+        let (mut way, mut time) = (0.0, 0.0);
+        for pair in pairs().filter(|pair| no_gap(pair)) {
+            (way, time) = (way + length(step(&pair[0], &pair[1])), time + pair[1].t - pair[0].t);
+        }
         // the directions of two displacements are those at their middles
         let turning: Vec<f64> = turns(places, no_gap).map(|(angle, time)| angle / (0.5 * time)).collect();
         let angles: Vec<f64> = turns(places, |pair| is_whole(places, pair)).map(|(angle, _)| angle).collect();
@@ -70,7 +74,7 @@ impl Steps {
         }
         Some(Self {
             count: rates.len(),
-            speed: averaged(&rates).map(reaching_up),
+            speed: averaged(&rates).map(reaching_up).map(|speed| holding(speed, way / time)),
             rms_speed: error.and_then(own),
             path,
             net,
@@ -94,6 +98,16 @@ fn reaching_up(mean: Measured) -> Measured {
         (left > 0.0).then(|| [low, mean.value / left])
     };
     Measured { interval: mean.interval.and_then(upper), ..mean }
+}
+
+/// The mean with an interval that also holds the path over its time, which errors of the times between frames do not change: these raise
+/// the
+/// mean of quotients, and choose the steps of one sampling interval. At even times both are the same.
+fn holding(mean: Measured, other: f64) -> Measured {
+    let wider = |[low, high]: [f64; 2]| {
+        if other.is_finite() { [low.min(other), high.max(other)] } else { [low, high] }
+    };
+    Measured { interval: mean.interval.map(wider), ..mean }
 }
 
 fn step(from: &Fix, to: &Fix) -> [f64; 2] {

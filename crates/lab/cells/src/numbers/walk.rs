@@ -72,6 +72,10 @@ pub struct WalkTests {
     pub turning_score: f64,
     /// Probability of changes of the velocity with an axis as clear as these.
     pub direction_p_value: f64,
+    /// Mean over all lags of the mean-square displacement over that of the walk.
+    pub spread: f64,
+    /// Probability of changes of the velocity whose size changes over the record as much as here.
+    pub steady_p_value: f64,
 }
 
 impl StatedWalk {
@@ -88,6 +92,8 @@ impl StatedWalk {
             p_value: walk.p_value,
             turning_score: walk.turning_score,
             direction_p_value: walk.direction_p_value,
+            spread: walk.spread,
+            steady_p_value: walk.steady_p_value,
         });
         if let Some(misfit) = walk.misfit() {
             return Self { tests, ..all(format!("no persistent random walk describes the path: {misfit}")) };

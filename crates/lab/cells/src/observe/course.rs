@@ -7,6 +7,9 @@ use std::f64::consts::TAU;
 /// Fewest full turns that show whether a circle drifts.
 const LEAST_TURNS: usize = 4;
 
+/// Most lags at which turns are looked at.
+const MOST_LAGS: usize = 32;
+
 /// Standard errors beyond which a dependence is seen.
 const CLEAR: f64 = 4.0;
 
@@ -22,6 +25,30 @@ pub(super) fn trend(values: &[f64]) -> f64 {
     let variance = left.map(|value| value * value).sum::<f64>() / (means.len() as f64 - 2.0);
     let clear = slope.abs() > CLEAR * (variance / squares).sqrt();
     if clear { slope * (means.len() as f64 - 1.0) / centre } else { 0.0 }
+}
+
+/// Standard error of the mean turning rate of these headings, which is their change over the record over its time.
+///
+/// The mean square turn beside the mean rate grows with the lag as that of a random walk of the heading does, to which errors and
+/// oscillations add what does not grow: `(max V(lag) + q n)/T^2` with the slope q of V over lags up to an eighth of the record. The scatter
+/// of turns of blocks overstates errors of the headings, which blocks side by side share.
+pub(super) fn turning_error(headings: &[f64], dt: f64, rate: f64) -> f64 {
+    let n = headings.len().saturating_sub(1).max(1);
+    let longest = (n / BLOCKS).max(1);
+    let point = |lag: usize| {
+        let off = headings.windows(lag + 1).map(|pair| pair[lag] - pair[0] - rate * dt * lag as f64);
+        [lag as f64, mean(off.map(|turn| turn * turn))]
+    };
+    let points: Vec<[f64; 2]> = (1..=longest).step_by((longest / MOST_LAGS).max(1)).map(point).collect();
+    let [lag, value] = [0, 1].map(|k| mean(points.iter().map(|point| point[k])));
+    let (mut product, mut square) = (0.0, 0.0);
+    for [x, y] in &points {
+        product += (x - lag) * (y - value);
+        square += (x - lag) * (x - lag);
+    }
+    let slope = if square > 0.0 { (product / square).max(0.0) } else { value };
+    let most = points.iter().map(|point| point[1]).fold(0.0, f64::max);
+    (most + slope * n as f64).sqrt() / (n as f64 * dt)
 }
 
 /// Amplitude of a series of speeds as `cos 2 (heading - axis)`, relative to its mean; 0 within its error, which is the scatter of the

@@ -49,11 +49,12 @@ pub struct Measures {
     /// Amplitude, relative to its mean, of the speed as a function of the axis along which the cell moves (twice per turn); 0 where that is
     /// within 4 of its errors.
     pub speed_axis: f64,
-    /// Mean turning rate of the heading (rad per time), and its standard error from blocks.
+    /// Mean turning rate of the heading (rad per time), and its standard error from the scatter of turns over up to an eighth of the
+    /// record.
     pub turning: f64,
     /// See `turning`.
     pub turning_error: f64,
-    /// Scatter of the turning rate between blocks, relative to its mean.
+    /// Scatter of the turning rate between blocks, relative to its mean, corrected for errors of the headings.
     pub turning_scatter: f64,
     /// Velocity of the place to which a turning cell comes back after each full turn (length per time), and its error from the scatter of
     /// the turns; `None` with fewer than four of them.
@@ -116,6 +117,9 @@ impl Measures {
         }
         let blocks = rates(&headings, dt);
         let (turning, spread) = (mean(blocks.iter().copied()), scatter(&blocks));
+        // the part of the errors of two headings, which are those of their displacements
+        let size = ((headings.len() - 1) / BLOCKS).max(1) as f64 * dt;
+        let own = noise / (square - noise).max(f64::MIN_POSITIVE) / (size * size);
         let ends = [frames.first()?, frames.last()?];
         let net = libm::hypot(ends[1].y[0] - ends[0].y[0], ends[1].y[1] - ends[0].y[1]);
         let length: f64 = sizes.iter().step_by(lag).sum();
@@ -135,8 +139,8 @@ impl Measures {
             speed_trend: course::trend(&speeds),
             speed_axis: course::axis(&speeds, &headings),
             turning,
-            turning_error: spread / (blocks.len() as f64).sqrt(),
-            turning_scatter: spread / turning.abs().max(f64::MIN_POSITIVE),
+            turning_error: course::turning_error(&headings, dt, turning),
+            turning_scatter: (spread * spread - own).max(0.0).sqrt() / turning.abs().max(f64::MIN_POSITIVE),
             drift: course::drift(&frames, &headings, (lag, turning), dt),
             straight_share: straight_share(&headings, turning * dt),
             heading_scatter: scatter(&headings),
@@ -158,6 +162,9 @@ impl Measures {
     /// The same numbers with blocks of the record drawn with replacement: turning rate and its error, scatter of the speed.
     pub(super) fn resampled(&self) -> impl Iterator<Item = Self> + '_ {
         let mut random = Normal::new(1, 0);
+        // blocks side by side share errors of headings: their scatter is brought to the error of the rate
+        let own = scatter(&self.series.blocks) / (self.series.blocks.len().max(1) as f64).sqrt();
+        let part = if own > 0.0 { self.turning_error / own } else { 0.0 };
         let mut pick = move |n: usize| ((random.uniform() * n as f64) as usize).min(n - 1);
         (0..RESAMPLES).map(move |_| {
             let blocks = &self.series.blocks;
@@ -168,7 +175,7 @@ impl Measures {
                 .iter()
                 .flat_map(|&start| self.series.speeds[start..start + size].iter().copied())
                 .collect();
-            let turning = mean(drawn.iter().copied());
+            let turning = self.turning + part * (mean(drawn.iter().copied()) - self.turning);
             let ratio = (scatter(&speeds) / mean(speeds.iter().copied()).max(f64::MIN_POSITIVE))
                 / (scatter(&self.series.speeds) / self.speed).max(f64::MIN_POSITIVE);
             Self {

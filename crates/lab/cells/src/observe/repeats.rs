@@ -100,10 +100,13 @@ fn memories(like: &[f64], lag: usize) -> f64 {
 /// Invariants of rotations: speed, |z2|, and z2 against the direction of motion, along and across (which the mirror reverses).
 fn invariants(series: &Series) -> Vec<Vec<f64>> {
     let (mut along, mut across, mut size) = (Vec::new(), Vec::new(), Vec::new());
-    for (frame, heading) in series.frames[series.lag / 2..].iter().zip(&series.headings) {
+    let half = series.lag / 2;
+    let (before, after) = (&series.frames[half..], &series.frames[series.lag - half..]);
+    for ((a, b), heading) in before.iter().zip(after).zip(&series.headings) {
         // z2 is turned by -2 angle: multiplied with exp(2 i heading) it is that of a body that moves along x
         let (sin, cos) = (libm::sin(2.0 * heading), libm::cos(2.0 * heading));
-        let (re, im) = (frame.y[2], frame.y[3]);
+        // at the middle of the displacement, so that the record played backwards has the same series
+        let (re, im) = (0.5 * (a.y[2] + b.y[2]), 0.5 * (a.y[3] + b.y[3]));
         along.push(re * cos - im * sin);
         across.push(re * sin + im * cos);
         size.push(libm::hypot(re, im));

@@ -54,14 +54,32 @@ pub(super) fn of_records<'s>(records: impl Iterator<Item = &'s Series>) -> Optio
     let square = mean_square(&tracks).less(2.0 * noise.iter().sum::<f64>() / noise.len() as f64);
     let wanted = |quantity: &Quantity| matches!(quantity, Quantity::Velocity | Quantity::Mode(..));
     let memories = tracks.quantities().into_iter().filter(wanted);
-    let memories: Option<Vec<Memory>> =
-        memories.map(|quantity| Some(memory(autocorrelation(&tracks, &quantity).ok()?))).collect();
+    let extent = extent(&records);
+    let known = |quantity: Quantity| {
+        let found = memory(autocorrelation(&tracks, &quantity).ok()?);
+        let varies = tracks.bodies().iter().any(|body| {
+            let unit = if quantity == Quantity::Velocity { dt } else { 1.0 };
+            quantity.size(body).iter().any(|size| size * unit > ROUND_OFF * extent)
+        });
+        let time = if varies { found.time } else { Answer::unknown("it does not vary beyond round-off") };
+        Some(Memory { time, ..found })
+    };
+    let memories: Option<Vec<Memory>> = memories.map(known).collect();
     Some(MotionStatistics {
         errors: tracks.errors(),
         displacement: points(&square),
         walk: persistent_walk(&square),
         memories: memories?,
     })
+}
+
+/// Part of the largest coordinate below which displacements and modes are those of round-off.
+const ROUND_OFF: f64 = 1e-10;
+
+/// The largest coordinate.
+fn extent(records: &[&Series]) -> f64 {
+    let frames = records.iter().flat_map(|series| &series.frames);
+    frames.flat_map(|frame| [frame.y[0].abs(), frame.y[1].abs()]).fold(0.0, f64::max)
 }
 
 /// Variance of the position, both coordinates.

@@ -83,8 +83,10 @@ fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Ta
         format!("{} ({})", typeset(&one.name()), unit.unwrap_or_default())
     };
     let rows = found.coefficients.iter().map(|one| row(named(one), &one.over));
+    let without =
+        found.no_intervals.as_ref().map_or_else(String::new, |why| format!(" No intervals: {why}."));
     let caption = format!(
-        "Coefficients {}, over the cells whose fit is {}. Cells with other motions have other laws, and are in no mean.",
+        "Coefficients {}, over the cells whose fit is {}. Cells with other motions have other laws, and are in no mean.{without}",
         found.of_which_fits(),
         found.law.unwrap_or("named")
     );
@@ -98,7 +100,7 @@ fn table(caption: &str, rows: Vec<Vec<Cell>>) -> Table {
 
 fn row(name: String, over: &OverCells) -> Vec<Cell> {
     let interval = over.mean_interval.map_or_else(
-        || "fewer than 8 cells".to_owned(),
+        || if over.cells < 8 { "fewer than 8 cells" } else { "none" }.to_owned(),
         |[low, high]| format!("{} to {}", plain(low), plain(high)),
     );
     vec![

@@ -360,3 +360,43 @@ fn a_circle_at_two_rates_has_one_turning_rate() {
         assert_eq!(steps.count, if usual > 1.0 { second - 1 } else { first - 1 } as usize);
     }
 }
+
+/// The place of a frame, from all places of a path.
+type Change = dyn Fn(&[[f64; 2]], usize) -> [f64; 2];
+
+/// Cells in reflecting squares have no diffusion coefficient, neither each nor together, and the reason says that they are held back; the
+/// same
+/// walkers without walls have one. So are walkers that rest from the middle on without one: the record is not stationary.
+#[test]
+fn cells_that_are_held_or_come_to_rest_have_no_diffusion() {
+    let walker = Walker { speed: 1.0, persistence: 8.0, shape: Shape::Round, frames: 400, noise: 0.01 };
+    let changed = |change: &Change| {
+        let cell = |seed: u64| {
+            let mut outlines = walker.outlines(600 + seed);
+            let path: Vec<[f64; 2]> = outlines.iter().map(|outline| centroid(&outline.points)).collect();
+            for (k, outline) in outlines.iter_mut().enumerate() {
+                let to = change(&path, k);
+                outline
+                    .points
+                    .iter_mut()
+                    .for_each(|point| *point = [0, 1].map(|c| point[c] + to[c] - path[k][c]));
+            }
+            outlines
+        };
+        let sample = Sample::of_tracks(tracks((0..12).map(cell).collect()), &ModeOptions::default());
+        sample.cells.iter().map(observe).collect::<Vec<Observation>>()
+    };
+    let why = |found: &[Observation]| -> Vec<String> {
+        found.iter().filter_map(|one| one.numbers.stated_walk.diffusion.reason.clone()).collect()
+    };
+    // reflected by a square: coordinates are folded at its sides
+    let held = changed(&|path, k| path[k].map(|x| (libm::remainder(x - 10.0, 40.0)).abs() - 10.0));
+    let reasons = why(&held);
+    assert!(reasons.len() >= 11 && reasons.iter().any(|why| why.contains("held back")), "{reasons:?}");
+    let together = population_numbers(&held);
+    assert!(together.numbers.iter().all(|one| one.quantity.name != "diffusion"), "{:?}", together.withheld);
+    let rests = why(&changed(&|path, k| path[k.min(200)]));
+    assert!(rests.len() >= 11 && rests.iter().any(|why| why.contains("stationary")), "{rests:?}");
+    let free = why(&changed(&|path, k| path[k]));
+    assert!(free.len() <= 2, "{free:?}");
+}
