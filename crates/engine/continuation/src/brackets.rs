@@ -112,8 +112,8 @@ impl<P: Problem> Stretch<'_, P> {
             self.add_class(class, out);
         }
         // where a branch turns back a level vanishes as well: where the slope is that of round-off the level tells the place
-        if is_level(self.problem, self.step) && out.brackets[before..].iter().all(|found| self.is_fold(found))
-        {
+        let level = [self.step.old, self.step.new].iter().any(|end| is_level(self.problem, end));
+        if level && out.brackets[before..].iter().all(|found| self.is_fold(found)) {
             return;
         }
         match self.bracket(Test::Slope) {
@@ -192,9 +192,8 @@ fn number(value: f64) -> Number {
 /// branch goes on.
 const LEVEL: f64 = 10.0;
 
-/// Returns `true` if the parameter of orbits hardly changes at an end of a step: a sign of the slope there may be that of round-off.
-fn is_level<P: Problem>(problem: &P, step: &Step<'_, P::Local>) -> bool {
-    let slope = step.old.slope().abs().min(step.new.slope().abs());
-    let width = problem.weights(&step.old.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
-    problem.time().is_some() && slope < LEVEL * problem.accuracy() * width
+/// Returns `true` if the parameter of orbits hardly changes at a place: the sign of the slope there may be that of round-off.
+pub(super) fn is_level<P: Problem>(problem: &P, place: &Place<P::Local>) -> bool {
+    let width = problem.weights(&place.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
+    problem.time().is_some() && place.slope().abs() < LEVEL * problem.accuracy() * width
 }

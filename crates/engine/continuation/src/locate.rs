@@ -1,7 +1,7 @@
 //! Special points between two points of a branch.
 
 use super::between::{Step, between};
-use super::brackets::{BESIDE, Bracket, Test, brackets};
+use super::brackets::{BESIDE, Bracket, Test, brackets, is_level};
 use super::branch_point::blurred;
 use super::certificate::{Certificate, Passing, TestFunction};
 use super::correct::TIGHT;
@@ -91,7 +91,8 @@ fn add<P: Problem>(
     let at = crossing.unwrap_or(at);
     let special = kind(problem, step, &at, bracket.test);
     // where orbits form a family for one value of the parameter a level is 0 all along, and the slope that of round-off
-    let family = problem.time().is_some() && [step.old, step.new].iter().all(|end| neutral(problem, end) > 0);
+    let on_family = |end: &&Place<P::Local>| neutral(problem, end) > 0 && is_level(problem, end);
+    let family = [step.old, step.new].iter().all(on_family);
     if family && special == Special::Fold {
         return Ok(());
     }

@@ -102,7 +102,7 @@ impl<P: Problem> Stretch<'_, P> {
         let Looks { mut found, nearest, gap, .. } = looks;
         if found.is_empty() {
             out.touches.extend(nearest.map(|(s, test, _)| (s, test)));
-            out.gaps.extend(self.smallest(tests).filter(|_| gap));
+            out.gaps.extend(self.smallest(tests).filter(|_| gap && self.problem.time().is_none()));
         }
         out.brackets.append(&mut found);
     }

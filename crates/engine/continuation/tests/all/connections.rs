@@ -123,9 +123,13 @@ fn a_weakly_damped_pendulum_stops_whirling_on_the_loop_of_its_saddle() {
     assert!((found.quantity().unwrap() + damping).abs() <= error && error < 1e-4 * damping, "{error}");
 }
 
-/// The folds of a branch, in its order.
+/// The folds of a branch, in its order, as long as they are farther from each other than 100 of their errors.
 fn folds(points: &[Point]) -> Vec<f64> {
-    points.iter().filter(|point| point.special == Some(Special::Fold)).map(|point| point.parameter).collect()
+    let folds: Vec<&Point> = points.iter().filter(|point| point.special == Some(Special::Fold)).collect();
+    let error = |point: &Point| point.certificate.map_or(0.0, |shown| shown.error);
+    let apart = |pair: &&[&Point]| (pair[1].parameter - pair[0].parameter).abs() > 100.0 * error(pair[1]);
+    let told = folds.windows(2).take_while(apart).count();
+    folds.iter().take(told + 1).map(|point| point.parameter).collect()
 }
 
 /// The saddle-focus at the end: its pair leads, the folds come closer as it says, and their limit (Aitken) is the end.
