@@ -1,7 +1,7 @@
 //! Families of solutions with one value of the parameter, along which a branch does not move.
 
 use super::correct::{Corrected, TIGHT, correct, normal, product, scaled, seen, unseen};
-use super::levels::CLEAR;
+use super::levels::{CLEAR, Level};
 use super::problem::{Border, Problem};
 use super::tracer::Tracer;
 use motiform_analysis::linear::{add, norm};
@@ -134,6 +134,12 @@ pub(super) fn holds<P: Problem>(problem: &P, found: &Corrected<P::Local>, tolera
     problem.family() == 0 || norm(&problem.linear(&found.local).residual) < SOLVED * tolerance
 }
 
+/// Number of levels that are 0 within their error.
+fn count_neutral<P: Problem>(problem: &P, levels: &[Vec<Level>]) -> usize {
+    let least = CLEAR * problem.noise(levels);
+    levels.iter().flatten().filter(|level| level.growth.abs() < least).count()
+}
+
 impl<P: Problem> Tracer<P> {
     /// Looks for a family of solutions with the value of the parameter, of which the present one is a member, and which goes on along the
     /// branch: one step ahead there must be another one of the same dimension. (At a bifurcation there may be one for one value.)
@@ -141,17 +147,17 @@ impl<P: Problem> Tracer<P> {
     pub(super) fn find_family(&mut self) {
         let dimension = self.problem.family();
         // levels are those of the last but one solution of Newton's method
-        let least = CLEAR * self.problem.noise(&self.place.levels);
-        let vanishes = self.place.levels.iter().flatten().any(|level| level.growth.abs() < least);
-        if dimension == 0 && !vanishes {
+        if dimension == 0 && count_neutral(&self.problem, &self.place.levels) == 0 {
             return;
         }
+        let course = self.place.tangent.clone();
         let goes_on = enter(&mut self.problem, &self.place.x).is_some_and(|found| {
             self.take_course(&found.branch);
             self.goes_on()
         });
         if !goes_on {
             self.problem.set_family(Vec::new());
+            self.place.tangent = course; // that of the border is none of the branch
         }
         if dimension > 0 || goes_on {
             self.renew_levels();
@@ -159,13 +165,18 @@ impl<P: Problem> Tracer<P> {
         }
     }
 
-    /// Returns `true` if one step ahead there is a family of the same dimension.
+    /// Returns `true` if one step ahead there is a family of the same dimension. Beside a special point places off the branch are solutions
+    /// within the tolerance; levels tell more, and are 0 at that point alone.
     fn goes_on(&mut self) -> bool {
         let Ok((ahead, _)) = self.attempt(self.step, &()) else { return false };
         let (here, dimension) = (self.problem.borders(), self.problem.family());
         let same = enter(&mut self.problem, &ahead.x).is_some_and(|found| found.family.len() == dimension);
+        self.problem.set_family(Vec::new());
+        let all =
+            self.problem.local(&ahead.x, &()).ok().and_then(|local| self.problem.levels(&ahead.x, &local));
+        let neutral = all.is_some_and(|levels| count_neutral(&self.problem, &levels) >= dimension);
         self.problem.set_family(here);
-        same
+        same && neutral
     }
 
     /// Gives the present place the direction `branch`, on the side that it had.
