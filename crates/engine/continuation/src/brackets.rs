@@ -112,8 +112,10 @@ impl<P: Problem> Stretch<'_, P> {
             self.add_class(class, out);
         }
         // where a branch turns back a level vanishes as well: where the slope is that of round-off the level tells the place
-        let level = [self.step.old, self.step.new].iter().any(|end| is_level(self.problem, end));
-        if level && out.brackets[before..].iter().all(|found| self.is_fold(found)) {
+        let level = [self.step.old, self.step.new].map(|end| is_level(self.problem, end));
+        let folds = &out.brackets[before..];
+        let told = !folds.is_empty() && folds.iter().all(|found| self.is_fold(found));
+        if level == [true; 2] && folds.is_empty() || level.contains(&true) && told {
             return;
         }
         match self.bracket(Test::Slope) {
