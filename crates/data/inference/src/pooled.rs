@@ -16,9 +16,8 @@ pub struct Pooled {
     pub values: Vec<f64>,
     /// 95 % intervals, of which the units are cells.
     pub intervals: Vec<[f64; 2]>,
-    /// Probability of differences between the cells as large as these where their own variances are at most [`EXCESS`] less 1 of those of
-    /// the
-    /// estimates.
+    /// Probability of differences between the cells as large as these where their own variances are at most `EXCESS` less 1
+    /// of those of the estimates.
     pub p_value: f64,
 }
 
@@ -29,7 +28,7 @@ pub struct Pooled {
 /// part: `A (mean - c) = sum s_k`. It is one step to the estimate of highest likelihood of all records. Errors are those of the `I_k (c_k
 /// - mean)`
 /// over cells. Cells that differ have no common values: `sum (c_k - mean)^T I_k (c_k - mean)` is chi-square where they do not, and up to
-/// [`EXCESS`] times that for short records.
+/// `EXCESS` times that for short records.
 ///
 /// `None` with fewer than two cells, or where a covariance has no inverse.
 ///

@@ -106,8 +106,8 @@ pub(super) fn unseen<P: Equations>(problem: &P, local: &P::Local, weights: &[f64
     all.into_iter().take(count).map(|one| one.1).collect()
 }
 
-/// Number of these directions that are unseen, 0 where one branch is alone. Round-off of the equations, of relative size `resolution`, parts
-/// the branches: at their place what is not seen is as large as its root.
+/// Number of these directions that are unseen, 0 where one branch is alone. Round-off of the equations, of relative size `resolution`,
+/// parts the branches: at their place what is not seen is as large as its root.
 pub(super) fn count_unseen(all: &[(f64, Vec<f64>)], resolution: f64) -> usize {
     let least = GAP.min(BLURRED / resolution.sqrt());
     let round_off = all.last().map_or(0.0, |last| f64::EPSILON * last.0);

@@ -79,8 +79,8 @@ pub struct Point {
     /// no symmetry of the model explains: `unstable` and `neutral` are about deviations from the family.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub family: usize,
-    /// Number of directions (a pair counts as one) that are critical at a special point, where these are more than its symmetry makes equal:
-    /// no normal form of one direction says what begins. Elsewhere 0.
+    /// Number of directions (a pair counts as one) that are critical at a special point, where these are more than its symmetry makes
+    /// equal: no normal form of one direction says what begins. Elsewhere 0.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub critical: usize,
     /// Derivative of the parameter by the length along the branch: it changes its sign at a fold.

@@ -30,8 +30,9 @@ const SAME: f64 = 1e-2;
 const CUBE: usize = 5;
 const OTHERS: usize = 48;
 
-/// The directions in which branches of equilibria leave the point `x`, each of length 1, images under the symmetry left out: the solutions on
-/// a small sphere about it, from many directions that the equations do not see to first order. The point's own branch is among them.
+/// The directions in which branches of equilibria leave the point `x`, each of length 1, images under the symmetry left out: the
+/// solutions on a small sphere about it, from many directions that the equations do not see to first order. The point's own
+/// branch is among them.
 ///
 /// # Checked by  tests/all/meeting.rs: all branches of decoupled pitchforks, of a square's symmetry, and of cubic forms
 pub(super) fn rays(

@@ -23,7 +23,8 @@ impl Audit {
     /// Reads every listed file of a folder.
     ///
     /// # Errors
-    /// [`Error::NoFolder`] where there is none, [`Error::NotVerified`] without an inventory, [`Error::Inventory`], [`Error::Unwritable`] for a folder that cannot be read.
+    /// [`Error::NoFolder`] where there is none, [`Error::NotVerified`] without an inventory, [`Error::Inventory`],
+    /// [`Error::Unwritable`] for a folder that cannot be read.
     pub fn of(folder: &Path) -> Result<Self, Error> {
         if !folder.exists() {
             return Err(Error::NoFolder { path: folder.to_owned() });

@@ -4,10 +4,10 @@
 
 use cargo_metadata::MetadataCommand;
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-fn root() -> std::path::PathBuf {
+fn root() -> PathBuf {
     MetadataCommand::new().no_deps().exec().unwrap().workspace_root.into()
 }
 
@@ -39,14 +39,15 @@ fn the_program_is_built_from_no_more_packages() {
     check("packages", external.len() as u64);
 }
 
-/// The Rust sources below a folder.
-fn sources(folder: &Path, found: &mut Vec<String>) {
+/// The Rust sources below a folder, with their paths.
+fn sources(folder: &Path, found: &mut Vec<(PathBuf, String)>) {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() && !["target", "node_modules"].iter().any(|name| path.ends_with(name)) {
             sources(&path, found);
         } else if path.extension().is_some_and(|ending| ending == "rs") {
-            found.push(std::fs::read_to_string(path).unwrap());
+            let text = std::fs::read_to_string(&path).unwrap();
+            found.push((path, text));
         }
     }
 }
@@ -56,7 +57,7 @@ fn sources(folder: &Path, found: &mut Vec<String>) {
 fn no_more_lines_are_long_and_no_more_comments_ask() {
     let mut found = Vec::new();
     ["crates", "xtask"].iter().for_each(|folder| sources(&root().join(folder), &mut found));
-    let lines = || found.iter().flat_map(|text| text.lines());
+    let lines = || found.iter().flat_map(|(_, text)| text.lines());
     check("long_lines", lines().filter(|line| line.chars().count() > 140).count() as u64);
     let asks = |line: &&str| {
         let text = line.trim_start();
@@ -64,6 +65,29 @@ fn no_more_lines_are_long_and_no_more_comments_ask() {
         text.is_some_and(|text| ["What ", "Whether ", "How "].iter().any(|word| text.starts_with(word)))
     };
     check("questions", lines().filter(asks).count() as u64);
+}
+
+/// A file that no module names is not compiled: its tests do not run, and nothing says so.
+#[test]
+fn every_source_is_a_module() {
+    let mut found = Vec::new();
+    sources(&root().join("crates"), &mut found);
+    let part = |path: &Path| {
+        let parts = path.ancestors().skip(1);
+        parts
+            .filter(|above| above.ends_with("src") || above.ends_with("tests/all"))
+            .last()
+            .map(Path::to_owned)
+    };
+    let is_named = |path: &Path| {
+        let stem = path.file_stem().unwrap().to_str().unwrap();
+        let above = path.parent().unwrap().file_name().unwrap().to_str().unwrap();
+        let (own, names) = (part(path), format!("mod {};", if stem == "mod" { above } else { stem }));
+        let roots = own.is_none() || ["lib", "main"].contains(&stem);
+        roots || found.iter().any(|(other, text)| part(other) == own && text.contains(&names))
+    };
+    let lost: Vec<&PathBuf> = found.iter().map(|one| &one.0).filter(|path| !is_named(path)).collect();
+    assert!(lost.is_empty(), "not compiled: {lost:#?}");
 }
 
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]

@@ -46,6 +46,7 @@ fn the_zigzag_branch_has_its_symmetry_breakings() {
             "kappa2",
             "error",
             "period",
+            "period_error",
             "criticality",
             "normal_form",
             "coefficient",

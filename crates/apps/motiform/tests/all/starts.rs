@@ -85,7 +85,7 @@ fn steps_sides_and_tolerances_do_not_move_special_points() {
     for options in [
         "--branch-step 0.1",
         "--branch-step 0.3 --first-step 0.1",
-        "--branch-step 0.005 --first-step 0.001",
+        "--branch-step 0.005 --first-step 0.001 --points 5000",
         "--tolerance 1e-13",
         "--tolerance 1e-7",
         "--direction down",

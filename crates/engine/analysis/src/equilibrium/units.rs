@@ -93,8 +93,9 @@ pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
     sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// The size of changes of a shape at which terms of its equations balance, if that is far smaller than the shape: of each equation the median,
-/// and the least of these. `None` where the size of the shape itself is the scale of its changes, as with rotations about the shape 0.
+/// The size of changes of a shape at which terms of its equations balance, if that is far smaller than the shape: of each equation the
+/// median, and the least of these. `None` where the size of the shape itself is the scale of its changes, as with rotations about
+/// the shape 0.
 ///
 /// Where nothing says that the shape 0 is a particular one, the size of a shape is that of an offset, or of a part that does not act on the
 /// others: distances are not small because they are small against it.

@@ -15,8 +15,8 @@ use serde_json::{Map, Value, json};
 /// A place where a branch changes or ends.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpecialEntry {
-    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, `touch`, or the ends `homoclinic`,
-    /// `heteroclinic` and `connection`.
+    /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, `touch`, or the ends
+    /// `homoclinic`, `heteroclinic` and `connection`.
     pub kind: &'static str,
     /// The value of the parameter.
     pub parameter: f64,
