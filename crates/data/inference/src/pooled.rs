@@ -5,8 +5,7 @@ use motiform_dynamics::distributions::{chi_square_tail, student_quantile};
 use nalgebra::{DMatrix, DVector};
 
 /// Mean square of the differences between cells, in units of their errors, up to which they count as alike: estimates from short records
-/// scatter
-/// by some percent more than their errors say.
+/// scatter by some percent more than their errors say.
 const EXCESS: f64 = 1.3;
 
 /// Estimates of several cells together.

@@ -44,9 +44,8 @@ pub struct Statistics {
     /// Why the records are not those of a stationary motion; `None` where nothing says so. Else what is defined for stationary motion alone
     /// is unknown: persistence, diffusion coefficients, correlation times, frequencies. All other numbers are those of the records.
     pub not_stationary: Option<String>,
-    /// Why numbers have no intervals; `None` where they have. Blocks of few bodies that are not long against the memory of the
-    /// motion depend
-    /// on each other, and intervals over them would be too narrow.
+    /// Why numbers have no intervals; `None` where they have. Blocks of few bodies that are not long against the memory of the motion
+    /// depend on each other, and intervals over them would be too narrow.
     pub no_intervals: Option<String>,
     /// Mean speed <|v|>.
     pub mean_speed: Measured,

@@ -17,8 +17,7 @@ const DISTANCES: [f64; 8] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002, 0.00004, 0.0
 const LEANS: [f64; 5] = [0.0, 0.01, -0.01, 0.05, -0.05];
 
 /// Factor by which the branch is examined nearer to its beginning, and the ratios of the two changes of the parameter where it begins: this
-/// one to the power
-/// 1 or 2, within a factor 2.
+/// one to the power 1 or 2, within a factor 2.
 const NEARER: f64 = 8.0;
 const RATIOS: std::ops::RangeInclusive<f64> = 0.5 * NEARER..=2.0 * NEARER * NEARER;
 

@@ -175,9 +175,8 @@ impl Fit {
 
 impl Noise {
     /// Returns `true` if the centre has a noise of its own: its variance is above 0 by so many of its errors that none of a thousand cells
-    /// without one has that by chance. The error of the variance c^2 is 2 c times that of c. Where the factor of the stated errors is at
-    /// a bound
-    /// or not known within a half, the errors of the contour are not told from it.
+    /// without one has that by chance. The error of the variance c^2 is 2 c times that of c. Where the factor of the stated errors is at a
+    /// bound or not known within a half, the errors of the contour are not told from it.
     #[must_use]
     pub fn is_of_centre(&self) -> bool {
         let contour = !self.at_bound[0] && self.s.error < 0.5 * self.s.value;

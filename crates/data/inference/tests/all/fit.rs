@@ -157,9 +157,8 @@ fn timing() {
     println!("seconds: {times:.3?}");
 }
 
-/// Outlines with errors of their vertices alone, whatever their size, have no noise of the centre in any of 30 cells; those that move as
-/// a whole
-/// by three of these errors have it, and its interval holds the truth.
+/// Outlines with errors of their vertices alone, whatever their size, have no noise of the centre in any of 30 cells; those that move as a
+/// whole by three of these errors have it, and its interval holds the truth.
 #[test]
 fn a_noise_of_the_centre_is_stated_where_there_is_one() {
     let term = |equation: usize, c: f64| {

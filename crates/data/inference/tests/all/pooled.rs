@@ -31,8 +31,7 @@ fn cells(truth: impl Fn(usize) -> f64, count: usize, unit: f64, seed: u64) -> Ve
 }
 
 /// The interval over 60 records of 60 frames holds the truth in 95 % of 200 populations; that of the plain mean in none of two: each
-/// estimate
-/// is off by .06, half of its error, and the mean of 60 by four of its own. Cells of one law do not differ; those of two do.
+/// estimate is off by .06, half of its error, and the mean of 60 by four of its own. Cells of one law do not differ; those of two do.
 #[test]
 fn the_bias_of_short_records_is_not_kept() {
     let (mut held, mut plain, mut differ) = (0, 0, 0);

@@ -366,9 +366,8 @@ fn confined(radius: f64, [persistence, speed, error]: [f64; 3], frames: usize, s
     fixes
 }
 
-/// Persistent walks inside a reflecting disc, free ones, and free ones that rest or slow down from the middle on: the first are held
-/// back, of
-/// the second as few as chance makes, and the others are not stationary, whatever their units and axes.
+/// Persistent walks inside a reflecting disc, free ones, and free ones that rest or slow down from the middle on: the first are held back,
+/// of the second as few as chance makes, and the others are not stationary, whatever their units and axes.
 #[test]
 fn walks_that_are_held_or_not_stationary_are_not_described() {
     let count = |is: Misfit, path: &dyn Fn(u64) -> Vec<Fix>| {
@@ -418,9 +417,8 @@ fn one_change_of_the_velocity_is_no_walk() {
     }
 }
 
-/// The share of walks with a spread at least as small as that of the limit, by its closed form and among 4000 sums of independent
-/// numbers: as
-/// the fit of three numbers takes up little of it, the same holds of walks, within a factor of two.
+/// The share of walks with a spread at least as small as that of the limit, by its closed form and among 4000 sums of independent numbers:
+/// as the fit of three numbers takes up little of it, the same holds of walks, within a factor of two.
 #[test]
 fn spreads_have_their_distribution() {
     for (truth, sampling, seen, most) in [

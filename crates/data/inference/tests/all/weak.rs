@@ -70,8 +70,7 @@ fn what_noise_sustains_has_none() {
 }
 
 /// A speed of its own and a heading that noise alone turns, `dz1 = (g - g |z1|^2) z1 dt + eta dW`: on the circle of its speed the law has
-/// no
-/// rate, and what the windows see is noise and errors of the places. No sign is stated, whatever the sampling.
+/// no rate, and what the windows see is noise and errors of the places. No sign is stated, whatever the sampling.
 #[test]
 fn a_velocity_that_noise_alone_turns_has_none() {
     let term = |equation, c: f64, factors: &[i32]| (equation, Complex::new(c, 0.0), factors.to_vec());

@@ -82,9 +82,8 @@ fn a_sum_of_oscillations_is_not_one() {
     assert!(found.frequency.reason().unwrap().starts_with("not as one damped cosine"), "{found:?}");
 }
 
-/// The heading of a velocity whose components are damped oscillations has higher powers of the damped cosine in its
-/// correlation: those decay
-/// sooner, and the time of what is left is that of the components, at any scale of time.
+/// The heading of a velocity whose components are damped oscillations has higher powers of the damped cosine in its correlation: those
+/// decay sooner, and the time of what is left is that of the components, at any scale of time.
 #[test]
 fn the_slowest_of_several_parts_is_in_the_interval_of_the_decay() {
     for scale in [1.0, 40.0] {
@@ -118,9 +117,8 @@ fn the_slowest_of_several_parts_is_in_the_interval_of_the_decay() {
     }
 }
 
-/// A velocity that is the rate of change of a bounded oscillation has the integral 0, however it is sampled: that is
-/// no coarse sampling, and
-/// its frequency and decay are known.
+/// A velocity that is the rate of change of a bounded oscillation has the integral 0, however it is sampled: that is no coarse sampling,
+/// and its frequency and decay are known.
 #[test]
 fn an_integral_of_zero_is_bounded_and_the_oscillation_known() {
     let (friction, samples) = (0.3, 2000);

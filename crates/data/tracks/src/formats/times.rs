@@ -79,8 +79,7 @@ impl Times {
     }
 
     /// Takes the times of an even clock for stamps that are rounded from it: its interval, and the unit of the stamps. `None` where they
-    /// stay as
-    /// they are: without fractions numbers that stand for frames are counts.
+    /// stay as they are: without fractions numbers that stand for frames are counts.
     pub(super) fn even_clock(&mut self) -> Option<[f64; 2]> {
         let (stamps, frames): (Vec<f64>, Option<Vec<f64>>) = if self.framed {
             let both = self.times.iter().filter_map(|(key, time)| Some((*time, *self.values.get(key)?)));

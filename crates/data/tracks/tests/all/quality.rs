@@ -210,8 +210,7 @@ fn clipped_outlines() {
 }
 
 /// A cell that glides into the border of the images, of which a half is left for the second half of the record: its area is cut off, and
-/// steps
-/// to no other level. The same halved in size steps.
+/// steps to no other level. The same halved in size steps.
 #[test]
 fn clipped_areas_do_not_step() {
     let record = |clipped: bool| {

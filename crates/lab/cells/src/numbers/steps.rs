@@ -101,8 +101,7 @@ fn reaching_up(mean: Measured) -> Measured {
 }
 
 /// The mean with an interval that also holds the path over its time, which errors of the times between frames do not change: these raise
-/// the
-/// mean of quotients, and choose the steps of one sampling interval. At even times both are the same.
+/// the mean of quotients, and choose the steps of one sampling interval. At even times both are the same.
 fn holding(mean: Measured, other: f64) -> Measured {
     let wider = |[low, high]: [f64; 2]| {
         if other.is_finite() { [low.min(other), high.max(other)] } else { [low, high] }

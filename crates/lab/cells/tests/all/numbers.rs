@@ -365,8 +365,7 @@ fn a_circle_at_two_rates_has_one_turning_rate() {
 type Change = dyn Fn(&[[f64; 2]], usize) -> [f64; 2];
 
 /// Cells in reflecting squares have no diffusion coefficient, neither each nor together, and the reason says that they are held back; the
-/// same
-/// walkers without walls have one. So are walkers that rest from the middle on without one: the record is not stationary.
+/// same walkers without walls have one. So are walkers that rest from the middle on without one: the record is not stationary.
 #[test]
 fn cells_that_are_held_or_come_to_rest_have_no_diffusion() {
     let walker = Walker { speed: 1.0, persistence: 8.0, shape: Shape::Round, frames: 400, noise: 0.01 };

@@ -316,9 +316,8 @@ fn slow_arcs_are_not_straight() {
     }
 }
 
-/// A zigzag of legs of twelve frames with an ellipse that follows its heading by two frames: played backwards it has the same name, for
-/// the same
-/// reason, whatever its likeness.
+/// A zigzag of legs of twelve frames with an ellipse that follows its heading by two frames: played backwards it has the same name, for the
+/// same reason, whatever its likeness.
 #[test]
 fn a_record_and_the_same_backwards_have_one_name() {
     for (swing, seed) in [(0.8, 1), (0.5, 2), (0.3, 3)] {
