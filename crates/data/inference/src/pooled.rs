@@ -15,7 +15,7 @@ pub struct Pooled {
     pub values: Vec<f64>,
     /// 95 % intervals, of which the units are cells.
     pub intervals: Vec<[f64; 2]>,
-    /// Probability of differences between the cells as large as these where their own variances are at most `EXCESS` less 1
+    /// Probability of differences between the cells as large as these where their own variances are at most .3
     /// of those of the estimates.
     pub p_value: f64,
 }
@@ -24,10 +24,9 @@ pub struct Pooled {
 ///
 /// An estimate from a short record is biased, since its error and its information come from the same record: c_k - c = I_k^-1 s_k with a
 /// score s_k of mean 0, and so is a plain mean of many, whose interval shrinks all the same. The mean of the products `I_k c_k` has no such
-/// part: `A (mean - c) = sum s_k`. It is one step to the estimate of highest likelihood of all records. Errors are those of the `I_k (c_k
-/// - mean)`
-/// over cells. Cells that differ have no common values: `sum (c_k - mean)^T I_k (c_k - mean)` is chi-square where they do not, and up to
-/// `EXCESS` times that for short records.
+/// part: `A (mean - c) = sum s_k`. It is one step to the estimate of highest likelihood of all records. Errors are those of
+/// `I_k (c_k - mean)` over cells. Cells that differ have no common values: `sum (c_k - mean)^T I_k (c_k - mean)` is chi-square where they
+/// do not, and up to 1.3 times that for short records.
 ///
 /// `None` with fewer than two cells, or where a covariance has no inverse.
 ///

@@ -5,6 +5,9 @@ use crate::{Answer, Measured, Walk, four_digits};
 /// Difference of two values, in their half widths together, from which on they are not one number.
 pub(crate) const APART: f64 = 1.25;
 
+/// A relative difference that is none: what the fit's own accuracy is.
+const ROUND: f64 = 0.003;
+
 /// The measured quantities that a persistent random walk must agree with.
 #[derive(Debug, Clone, Copy)]
 pub struct Seen<'a> {
@@ -46,7 +49,7 @@ impl Walk {
         let apart = pairs.into_iter().find_map(|(name, walk, other, what)| {
             let (walk, other) = (walk?, other?);
             let half = libm::hypot(walk.half_width(), other.half_width());
-            ((walk.value - other.value).abs() > APART * half)
+            ((walk.value - other.value).abs() > APART * half + ROUND * other.value)
                 .then(|| (name, four_digits(walk.value), what, four_digits(other.value)))
         });
         let Some((name, value, what, other)) = apart else { return self.reaching(seen) };

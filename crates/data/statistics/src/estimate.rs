@@ -72,7 +72,7 @@ impl Estimate {
     }
 }
 
-/// How many times farther the upper end of a 95 % interval is than that of a normal variable, where only what is below a limit is seen,
+/// Factor by which the upper end of a 95 % interval is farther than that of a normal variable, where only what is below a limit is seen,
 /// so many standard errors above the value.
 ///
 /// The mean m, in standard errors above the value, for which a part 0.025 of what is below the limit is below the value: `P(-m) =

@@ -55,13 +55,13 @@ impl<'b> Begin<'b> {
 
     /// Returns `true` if deviations grow in as many directions as the special point lets expect, and the growths next to the critical ones
     /// are about what they are there: otherwise one of them may have passed 0 in the place of a critical one.
-    fn expects(&self, levels: &[Vec<Level>]) -> bool {
+    fn expects(&self, levels: &[Vec<Level>], noise: f64) -> bool {
         let mut here: Vec<f64> = levels.iter().flatten().map(|level| level.growth).collect();
         here.sort_by(|a, b| b.total_cmp(a));
         let count = here.iter().filter(|growth| **growth > 0.0).count();
         let (above, below) = (*self.growing.start(), *self.growing.end());
         let about = |there: Option<&f64>, here: Option<&f64>| match (there, here) {
-            (Some(there), Some(here)) => ABOUT.contains(&(here / there)),
+            (Some(there), Some(here)) if f64::abs(*there) > noise => ABOUT.contains(&(here / there)),
             _ => true,
         };
         // a direction may have become neutral: those that decay are counted from the other end
@@ -104,23 +104,26 @@ pub(super) fn follow<P: Problem>(
     let direction = direction.as_slice();
     let (low, high) = settings.range;
     let nearest = libm::cbrt(CLEAR * problem.resolution()).min(DISTANCES[3]);
-    let mut farthest = f64::INFINITY;
+    let mut farthest = (0.0, f64::INFINITY);
     let mut doubtful = None;
     // where terms of high order decide the parameter is far from that of the point
     for (lean, distance) in LEANS.into_iter().flat_map(|lean| DISTANCES.map(|distance| (lean, distance))) {
-        if distance > farthest || distance < nearest || lean != 0.0 && doubtful.is_some() {
+        if farthest.0 != lean {
+            farthest = (lean, f64::INFINITY);
+        }
+        if distance > farthest.1 || distance < nearest || lean != 0.0 && doubtful.is_some() {
             continue;
         }
         match Tracer::beside(problem, (origin, direction, distance), lean, settings, watch) {
             Ok(tracer)
                 if (low..=high).contains(&tracer.parameter())
-                    && begin.expects(&tracer.place.levels)
+                    && begin.expects(&tracer.place.levels, tracer.problem().noise(&tracer.place.levels))
                     && is_beginning(&tracer, (origin, direction, distance), settings, watch) =>
             {
                 return Ok(tracer);
             }
             Ok(tracer) => {
-                farthest = distance;
+                farthest = (lean, distance);
                 // one outside of the range is none of this branch
                 doubtful =
                     (low..=high).contains(&tracer.parameter()).then_some((lean, distance)).or(doubtful);

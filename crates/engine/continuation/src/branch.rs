@@ -20,12 +20,14 @@ use motiform_dynamics::{Equivariant, Watch};
 /// use motiform_dynamics::Equivariant;
 /// use motiform_models::zoo::Hopf;
 ///
-/// // z' = (mu + 2i) z - |z|^2 z: the rest loses its stability at mu = 0, and a stable oscillation begins. let family = |mu: f64|
-/// Ok(Box::new(Hopf { mu, omega: 2.0 }) as Box<dyn Equivariant>); let rest = RelativeEquilibrium::find(&Hopf { mu: -0.5, omega: 2.0 },
-/// &[0.1, 0.0]).expect("it is stable"); let mut branch = Branch::of_equilibria(&family, -0.5, &rest, &Settings::over(-0.5, 0.5), &())?; let
-/// special = branch.by_ref().find_map(|point| Some((point.parameter, point.special?))).expect("a Hopf bifurcation");
-/// assert!(special.0.abs() < 1e-8); let Special::Hopf(hopf) = special.1 else { unreachable!() }; assert!((hopf.frequency - 2.0).abs() <
-/// 1e-9 && hopf.is_supercritical() == Some(true));
+/// // z' = (mu + 2i) z - |z|^2 z: the rest loses its stability at mu = 0, and a stable oscillation begins.
+/// let family = |mu: f64| Ok(Box::new(Hopf { mu, omega: 2.0 }) as Box<dyn Equivariant>);
+/// let rest = RelativeEquilibrium::find(&Hopf { mu: -0.5, omega: 2.0 }, &[0.1, 0.0]).expect("it is stable");
+/// let mut branch = Branch::of_equilibria(&family, -0.5, &rest, &Settings::over(-0.5, 0.5), &())?;
+/// let special = branch.by_ref().find_map(|point| Some((point.parameter, point.special?))).expect("a Hopf bifurcation");
+/// assert!(special.0.abs() < 1e-8);
+/// let Special::Hopf(hopf) = special.1 else { unreachable!() };
+/// assert!((hopf.frequency - 2.0).abs() < 1e-9 && hopf.is_supercritical() == Some(true));
 /// # Ok::<(), motiform_analysis::Error>(())
 /// ```
 pub struct Branch<'f> {

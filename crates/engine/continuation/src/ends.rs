@@ -114,8 +114,9 @@ impl<P: Problem> Tracer<P> {
     fn homoclinic(&self, mut found: Connection) -> End {
         let quantity = |rates: &[(f64, f64)]| leading_sides(rates).map(|[grows, decays]| grows.0 + decays.0);
         let there = self.saddle_at(found.parameter).and_then(|saddle| quantity(&saddle.rates));
-        if let (Some(here), Some(there)) = (quantity(&found.rates), there) {
-            found.quantity_change = there - here;
+        if let Some(here) = quantity(&found.rates) {
+            // without a saddle there its sign is not known
+            found.quantity_change = there.map_or(here, |there| there - here);
         }
         End::Homoclinic(Box::new(found))
     }
@@ -234,7 +235,8 @@ impl<P: Problem> Tracer<P> {
             return Err(self.homoclinic(certain));
         }
         if self.is_settled() {
-            return Err(End::Settles { period: time.0 });
+            let motion = self.problem.motion(&self.place.x, &self.place.local, &self.place.levels);
+            return Err(End::Settles { period: motion.orbit().map_or(time.0, |orbit| orbit.period()) });
         }
         if time.0 > self.settings.longest_time {
             return Err(End::PeriodLimit { time: time.0 });

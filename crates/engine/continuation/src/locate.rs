@@ -60,9 +60,13 @@ pub(super) fn locate<P: Problem>(
     }
     without_folds(problem, &mut changes.found);
     name_folds(problem, &mut changes.found);
-    if changes.found.is_empty() {
-        changes.found = touches;
-    }
+    let apart = BESIDE * step.length;
+    let is_new = |at: &Place<P::Local>| {
+        changes.found.iter().all(|(other, _)| (other.arclength - at.arclength).abs() > apart)
+    };
+    touches.retain(|(at, _)| is_new(at));
+    changes.found.append(&mut touches);
+    changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
     Ok(changes)
 }
 
@@ -225,8 +229,8 @@ pub(super) fn kind<P: Problem>(
         Test::Slope if crosses(problem, at) => Special::BranchPoint,
         Test::Slope => Special::Fold,
         Test::Level(class, rank) => {
-            let level = critical(step, at, (class, rank)).unwrap_or(at.levels[class][rank]);
-            problem.classify(&at.x, level, class)
+            let none = Level { growth: f64::NAN, angle: 0.0 }; // a place with fewer levels: that of a real one
+            problem.classify(&at.x, critical(step, at, (class, rank)).unwrap_or(none), class)
         }
     }
 }

@@ -41,7 +41,7 @@ pub(super) struct Orbits<'f> {
     pub(super) family: Vec<Border>,
     /// The round-off of the equations, in the units of size and rate.
     pub(super) round_off: f64,
-    /// What an orbit is known to less than one whose size is that of its shapes: by an offset, and by the round-off over its time.
+    /// Factor by which an offset makes an orbit less exact, and what the round-off over its time adds.
     pub(super) offset: f64,
     pub(super) drift: f64,
 }

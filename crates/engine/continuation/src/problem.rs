@@ -32,7 +32,7 @@ pub(super) struct Linear {
     pub(super) residual: Vec<f64>,
     /// Their derivatives: one row fewer than unknowns (two fewer over two parameters).
     pub(super) matrix: DMatrix<f64>,
-    /// What holds the directions along a family of solutions, one for each of its dimensions.
+    /// The borders that hold the directions along a family of solutions, one for each of its dimensions.
     pub(super) family: Vec<Border>,
 }
 

@@ -2,6 +2,7 @@
 
 use super::between::{Step, between};
 use super::brackets::{Signs, Test};
+use super::correct::TIGHT;
 use super::levels::unclear;
 use super::locate::kind;
 use super::place::Place;
@@ -20,7 +21,10 @@ pub(super) fn touching<P: Problem>(
     let found = first.and_then(|&(s, test)| {
         let at = between(problem, step, s, watch).ok()?;
         let seen = kind(problem, step, &at, test).name();
-        let within = width(problem, step, (&at, s), test) * at.slope().abs();
+        let slopes = [step.old.slope(), at.slope(), step.new.slope()].map(f64::abs);
+        let parameter = problem.weights(&at.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
+        let within = width(problem, step, (&at, s), test) * slopes.into_iter().fold(0.0, f64::max)
+            + problem.accuracy().max(TIGHT) * parameter;
         Some((at, Special::Touch { seen, within }))
     });
     found.into_iter().collect()

@@ -60,7 +60,7 @@ impl Display for Misfit {
             Self::Unsteady => {
                 "the record is not stationary: the changes of the velocity have another size in one part of it than in another"
             }
-            Self::Rare => "the velocity changes in a few steps alone, which determine neither number",
+            Self::Rare => "the velocity changes in a few steps alone: too few to determine persistence and diffusion",
         })
     }
 }

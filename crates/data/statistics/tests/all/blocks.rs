@@ -27,7 +27,7 @@ fn switch(time: f64, dt: f64, samples: usize, normal: &mut Normal) -> Track {
     track
 }
 
-/// How many data sets have an interval, and how many of these hold the exact value.
+/// Number of data sets with an interval, and of those of them that hold the exact value.
 fn counts(tracks: impl Fn(u64) -> Tracks, of: impl Fn(&Statistics) -> Measured, exact: f64) -> [usize; 2] {
     let mut counts = [0; 2];
     for seed in 0..SETS {

@@ -119,7 +119,7 @@ impl Measures {
         let (turning, spread) = (mean(blocks.iter().copied()), scatter(&blocks));
         // the part of the errors of two headings, which are those of their displacements
         let size = ((headings.len() - 1) / BLOCKS).max(1) as f64 * dt;
-        let own = noise / (square - noise).max(f64::MIN_POSITIVE) / (size * size);
+        let own = if square > noise { noise / (square - noise) / (size * size) } else { 0.0 };
         let ends = [frames.first()?, frames.last()?];
         let net = libm::hypot(ends[1].y[0] - ends[0].y[0], ends[1].y[1] - ends[0].y[1]);
         let length: f64 = sizes.iter().step_by(lag).sum();

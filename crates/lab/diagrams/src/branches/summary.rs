@@ -170,7 +170,7 @@ impl Branches {
             if ends { Origin::Meets { branch, leg } } else { Origin::Special { branch, leg, point } };
         let there = self.links.iter().filter(|link| link.origin == origin).filter_map(|link| link.branch);
         let mut there: Vec<usize> = there.collect();
-        if there.len() > 1 {
+        if there.len() > 1 || sample.point.critical > 1 || matches!(special, Special::Touch { .. }) {
             there.retain(|next| *next != branch); // where all branches are looked for its own is found as well
         }
         let next = || self.criticality((branch, leg, point), &there, origin);
@@ -256,7 +256,7 @@ fn doubt(point: &Point) -> Option<String> {
                 ""
             };
             Some(format!(
-                "a growth comes to 0 and back: two of the kind {seen} within {within:.1e}, or a crossing of both{rest}"
+                "a growth comes to 0 and back: either two special points of the kind {seen}, closer than {within:.1e} in the parameter, or a crossing of branches{rest}"
             ))
         }
         Special::BranchPoint | Special::Pitchfork { .. }
@@ -283,10 +283,7 @@ fn judged(point: &Point, next: impl Fn() -> Option<&'static str>) -> (Option<&'s
     }
     let form = normal_form(point).map(|form| form.1);
     let silent = match point.special {
-        None
-        | Some(Special::Fold | Special::Continuum | Special::Unresolved { .. } | Special::Touch { .. }) => {
-            true
-        }
+        None | Some(Special::Fold | Special::Continuum | Special::Unresolved { .. }) => true,
         Some(Special::BranchPoint) => !point.is_unstated_pitchfork(),
         _ => false,
     };
