@@ -20,9 +20,9 @@ impl Level {
     }
 }
 
-/// The levels without those along a family of solutions of this dimension: they are real, and 0.
+/// The levels without those along a family of solutions of this dimension: they are 0.
 pub(super) fn across_family(mut levels: Vec<Vec<Level>>, dimension: usize) -> Vec<Vec<Level>> {
-    let size = |level: &Level| if level.angle == 0.0 { level.growth.abs() } else { f64::INFINITY };
+    let size = |level: &Level| libm::hypot(level.growth, level.angle);
     for _ in 0..dimension {
         let all = levels.iter().enumerate();
         let all = all.flat_map(|(class, own)| {
