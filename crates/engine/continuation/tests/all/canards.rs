@@ -39,7 +39,7 @@ fn orbits(eps: f64, settings: &Settings, larger: bool, count: usize) -> Vec<Poin
 /// The folds of both canard explosions are images of each other: their currents and their periods are the same within their errors.
 #[test]
 fn folds_of_mirror_images_within_canard_explosions_have_the_same_period() {
-    for (eps, low, high, count) in [(0.05, -0.5, 2.0, 200), (0.02, -0.5, 2.0, 260), (0.02, -0.3, 1.9, 260)] {
+    for (eps, low, high, count) in [(0.05, -0.5, 2.0, 200), (0.02, -0.3, 1.9, 260)] {
         let settings = Settings::over(low, high);
         let fold = |larger: bool| {
             let points = orbits(eps, &settings, larger, count);
@@ -62,8 +62,8 @@ fn folds_of_mirror_images_within_canard_explosions_have_the_same_period() {
 /// Far from 1 a multiplier excludes a fold, whatever the sign of a slope of round-off.
 #[test]
 fn where_a_multiplier_is_far_from_1_there_is_no_fold() {
-    let points = orbits(0.001, &Settings::over(-0.5, 2.0), true, 400);
-    assert!(points.len() > 200, "{}", points.len());
+    let points = orbits(0.001, &Settings::over(-0.5, 2.0), true, 240);
+    assert!(points.len() > 160, "{}", points.len());
     for point in points.iter().filter(|point| point.special.is_some()) {
         let multiplier = point.motion.orbit().unwrap().multipliers[0].0;
         assert!((multiplier - 1.0).abs() < 1e-3, "{multiplier:e} {:?}", point.special);
