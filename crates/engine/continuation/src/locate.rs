@@ -60,13 +60,10 @@ pub(super) fn locate<P: Problem>(
     }
     without_folds(problem, &mut changes.found);
     name_folds(problem, &mut changes.found);
-    let apart = BESIDE * step.length;
-    let is_new = |at: &Place<P::Local>| {
-        changes.found.iter().all(|(other, _)| (other.arclength - at.arclength).abs() > apart)
-    };
-    touches.retain(|(at, _)| is_new(at));
-    changes.found.append(&mut touches);
-    changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
+    // beside a special point a growth may come to 0 because of it
+    if changes.found.is_empty() {
+        changes.found = touches;
+    }
     Ok(changes)
 }
 

@@ -292,8 +292,7 @@ impl<P: Problem> Tracer<P> {
             let apart: Vec<f64> = x.iter().zip(&at.x).map(|(a, b)| a - b).collect();
             x.len() == at.x.len() && product(&weights, &apart, &apart).sqrt() < NEXT_TO * length
         };
-        let Special::Touch { seen, .. } = special else { return false };
-        self.passed.iter().any(|one| [seen, special.name()].contains(&one.2) && near(&one.0))
+        matches!(special, Special::Touch { .. }) && self.passed.iter().any(|one| near(&one.0))
     }
 
     /// The special points of a step to `new`, and between two of them a point that is none: it says how many deviations grow there.

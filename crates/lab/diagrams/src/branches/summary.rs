@@ -256,7 +256,8 @@ fn doubt(point: &Point) -> Option<String> {
                 ""
             };
             Some(format!(
-                "a growth comes to 0 and back: either two special points of the kind {seen}, closer than {within:.1e} in the parameter, or a crossing of branches{rest}"
+                "a growth comes to 0 and back: either two special points of the kind {seen}, closer than {within:.1e} in the parameter, \
+                 or a crossing of branches{rest}"
             ))
         }
         Special::BranchPoint | Special::Pitchfork { .. }
