@@ -16,9 +16,9 @@ use super::point::End;
 use super::problem::Problem;
 use super::special::Special;
 use super::tracer::Tracer;
-use motiform_analysis::Isotropy;
 use motiform_analysis::equilibrium::prefix;
 use motiform_analysis::linear::dot;
+use motiform_analysis::{Isotropy, PeriodicOrbit};
 use motiform_dynamics::Watch;
 
 /// Least part of a shape by which a motion differs from the start of a branch.
@@ -236,7 +236,7 @@ impl<P: Problem> Tracer<P> {
         }
         if self.is_settled() {
             let motion = self.problem.motion(&self.place.x, &self.place.local, &self.place.levels);
-            return Err(End::Settles { period: motion.orbit().map_or(time.0, |orbit| orbit.period()) });
+            return Err(End::Settles { period: motion.orbit().map_or(time.0, PeriodicOrbit::period) });
         }
         if time.0 > self.settings.longest_time {
             return Err(End::PeriodLimit { time: time.0 });
