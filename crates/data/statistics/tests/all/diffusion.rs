@@ -179,7 +179,8 @@ fn a_velocity_that_all_bodies_share_is_named() {
     }
 }
 
-/// Two intervals of one number are not apart: a walk that differs from what is seen is none, or its interval says so.
+/// Two intervals of one number are not apart: a walk that differs from what is seen, by more than the accuracy of its fit (.3 %), is none,
+/// or its interval says so.
 #[test]
 fn numbers_of_a_walk_reach_what_is_seen() {
     let measured = |value: f64, half: f64| Measured { value, interval: Some([value - half, value + half]) };
@@ -196,7 +197,7 @@ fn numbers_of_a_walk_reach_what_is_seen() {
             assert!(walk.speed.known().is_none_or(|found| !apart(found)), "{step}: {walk:?}");
             assert_eq!(
                 walk.speed.known().is_some(),
-                f64::from(step) * 0.0005 < 1.25 * 0.0044_f64.hypot(0.0009),
+                f64::from(step) * 0.0005 < 1.25 * 0.0044_f64.hypot(0.0009) + 0.003,
                 "{step}"
             );
         }
