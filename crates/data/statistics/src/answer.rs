@@ -94,7 +94,7 @@ impl Answer {
         }
     }
 
-    /// The same with this reason in place of one that a longer record would remove.
+    /// The answer; where it is unknown because the record is too short, this reason replaces the advice to record longer.
     pub(crate) fn unreachable_since(self, why: &str) -> Self {
         match self {
             Self::Unknown { reason } if reason.starts_with("not reached") => Self::unknown(why),

@@ -91,6 +91,12 @@ pub(super) fn directions(linear: &Linear, weights: &[f64]) -> Vec<Vec<f64>> {
     seen(linear, weights).into_iter().map(|one| one.1).collect()
 }
 
+/// The distance of two places in the units of their unknowns.
+pub(super) fn distance(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    let apart: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+    product(weights, &apart, &apart).sqrt()
+}
+
 /// Directions that the equations do not see where branches cross, at least two beside those of a family; empty where one branch is alone.
 pub(super) fn crossing<P: Equations>(problem: &P, local: &P::Local, weights: &[f64]) -> Vec<Vec<f64>> {
     let found = unseen(problem, local, weights);

@@ -1,7 +1,7 @@
 //! Families of solutions with one value of the parameter, along which a branch does not move.
 
 use super::correct::{Corrected, TIGHT, correct, normal, product, scaled, seen, unseen};
-use super::levels::{CLEAR, Level};
+use super::levels::{CLEAR, zeros};
 use super::problem::{Border, Problem};
 use super::tracer::Tracer;
 use motiform_analysis::linear::{add, norm};
@@ -134,12 +134,6 @@ pub(super) fn holds<P: Problem>(problem: &P, found: &Corrected<P::Local>, tolera
     problem.family() == 0 || norm(&problem.linear(&found.local).residual) < SOLVED * tolerance
 }
 
-/// Number of levels that are 0 within their error.
-fn count_neutral<P: Problem>(problem: &P, levels: &[Vec<Level>]) -> usize {
-    let least = CLEAR * problem.noise(levels);
-    levels.iter().flatten().filter(|level| level.growth.abs() < least).count()
-}
-
 impl<P: Problem> Tracer<P> {
     /// Looks for a family of solutions with the value of the parameter, of which the present one is a member, and which goes on along the
     /// branch: one step ahead there must be another one of the same dimension. (At a bifurcation there may be one for one value.)
@@ -147,7 +141,7 @@ impl<P: Problem> Tracer<P> {
     pub(super) fn find_family(&mut self) {
         let dimension = self.problem.family();
         // levels are those of the last but one solution of Newton's method
-        if dimension == 0 && count_neutral(&self.problem, &self.place.levels) == 0 {
+        if dimension == 0 && zeros(&self.problem, &self.place.levels, CLEAR) == 0 {
             return;
         }
         let course = self.place.tangent.clone();
@@ -174,7 +168,7 @@ impl<P: Problem> Tracer<P> {
         self.problem.set_family(Vec::new());
         let all =
             self.problem.local(&ahead.x, &()).ok().and_then(|local| self.problem.levels(&ahead.x, &local));
-        let neutral = all.is_some_and(|levels| count_neutral(&self.problem, &levels) >= dimension);
+        let neutral = all.is_some_and(|levels| zeros(&self.problem, &levels, CLEAR) >= dimension);
         self.problem.set_family(here);
         same && neutral
     }

@@ -48,6 +48,12 @@ pub(super) fn unclear<P: Problem>(problem: &P, levels: &[Vec<Level>]) -> f64 {
     SIGN * problem.noise(levels).max(problem.unclear(levels, TIGHT))
 }
 
+/// Number of levels that are 0 within so many of their errors.
+pub(super) fn zeros<P: Problem>(problem: &P, levels: &[Vec<Level>], errors: f64) -> usize {
+    let least = errors * problem.noise(levels);
+    levels.iter().flatten().filter(|level| level.growth.abs() < least).count()
+}
+
 /// Number of levels that may be 0, a pair counted once: of eigenvalues, or of multipliers (`orbits`).
 pub(super) fn vanishing(levels: &[Vec<Level>], (within, orbits): (f64, bool)) -> usize {
     let real = |level: &Level| level.angle == 0.0 || orbits && level.angle.abs() == PI;

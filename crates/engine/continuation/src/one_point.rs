@@ -2,7 +2,7 @@
 
 use super::between::Step;
 use super::brackets::Test;
-use super::correct::product;
+use super::correct::distance;
 use super::levels::unclear;
 use super::locate::value;
 use super::place::Place;
@@ -22,9 +22,7 @@ pub(super) fn is_known<P: Problem>(
 ) -> bool {
     let weights = problem.weights(&at.x);
     let is_near = |other: &Place<P::Local>| {
-        let between: Vec<f64> = other.x.iter().zip(&at.x).map(|(a, b)| a - b).collect();
-        let apart = product(&weights, &between, &between).sqrt();
-        apart.min((other.arclength - at.arclength).abs()) < ONE * step.length
+        distance(&weights, &other.x, &at.x).min((other.arclength - at.arclength).abs()) < ONE * step.length
     };
     let vanishes = |other: &Place<P::Local>| {
         let here = value(step, at, test).abs();

@@ -1,9 +1,9 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
 use super::between::{Step, between};
-use super::correct::{correct, directions, normal, product, scaled};
+use super::correct::{correct, directions, distance, normal, product, scaled};
 use super::families::border_at_start;
-use super::levels::unstable;
+use super::levels::{unstable, zeros};
 use super::locate::{Changes, locate};
 use super::periods::Periods;
 use super::place::{Before, Place, place};
@@ -70,8 +70,7 @@ pub(super) struct Tracer<P: Problem> {
 
 /// Number of levels that are 0 within their error.
 pub(super) fn neutral<P: Problem>(problem: &P, place: &Place<P::Local>) -> usize {
-    let error = NEUTRAL * problem.noise(&place.levels);
-    place.levels.iter().flatten().filter(|level| level.growth.abs() < error).count()
+    zeros(problem, &place.levels, NEUTRAL)
 }
 
 impl<P: Problem> Tracer<P> {
@@ -276,11 +275,10 @@ impl<P: Problem> Tracer<P> {
     fn has_passed(&self, at: &Place<P::Local>, special: Special) -> bool {
         let weights = self.problem.weights(&at.x);
         self.passed.iter().any(|(x, tangent, name, count)| {
-            let apart: Vec<f64> = x.iter().zip(&at.x).map(|(a, b)| a - b).collect();
             *name == special.name()
                 && self.count >= count + 2 // at the end of a step a point may be found twice
                 && x.len() == at.x.len()
-                && product(&weights, &apart, &apart).sqrt() < AGAIN
+                && distance(&weights, x, &at.x) < AGAIN
                 && product(&weights, tangent, &at.tangent) > 0.0
         })
     }
@@ -288,10 +286,7 @@ impl<P: Problem> Tracer<P> {
     /// Returns `true` if a place where a level touches 0 belongs to a special point that was handed out.
     fn has_touched(&self, at: &Place<P::Local>, special: Special, length: f64) -> bool {
         let weights = self.problem.weights(&at.x);
-        let near = |x: &[f64]| {
-            let apart: Vec<f64> = x.iter().zip(&at.x).map(|(a, b)| a - b).collect();
-            x.len() == at.x.len() && product(&weights, &apart, &apart).sqrt() < NEXT_TO * length
-        };
+        let near = |x: &[f64]| x.len() == at.x.len() && distance(&weights, x, &at.x) < NEXT_TO * length;
         matches!(special, Special::Touch { .. }) && self.passed.iter().any(|one| near(&one.0))
     }
 

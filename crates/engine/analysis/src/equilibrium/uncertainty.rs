@@ -98,8 +98,8 @@ impl RelativeEquilibrium {
     }
 }
 
-/// The rounding of each rate `f - omega Gu` of a shape and of some beside it: what is left of terms that cancel. (At a shape whose
-/// entries are short numbers they may cancel exactly.)
+/// The rounding error of each rate `f - omega Gu`: the largest one at a shape and at some shapes near it. (At a shape whose entries are
+/// short numbers the terms may cancel exactly.)
 #[must_use]
 pub fn round_off(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
     let mut most = rounding_of(body, (shape, omega), &linearisation(body, shape, omega));
@@ -112,7 +112,7 @@ pub fn round_off(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> 
     most
 }
 
-/// Relative distance of those beside it.
+/// Relative distance of the shapes near it.
 const BESIDE: f64 = 1e-7;
 
 /// Relative changes of a shape under which its residual changes by its derivatives, and by rounding.

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+use super::normal_forms::Lorenz;
 use crate::common::near;
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
@@ -162,9 +163,7 @@ impl<T: Scalar> VectorField<T> for Rossler {
     }
 }
 
-/// As the circuit of Chua below, in half a minute: periods are long, and the folds far apart.
 #[test]
-#[ignore = "half a minute; every push has the saddle-focus of Chua's circuit"]
 fn a_branch_of_rosslers_equations_ends_at_its_saddle_focus() {
     let family = |c: f64| -> Body { Ok(Box::new(Rossler(c))) };
     // of four turns, stable between two period doublings
@@ -414,19 +413,8 @@ fn period(point: &Point) -> f64 {
     point.motion.orbit().unwrap().period()
 }
 
-/// Lorenz's equations along r; the saddle at the origin has the leading eigenvalue -8/3.
-struct Lorenz(f64);
-motiform_models::plain!(Lorenz, 3);
-impl<T: Scalar> VectorField<T> for Lorenz {
-    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
-        let (x, y, z) = (u[0], u[1], u[2]);
-        du[0] = (y - x) * 10.0;
-        du[1] = x * self.0 - y - x * z;
-        du[2] = x * y - z * (8.0 / 3.0);
-    }
-}
-
-/// Mirror images that the equations do not state, and other steps: their laws agree within their errors, which hold the saddle's rate.
+/// Lorenz's equations, whose saddle at the origin has the leading eigenvalue -8/3. Mirror images that they do not state, and other steps:
+/// their laws agree within their errors, which hold the saddle's rate.
 #[test]
 fn the_law_of_a_connection_is_as_good_as_its_error() {
     let family = |r: f64| -> Body { Ok(Box::new(Lorenz(r))) };

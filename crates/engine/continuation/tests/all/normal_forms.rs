@@ -87,7 +87,7 @@ impl<T: Scalar> VectorField<T> for VanDerPol {
 }
 
 /// The Lorenz equations with Prandtl number 10 and geometry 8/3.
-struct Lorenz(f64);
+pub(super) struct Lorenz(pub(super) f64);
 motiform_models::plain!(Lorenz, 3);
 impl<T: Scalar> VectorField<T> for Lorenz {
     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {

@@ -203,7 +203,7 @@ impl Branches {
     /// Why no branch was found at a point beside which one was looked for.
     fn without(&self, origin: Origin, nothing: bool) -> Option<String> {
         let link = self.links.iter().find(|link| nothing && link.origin == origin)?;
-        Some(link.why.clone().unwrap_or_else(|| "none is found beside it".to_owned()))
+        Some(link.why.clone().unwrap_or_else(|| "Newton's method finds none near this point".to_owned()))
     }
 
     /// Criticality: the branch that begins at a point is stable in the critical direction, or not.
