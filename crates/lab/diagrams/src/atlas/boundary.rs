@@ -9,8 +9,8 @@ use motiform_study::curves::CurveKind;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The first period doubling of a cascade explains an edge beside chaos that it passes within so many cells.
-const REACH_OF_CASCADES: f64 = 1.0;
+/// A curve explains an edge that it passes within so many cells: a motion may go on into a cell whose few initial states missed it.
+const REACH: f64 = 1.0;
 
 /// Part of the distance between two cells by which the place where a curve passes between them may be off.
 const OFF: f64 = 0.02;
@@ -57,14 +57,16 @@ impl Edge {
         self.middle(grid).map(|half| 0.5 * half as f64)
     }
 
-    /// Returns `true` if a curve passes between the two cells.
-    fn is_passed(self, grid: &Grid, points: &[[f64; 2]]) -> bool {
+    /// Returns `true` if a curve that bounds a motion passes between the two cells, or a little beyond the one that lacks the motion
+    /// (the second one, or the first one). What is beyond the other cell bounds the motion on its other side.
+    fn is_passed(self, grid: &Grid, points: &[[f64; 2]], second_lacks: bool) -> bool {
         let [along, across] = [self.side, 1 - self.side];
         let centre = self.centre(grid);
         points.windows(2).any(|pair| {
             let [from, to] = [0, 1].map(|end| [along, across].map(|side| pair[end][side] - centre[side]));
             let part = from[1] / (from[1] - to[1]);
-            (0.0..=1.0).contains(&part) && (from[0] + part * (to[0] - from[0])).abs() <= 0.5 + OFF
+            let at = (from[0] + part * (to[0] - from[0])) * if second_lacks { 1.0 } else { -1.0 };
+            (0.0..=1.0).contains(&part) && (-0.5 - OFF..=REACH).contains(&at)
         })
     }
 
@@ -162,8 +164,10 @@ impl Atlas {
         let curves = self.stretches.iter().filter(|stretch| own(&stretch.motion)).filter_map(|stretch| {
             let off = stretch.points.windows(2).map(|pair| distance(at, [pair[0], pair[1]]));
             let off = off.fold(f64::INFINITY, f64::min);
-            let begins_chaos = chaos && stretch.doubles && off <= REACH_OF_CASCADES;
-            (begins_chaos || edge.is_passed(grid, &stretch.points)).then_some((off, stretch.label.as_str()))
+            let begins_chaos = chaos && stretch.doubles && off <= REACH;
+            let second_lacks = labels[edge.cells[0]].contains(&stretch.motion);
+            (begins_chaos || edge.is_passed(grid, &stretch.points, second_lacks))
+                .then_some((off, stretch.label.as_str()))
         });
         let ends =
             self.ends.iter().filter(|end| own(&end.0)).map(|end| (distance(at, [end.2; 2]), end.1.as_str()));
@@ -320,7 +324,8 @@ mod tests {
             assert_eq!(name(vec![known(1.3, "doubling")], row), None);
             assert_eq!(name(vec![known(1.3, "doubling"), known(0.9, "breaking")], row).unwrap(), "breaking");
             assert_eq!(name(vec![known(0.1, "breaking")], row).unwrap(), "breaking");
-            assert_eq!(name(vec![known(-0.1, "breaking")], row), None);
+            assert_eq!(name(vec![known(-0.1, "breaking")], row).unwrap(), "breaking");
+            assert_eq!(name(vec![known(-0.7, "breaking")], row), None);
         }
     }
 
