@@ -1,11 +1,11 @@
 //! The folder of a dataset: `manifest.json`, `trajectory.*`, `crossings.*`, and figures.
 
+use crate::readings::{CROSSING, columns};
 use motiform_store::{
     Fields, Format, Staged, Table, mend, read_table, table_metadata, write_fields, write_table,
 };
 use motiform_study::dataset::{Dataset, Manifest};
 use motiform_study::plan::pretty;
-use motiform_study::quantity::state::{RISING, SPEED, T, TURNING_RATE, X, Y};
 use motiform_study::{Error, input};
 use std::path::{Path, PathBuf};
 
@@ -75,15 +75,14 @@ pub fn read_dataset_by(
     let model = manifest.plan.body().map_err(|error| Error::unreadable(&path, error))?;
     let path = trajectory_path(folder)?;
     let trajectory = read(&mut manifest, &path)?;
-    let observables = model.observables().iter().map(|observable| observable.name);
-    let coordinates = model.coordinates().iter().map(|coordinate| coordinate.name);
-    let derived = [&T, &X, &Y, &SPEED, &TURNING_RATE].map(|quantity| quantity.name).into_iter();
-    require(&trajectory, &path, derived.chain(coordinates).chain(observables))?;
+    let columns = columns(model.as_ref()).columns;
+    let required = &columns[..columns.len() - model.measures().len()]; // measures are last, and may be missing
+    require(&trajectory, &path, required.iter().map(|column| &*column.name))?;
     let Some(path) = table_path(folder, "crossings") else {
         return Ok(Dataset { manifest, trajectory, crossings: None });
     };
     let crossings = read_table(&path)?;
-    require(&crossings, &path, [&T, &X, &Y, &RISING].map(|quantity| quantity.name))?;
+    require(&crossings, &path, CROSSING.map(|quantity| quantity.name))?;
     Ok(Dataset { manifest, trajectory, crossings: Some(crossings) })
 }
 
@@ -97,7 +96,7 @@ pub fn read_table_file(path: &Path) -> Result<(Table, Option<Manifest>), Error> 
 }
 
 /// Rejects a table without one of the columns `names`.
-fn require(table: &Table, path: &Path, names: impl IntoIterator<Item = &'static str>) -> Result<(), Error> {
+fn require<'n>(table: &Table, path: &Path, names: impl IntoIterator<Item = &'n str>) -> Result<(), Error> {
     match names.into_iter().find(|name| table.get(name).is_none()) {
         Some(missing) => Err(Error::unreadable(path, format!("it has no column {missing}"))),
         None => Ok(()),

@@ -3,10 +3,19 @@
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
 use motiform_dynamics::{Model, Trajectory};
 use motiform_store::table::{Column, Table};
-use motiform_study::Dimension;
 use motiform_study::plan::{Computation, Named};
-use motiform_study::quantity::state::{RISING, SPEED, T, TURNING_RATE, X, Y};
+use motiform_study::quantity::state::{self, RISING, SPEED, T, TURNING_RATE, X, Y};
 use motiform_study::study::ReturnMapSettings;
+use motiform_study::{Dimension, Quantity};
+
+/// The columns before the coordinates of the shape.
+const PLACE: [&Quantity; 3] = [&T, &X, &Y];
+
+/// The columns after the coordinates of the shape; [`pace`] computes their values.
+const PACE: [&Quantity; 2] = [&SPEED, &TURNING_RATE];
+
+/// The columns of a table of crossings.
+pub(crate) const CROSSING: [&Quantity; 4] = [&T, &X, &Y, &RISING];
 
 /// The trajectory as a table, with derived quantities.
 pub(crate) fn motion(model: &dyn Model, trajectory: &Trajectory, c: &Computation) -> Table {
@@ -24,7 +33,7 @@ pub(crate) fn columns(model: &dyn Model) -> Table {
     let coordinates =
         model.coordinates().iter().map(|coordinate| column(coordinate.name, coordinate.meaning));
     let observed = model.observables().iter().chain(model.measures());
-    let all = [&T, &X, &Y].map(of).into_iter().chain(coordinates).chain([&SPEED, &TURNING_RATE].map(of));
+    let all = PLACE.map(of).into_iter().chain(coordinates).chain(PACE.map(of));
     Table { columns: all.chain(observed.map(|observed| column(observed.name, observed.meaning))).collect() }
 }
 
@@ -32,7 +41,7 @@ pub(crate) fn columns(model: &dyn Model) -> Table {
 /// its size.
 #[must_use]
 pub fn dimension(model: &dyn Model, column: &str) -> Dimension {
-    if let Some(known) = [&T, &X, &Y, &SPEED, &TURNING_RATE].into_iter().find(|known| known.name == column) {
+    if let Some(known) = state::ALL.iter().find(|known| known.name == column) {
         return known.dimension;
     }
     if let Some(seen) = model.observables().iter().chain(model.measures()).find(|known| known.name == column)
@@ -75,7 +84,7 @@ impl<'m> Readings<'m> {
         self.model.decode(shape, &mut self.named);
         self.model.observe(shape, &mut self.seen);
         self.model.measure(shape, &mut self.boundary);
-        let (speed, rate) = pace(self.model, shape, self.atol);
+        let [speed, rate] = pace(self.model, shape, self.atol);
         let pace = [speed, if self.turns { rate } else { f64::NAN }];
         let values = [t].into_iter().chain(position.iter().copied()).chain(self.named.iter().copied());
         let values = values.chain(pace).chain(self.seen.iter().copied()).chain(self.boundary.iter().copied());
@@ -84,11 +93,11 @@ impl<'m> Readings<'m> {
 }
 
 /// Speed and turning rate of a shape; the latter is NaN at rest: below what a run with absolute tolerance `atol` resolves.
-pub(crate) fn pace(model: &dyn Model, shape: &[f64], atol: f64) -> (f64, f64) {
+pub(crate) fn pace(model: &dyn Model, shape: &[f64], atol: f64) -> [f64; PACE.len()] {
     let (v, a) = velocity_and_acceleration(model, shape);
     let speed = libm::hypot(v[0], v[1]);
     let moves = speed > model.speed_resolution(shape, atol);
-    (speed, turning_rate(v, a).filter(|_| moves).unwrap_or(f64::NAN))
+    [speed, turning_rate(v, a).filter(|_| moves).unwrap_or(f64::NAN)]
 }
 
 /// The measures of a shape that are defined, by name.
@@ -107,7 +116,7 @@ pub(crate) struct Crossings {
 
 impl Crossings {
     pub(crate) fn new(map: &ReturnMapSettings) -> Self {
-        let table = Table::of(&[&T, &X, &Y, &RISING], vec![Vec::new(); 4]);
+        let table = Table::of(&CROSSING, vec![Vec::new(); CROSSING.len()]);
         Self { span: [map.x_min, map.x_max], table }
     }
 

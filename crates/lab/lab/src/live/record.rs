@@ -68,7 +68,7 @@ impl Record {
         }
         self.numbers.extend_from_slice(sample);
         let shape = &sample[1..self.state - 1];
-        let (speed, turning) = pace(model, shape, self.atol);
+        let [speed, turning, ..] = pace(model, shape, self.atol);
         self.numbers.extend([speed, turning]);
         let observed = self.numbers.len();
         self.numbers.resize(observed + self.read - 2, f64::NAN);
