@@ -69,8 +69,7 @@ pub struct FigureFormat {
     pub units: Shown,
 }
 
-/// Draws every figure of a dataset: `path`, `series`, and if the model or the plan has them `return-map`, `phi` and
-/// `spectrum` (as SVG and PNG, and PDF if requested), and the animation `motion.png`.
+/// Draws every figure that a dataset has (as SVG and PNG, and PDF if requested), and the animation `motion.png`.
 ///
 /// A dataset whose shown window has fewer than two rows gives no pictures.
 ///
@@ -116,20 +115,16 @@ pub fn drawn(dataset: &Dataset, style: &Style) -> Result<Vec<(&'static str, Draw
     dataset_figures(dataset)?.into_iter().map(draw).collect()
 }
 
-/// One still figure of a dataset as SVG: `path` or `series`; `None` for other names, and with fewer than two rows.
+/// One still figure of a dataset as SVG, by the name of its file; `None` for other names, for a figure that the dataset does not have,
+/// and with fewer than two rows.
 ///
 /// # Errors
 /// As [`draw`].
 pub fn still(dataset: &Dataset, name: &str) -> Result<Option<String>, Error> {
     let body = Body::new(dataset)?;
-    if body.rows().len() < 2 {
-        return Ok(None);
-    }
-    Ok(match name {
-        "path" => Some(path::figure(&body).svg().map_err(undrawable)?),
-        "series" => Some(series::figure(&body).svg().map_err(undrawable)?),
-        _ => None,
-    })
+    let known = FIGURES.iter().find(|known| known.0 == name && body.rows().len() >= 2);
+    let figure = known.and_then(|(_, figure)| figure(&body));
+    figure.map(|figure| Ok(sheet(figure.as_ref())?.svg)).transpose()
 }
 
 /// The animation of a dataset as an animated PNG; `None` with fewer than two rows.
@@ -141,13 +136,20 @@ pub fn film(dataset: &Dataset) -> Result<Option<Vec<u8>>, Error> {
     Ok(if body.rows().len() < 2 { None } else { Some(film::animation(&body).apng().map_err(undrawable)?) })
 }
 
+/// A figure of a body; `None` if its model or its plan does not have it.
+type Still = fn(&Body<'_>) -> Option<Box<dyn Figure>>;
+
+/// The still figures of a dataset by the names of their files, in their order.
+const FIGURES: [(&str, Still); 5] = [
+    ("path", |body| Some(Box::new(path::figure(body)))),
+    ("series", |body| Some(Box::new(series::figure(body)))),
+    ("return-map", |body| Some(Box::new(return_map::figure(body)?))),
+    ("phi", |body| Some(Box::new(space_time::figure(body)?))),
+    ("spectrum", |body| Some(Box::new(spectrum::figure(body)?))),
+];
+
 fn figures(body: &Body<'_>) -> Figures {
-    let mut all: Figures =
-        vec![("path", Box::new(path::figure(body))), ("series", Box::new(series::figure(body)))];
-    all.extend(return_map::figure(body).map(|figure| ("return-map", Box::new(figure) as _)));
-    all.extend(space_time::figure(body).map(|figure| ("phi", Box::new(figure) as _)));
-    all.extend(spectrum::figure(body).map(|figure| ("spectrum", Box::new(figure) as _)));
-    all
+    FIGURES.iter().filter_map(|(name, figure)| Some((*name, figure(body)?))).collect()
 }
 
 /// Figures with their names, which are those of their files.
