@@ -3,86 +3,67 @@
 use crate::{Inventory, mend};
 use std::path::Path;
 
-/// The kind of a result: only a result of the same kind may replace it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A body's path and shape.
-    Dataset,
-    /// Rows over one or two axes.
-    Scan,
-    /// Branches of a motion.
-    Branches,
-    /// Curves of special points.
-    Curves,
-    /// The motions of a plane and what bounds them.
-    Atlas,
-    /// Mean lives of transient chaos.
-    Lifetimes,
-    /// Statistics of many bodies.
-    Statistics,
-    /// The motions of tracked cells.
-    Observations,
-    /// Equations of tracked cells.
-    Fits,
-    /// The reproduction of the paper.
-    Report,
-    /// A single table.
-    Table,
-    /// Outlines in a file for other programs.
-    Outlines,
-    /// Figures alone, drawn from another folder.
-    Figures,
+/// Kinds, each declared once: name of the variant, name in inventories, its words, `resumes` if its command continues it, its meaning.
+macro_rules! kinds {
+    ($($kind:ident $name:literal $words:literal $($resumes:ident)? $meaning:literal;)*) => {
+        /// The kind of a result: only a result of the same kind may replace it.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Kind {
+            $(#[doc = $meaning] $kind,)*
+        }
+
+        impl Kind {
+            /// Every kind, in the order of their declaration.
+            const ALL: &'static [Self] = &[$(Self::$kind),*];
+
+            /// Its name in inventories.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $name,)*
+                }
+            }
+
+            /// The kind in words: `a scan`.
+            #[must_use]
+            pub fn words(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $words,)*
+                }
+            }
+
+            /// Returns `true` if its command continues it with `--resume`.
+            #[must_use]
+            pub fn resumes(self) -> bool {
+                match self {
+                    $(Self::$kind => !<[&str]>::is_empty(&[$(stringify!($resumes))?]),)*
+                }
+            }
+        }
+    };
 }
 
-/// Every kind, in the order of their declaration: its name in inventories, and its words.
-const KINDS: [(Kind, &str, &str); 13] = [
-    (Kind::Dataset, "dataset", "a dataset"),
-    (Kind::Scan, "scan", "a scan"),
-    (Kind::Branches, "branches", "branches"),
-    (Kind::Curves, "curves", "curves"),
-    (Kind::Atlas, "atlas", "an atlas"),
-    (Kind::Lifetimes, "lifetimes", "lifetimes"),
-    (Kind::Statistics, "statistics", "statistics"),
-    (Kind::Observations, "observations", "observations of cells"),
-    (Kind::Fits, "fits", "fits of cells"),
-    (Kind::Report, "report", "a reproduction of the paper"),
-    (Kind::Table, "table", "a table"),
-    (Kind::Outlines, "outlines", "outlines"),
-    (Kind::Figures, "figures", "figures"),
-];
+kinds! {
+    Dataset "dataset" "a dataset" "A body's path and shape.";
+    Scan "scan" "a scan" resumes "Rows over one or two axes.";
+    Branches "branches" "branches" resumes "Branches of a motion.";
+    Curves "curves" "curves" resumes "Curves of special points.";
+    Atlas "atlas" "an atlas" resumes "The motions of a plane and what bounds them.";
+    Lifetimes "lifetimes" "lifetimes" resumes "Mean lives of transient chaos.";
+    Statistics "statistics" "statistics" resumes "Statistics of many bodies.";
+    Observations "observations" "observations of cells" "The motions of tracked cells.";
+    Fits "fits" "fits of cells" resumes "Equations of tracked cells.";
+    Report "report" "a reproduction of the paper" "The reproduction of the paper.";
+    Table "table" "a table" "A single table.";
+    Outlines "outlines" "outlines" "Outlines in a file for other programs.";
+    Figures "figures" "figures" "Figures alone, drawn from another folder.";
+}
 
 impl Kind {
-    /// Its name in inventories.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        KINDS[self as usize].1
-    }
-
     /// The kind of a name.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
-        KINDS.into_iter().find(|kind| kind.1 == name).map(|kind| kind.0)
-    }
-
-    /// The kind in words: `a scan`.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        KINDS[self as usize].2
-    }
-
-    /// Returns `true` if its command continues it with `--resume`.
-    #[must_use]
-    pub fn resumes(self) -> bool {
-        matches!(
-            self,
-            Self::Scan
-                | Self::Branches
-                | Self::Curves
-                | Self::Atlas
-                | Self::Lifetimes
-                | Self::Statistics
-                | Self::Fits
-        )
+        Self::ALL.iter().copied().find(|kind| kind.name() == name)
     }
 }
 
@@ -91,9 +72,4 @@ impl Kind {
 pub fn kind_of(folder: &Path) -> Option<Kind> {
     let _ = mend(folder); // reading says what is wrong
     Kind::of_name(&Inventory::read(folder).ok()??.kind)
-}
-
-#[test]
-fn kinds_are_in_their_order() {
-    assert!(KINDS.iter().enumerate().all(|(place, kind)| kind.0 as usize == place));
 }
