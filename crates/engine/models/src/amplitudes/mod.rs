@@ -35,7 +35,7 @@ pub use names::{NAME, info, terms};
 pub use parser::RESERVED;
 pub use polynomial::{MOST_MODES, MOST_ORDER, Monomial};
 pub use reserved::meaning as reserved;
-pub use tensor_form::{TensorForm, tensor_form};
+pub use tensor_form::{TensorForm, tensor_form, tensor_parameter};
 
 use crate::polar::{self, Mode};
 use coefficient::Value;

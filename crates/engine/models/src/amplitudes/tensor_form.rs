@@ -28,6 +28,14 @@ const TERMS: [(&str, &str, f64); 22] = [
     ("z3: conj(z1)*z2^2", "d6", 0.5),
 ];
 
+/// The parameter of (V), (S), (U) that is in the coefficient of a term of (Z1), (Z2), (Z3), such as `z1: conj(z1)*z2`, and the
+/// coefficient of that parameter; `None` for terms without one. Source: paper, the table of coefficients after (Z3).
+#[must_use]
+pub fn tensor_parameter(term: &str) -> Option<(&'static str, f64)> {
+    let &(_, name, factor) = TERMS.iter().find(|(known, name, _)| *known == term && !name.is_empty())?;
+    Some((name, 1.0 / factor)) // factors are powers of 2: exact
+}
+
 /// Equations as those of the tensor model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TensorForm {
