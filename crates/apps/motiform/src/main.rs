@@ -11,7 +11,7 @@ mod remedy;
 #[cfg(unix)]
 mod standard_output;
 
-use args::{Arguments, Command};
+use args::Arguments;
 use clap::Parser;
 use std::process::ExitCode;
 
@@ -20,33 +20,7 @@ fn main() -> ExitCode {
     if let Err(error) = output::check() {
         return output::report(&error);
     }
-    let arguments = Arguments::parse();
-    let done = match arguments.command {
-        Command::Models(options) => commands::models::run(&options),
-        Command::Simulate(options) => commands::simulate::run(&options),
-        Command::Scan(options) => commands::scan::run(&options),
-        Command::Merge(options) => commands::merge::run(&options),
-        Command::Classify(options) => commands::classify::run(&options),
-        Command::Lyapunov(options) => commands::lyapunov::run(&options),
-        Command::Continue(options) => commands::continuation::run(&options),
-        Command::Atlas(options) => commands::atlas::run(&options),
-        Command::Equilibria(options) => commands::equilibria::run(&options),
-        Command::Section(options) => commands::section::run(&options),
-        Command::Lifetimes(options) => commands::lifetimes::run(&options),
-        Command::Statistics(options) => commands::statistics::run(&options),
-        Command::Observe(options) => commands::observe::run(&options),
-        Command::Fit(options) => commands::fit::run(&options),
-        Command::Reproduce(options) => commands::reproduce::run(&options),
-        #[cfg(feature = "explorer")]
-        Command::Explore(options) => commands::explore::run(&options),
-        Command::New(options) => commands::new::run(&options),
-        Command::Doctor(options) => commands::doctor::run(&options),
-        Command::Check(options) => commands::check::run(&options),
-        Command::Verify(options) => commands::verify::run(&options),
-        Command::Figure(options) => commands::figure::run(&options),
-        Command::Completions(options) => commands::completions::run(&options),
-    };
-    match done {
+    match commands::run(Arguments::parse().command) {
         Ok(end) => end.into(),
         Err(error) => output::report(&error),
     }
