@@ -9,11 +9,11 @@
 All quantities are in model units of time and length, unless ``units`` are asked for (docs/units.md); parameters have the paper's names.
 """
 
-from . import cells
+from . import bodies, cells
 from ._registry import MODELS, PRESETS, REGIMES, STEPPERS
 from ._registry import VERSION as __version__
 from .atlases import Atlas, Boundary, Region
-from .bodies import Cell, Tensor
+from .bodies import *  # noqa: F403
 from .branches import Branch, Branches
 from .curves import Curve, Curves
 from .ensembles import Ensemble, ensemble
@@ -40,7 +40,6 @@ __all__ = [
     "Boundary",
     "Branch",
     "Branches",
-    "Cell",
     "Crossings",
     "Curve",
     "Curves",
@@ -62,7 +61,6 @@ __all__ = [
     "Share",
     "Spread",
     "Statistics",
-    "Tensor",
     "Trajectory",
     "Units",
     "Verdict",
@@ -80,3 +78,4 @@ __all__ = [
     "study",
     "verify",
 ]
+__all__ += bodies.__all__

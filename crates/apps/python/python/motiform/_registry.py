@@ -23,9 +23,9 @@ class Parameter:
     range: tuple[float, float]
     """The range of interest."""
     allowed: tuple[float, float]
+    """The allowed values."""
     whole: bool
     """Whether only whole numbers are allowed."""
-    """The allowed values."""
     equation: str
     """The equation in which it occurs."""
     meaning: str

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from . import bodies
 from ._registry import MODELS, ModelInfo
 from .bodies import docstring
 
@@ -16,7 +17,7 @@ from collections.abc import Mapping
 from ._registry import ModelInfo
 from .models import Model
 
-__all__ = ["Cell", "Tensor"]
+__all__ = [{names}]
 
 def docstring(info: ModelInfo) -> str: ...
 '''
@@ -37,7 +38,8 @@ def stub(info: ModelInfo) -> str:
 
 def text() -> str:
     """The whole file."""
-    return HEAD + "".join(f"\n{stub(info)}" for info in MODELS.values())
+    names = ", ".join(f'"{name}"' for name in bodies.__all__)
+    return HEAD.format(names=names) + "".join(f"\n{stub(info)}" for info in MODELS.values())
 
 
 def main(arguments: list[str]) -> int:

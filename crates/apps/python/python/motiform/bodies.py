@@ -12,7 +12,7 @@ from ._registry import MODELS, ModelInfo
 from .calls import coordinates_of, start_of
 from .models import Model
 
-__all__ = ["Cell", "Tensor"]
+__all__ = sorted(info.name.capitalize() for info in MODELS.values())
 
 
 def docstring(info: ModelInfo) -> str:
@@ -46,5 +46,4 @@ def _class(info: ModelInfo) -> type[Model]:
     return type(name, (Model,), body)
 
 
-Tensor = _class(MODELS["tensor"])
-Cell = _class(MODELS["cell"])
+globals().update({info.name.capitalize(): _class(info) for info in MODELS.values()})
