@@ -131,7 +131,7 @@ pub(crate) enum Command {
 
 #[derive(Args)]
 pub(crate) struct ModelsOptions {
-    /// Show all details of this model: tensor, cell, or a study file with your own equations
+    /// Show all details of this model, or of a study file with your own equations
     pub(crate) model: Option<String>,
     /// Show the values of this preset, too; `motiform models NAME` does so for the name of a preset
     #[arg(long, value_name = "NAME", requires = "model", conflicts_with = "json")]
@@ -204,10 +204,10 @@ pub(crate) struct LyapunovOptions {
     /// Number of exponents, from the largest (default: all, but at most 6)
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u16), allow_hyphen_values = true)]
     pub(crate) count: Option<u16>,
-    /// Model time to integrate before averaging (default: 800 for tensor, 6000 for cell)
+    /// Model time to integrate before averaging (default: four looks of the model, 800 for tensor)
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) transient: Option<f64>,
-    /// Model time to average over (default: 4000 for tensor, 30000 for cell)
+    /// Model time to average over (default: twenty looks of the model, 4000 for tensor)
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
     /// For transient chaos: compute the exponent of the chaotic saddle from this many initial states, with the rate of

@@ -30,11 +30,13 @@ settings! {
         /// Time between recorded states, above 0; by default that of the preset, without one `t_end` / 2000.
         pub dt_out: f64,
         /// Stepper: euler, heun, rk4 (fixed step), dopri5, dop853 (adaptive); for stiff models ifrk4 (fixed step),
-        /// etdrk4, hochbruck4, krogstad4 (adaptive). By default dop853 for tensor, krogstad4 for cell.
+        /// etdrk4, hochbruck4, krogstad4 (adaptive). By default that of the model: krogstad4 for cell, which is stiff,
+        /// otherwise dop853.
         pub stepper: String,
-        /// Relative tolerance of adaptive steppers, 1e-14 to 1e-4: sets the accuracy of the run. By default 1e-9 for tensor, 1e-6 for cell.
+        /// Relative tolerance of adaptive steppers, 1e-14 to 1e-4: sets the accuracy of the run. By default that of the model: 1e-6 for cell,
+        /// otherwise 1e-9.
         pub rtol: f64,
-        /// Absolute tolerance of adaptive steppers. By default a thousandth of `rtol` for tensor, a tenth for cell; for
+        /// Absolute tolerance of adaptive steppers. By default a tenth of `rtol` for cell, otherwise a thousandth; for
         /// equations given as text in their unit where that is below 1.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub atol: Option<f64>,
