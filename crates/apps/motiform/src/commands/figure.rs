@@ -219,26 +219,19 @@ impl Content {
             Some(Kind::Atlas) => {
                 Self::Figures(vec![("atlas", Box::new(atlas_map(&AtlasFolder::read(path)?)?))], true)
             }
-            Some(
-                Kind::Statistics
-                | Kind::Lifetimes
-                | Kind::Observations
-                | Kind::Fits
-                | Kind::Report
-                | Kind::Figures,
-            ) => {
-                let remedy = "figures of such a folder are not drawn again: give the command that wrote it the options \
-                 of figures, with --force";
-                let value = path.display().to_string();
-                return Err(Error::Setting { key: "DIR", value, remedy }.into());
-            }
-            _ => Self::Body(Box::new(read_dataset_by(path, &|manifest, path| {
+            None | Some(Kind::Dataset) => Self::Body(Box::new(read_dataset_by(path, &|manifest, path| {
                 apply(&options.drawing, &mut manifest.plan.figure)?;
                 plan::check_figure(&manifest.plan.figure)?;
                 let (trajectory, stride) = read_shown(manifest, path)?;
                 note_stride(stride);
                 Ok(trajectory)
             })?)),
+            Some(_) => {
+                let remedy = "figures of such a folder are not drawn again: give the command that wrote it the options \
+                 of figures, with --force";
+                let value = path.display().to_string();
+                return Err(Error::Setting { key: "DIR", value, remedy }.into());
+            }
         })
     }
 
