@@ -49,7 +49,10 @@ fn list() -> anyhow::Result<String> {
     let mut text = String::new();
     for info in MODELS {
         writeln!(text, "{:<8} {}", info.name, info.title)?;
-        writeln!(text, "{:<8} presets: {}", "", presets::names_of(info.name).join(" "))?;
+        let presets = presets::names_of(info.name);
+        if !presets.is_empty() {
+            writeln!(text, "{:<8} presets: {}", "", presets.join(" "))?;
+        }
     }
     writeln!(text, "\nequations given as text (docs/equations.md), as presets of the model {NAME}")?;
     for preset in presets::EXTENSIONS {
@@ -84,11 +87,12 @@ fn page(info: &'static ModelInfo) -> anyhow::Result<String> {
         writeln!(text, "  ...     and so on up to {last}")?;
     }
     writeln!(text, "  {:<7} position of the centre of mass", "x, y")?;
-    if info.definition().is_some() {
+    let presets = presets::names_of(info.name);
+    if info.definition().is_some() || presets.is_empty() {
         return Ok(text);
     }
     writeln!(text, "\nPresets (--preset NAME)")?;
-    for name in presets::names_of(info.name) {
+    for name in presets {
         let study = presets::find(info, name)?;
         let free =
             if study.free.is_empty() { String::new() } else { format!(" [free: {}]", study.free.join(", ")) };
