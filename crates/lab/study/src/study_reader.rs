@@ -104,10 +104,14 @@ fn no_model(top: &mut Table<'_>, file: &str) -> Error {
 /// `[model.NAME]` with parameters, on top of `preset = "..."` if given.
 fn read_model(top: &mut Table<'_>, file: &str) -> Result<Study, Error> {
     let preset = top.take("preset");
-    let Some(mut models) = top.table("model")? else {
+    let Some(model) = top.take("model") else {
         let Some(preset) = preset else { return Err(no_model(top, file)) };
         return from_preset(&preset, None);
     };
+    if let Some(name) = model.text().ok().filter(|name| names().contains(&name.as_str())) {
+        return Err(model.error(format!("model must be a table, not this string: write [model.{name}]")));
+    }
+    let mut models = model.table()?;
     if let Some(value) = models.take(NAME) {
         models.finish()?;
         return read_amplitudes(preset.as_ref(), value);
