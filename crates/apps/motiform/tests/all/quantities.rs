@@ -9,6 +9,8 @@ use motiform_store::quantity::{
     answer, cell, coefficient, frame, motion, special, state, statistic, subjects,
 };
 use motiform_store::{Quantity, columns};
+use motiform_study::Settings;
+use motiform_study::study::RunSettings;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -121,6 +123,19 @@ fn no_parameter_has_the_name_of_a_column() {
     for Quantity { name, .. } in [motion::ALL, special::ALL].concat() {
         assert!(
             MODELS.iter().flat_map(motiform_models::ModelInfo::parameters).all(|spec| spec.name != *name),
+            "{name}"
+        );
+        assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
+    }
+}
+
+/// Python's `replace` takes parameters and settings as keywords.
+#[test]
+fn no_parameter_has_the_name_of_a_setting() {
+    for key in RunSettings::keys() {
+        let name = key.name();
+        assert!(
+            MODELS.iter().flat_map(motiform_models::ModelInfo::parameters).all(|spec| spec.name != name),
             "{name}"
         );
         assert!(amplitudes::reserved(name).is_some(), "{name} can be a parameter of amplitude equations");
