@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use motiform_dynamics::Noise;
+use motiform_dynamics::model::velocity;
 use motiform_models::MODELS;
 
 /// The covariance `diag(eta^2)` commutes with the rotations `R`, which are orthogonal: `R D = D R`.
@@ -42,6 +43,8 @@ fn every_coordinate_has_its_amplitude() {
             let expected = if i < model.velocities() { 0.7 } else { 0.3 };
             assert!((x.abs() - expected).abs() < 1e-15, "{} {x}", coordinate.name);
         }
-        assert_eq!(model.velocities(), if info.name == "tensor" { 2 } else { 0 });
+        let velocity = velocity(model.as_ref(), &noise.amplitudes);
+        assert_eq!(seen[..model.velocities()], velocity[..model.velocities()], "{}", info.name);
+        assert!(info.name != "tensor" || model.velocities() == 2);
     }
 }
