@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::described::settings;
 use crate::study::Study;
-use motiform_analysis::equilibrium::Units;
+use motiform_analysis::equilibrium::{Units, largest_balance, prefix};
 use motiform_models::amplitudes::NAME;
 use serde::Serialize;
 
@@ -17,6 +17,18 @@ pub(crate) fn unit(study: &Study) -> Result<f64, Error> {
         return Ok(1.0);
     }
     Ok(Units::of(info.build(&study.values()?)?.as_ref()).length)
+}
+
+/// The unit of the largest size at which terms of a study's equations balance; 1 for the models of this program.
+///
+/// # Errors
+/// Values that the model rejects.
+pub(crate) fn largest_unit(study: &Study) -> Result<f64, Error> {
+    let info = study.info()?;
+    if info.name != NAME {
+        return Ok(1.0);
+    }
+    Ok(prefix(largest_balance(info.build(&study.values()?)?.as_ref())))
 }
 
 settings! {
@@ -47,7 +59,7 @@ settings! {
         /// Maximum number of steps of a run; by default 1e8.
         pub max_steps: u64,
         /// A shape whose norm exceeds this has escaped; by default 1e6, for equations given as text in their unit where that is above 1
-        /// (a power of 1000, from the sizes at which their terms balance).
+        /// (a power of 1000, from the largest size at which their terms balance).
         #[serde(skip_serializing_if = "Option::is_none")]
         pub escape_norm: Option<f64>,
         /// Amplitude eta of additive white noise (0 for none): du = f(u) dt + eta dW for every coordinate u of the shape (s11, s12,

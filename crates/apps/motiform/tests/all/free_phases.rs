@@ -113,3 +113,19 @@ fn an_orbit_around_a_centre_is_not_stable() {
         folder.run("continue centre.toml --along mu=0.5:1.5 --initial z2_re=0.5 --initial z2_im=0.7");
     assert!(branch.expect(2).stderr.contains("undetermined"), "no branch along a parameter");
 }
+
+/// A variable that acts on nothing, of another size: a circle of size 1e8 beside it is the motion that it is alone.
+#[test]
+fn a_silent_variable_of_another_size_sets_no_bounds() {
+    let folder = Folder::new();
+    for size in [1e-8_f64, 1e6, 1e8, 1e10] {
+        let model = format!(
+            "[model.amplitudes]\nmodes = [2, 3]\nsymmetry = \"none\"\nvelocity = \"z2\"\n[model.amplitudes.parameters]\nk = {:e}\n\
+             [model.amplitudes.equations]\nz2 = \"(1 + i - k*|z2|^2)*z2\"\nz3 = \"(1 - |z3|^2)*z3\"\n",
+            1.0 / (size * size)
+        );
+        folder.write("silent.toml", &model);
+        let found = verdict(&folder, "silent.toml", 1);
+        assert_eq!(found["regime"], "circular", "{size:e}: {found}");
+    }
+}

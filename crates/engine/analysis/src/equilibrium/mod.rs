@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 pub use silent::modes;
 pub use spectrum::rounding;
 pub use uncertainty::{Uncertainty, round_off};
-pub use units::{Units, balance, prefix, size_beside, vicinity};
+pub use units::{Units, balance, largest_balance, prefix, size_beside, vicinity};
 
 /// A solution of `f(u) = omega G u`, with `G` the infinitesimal rotation: at rest or straight (`omega = 0`), or
 /// circular.

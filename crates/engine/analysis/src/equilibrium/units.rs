@@ -93,6 +93,13 @@ pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
     sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
 }
 
+/// The largest of these sizes; 1 where no terms balance. Equations that do not act on each other may have sizes of their own: a shape has
+/// left every bound only where it is beyond them all.
+#[must_use]
+pub fn largest_balance(body: &dyn Equivariant) -> f64 {
+    balances(body, &rays(body)).last().copied().unwrap_or(1.0)
+}
+
 /// The size of changes of a shape at which terms of its equations balance, if that is far smaller than the shape: of each equation the
 /// median, and the least of these. `None` where the size of the shape itself is the scale of its changes, as with rotations about
 /// the shape 0.

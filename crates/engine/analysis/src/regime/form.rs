@@ -4,7 +4,6 @@ use super::motion::Path;
 use super::verdict::Regime;
 use crate::isotropy::Isotropy;
 use crate::periodic::PeriodicOrbit;
-use motiform_dynamics::Symmetry;
 use serde::{Deserialize, Serialize};
 
 motiform_dynamics::named! {
@@ -25,7 +24,8 @@ motiform_dynamics::named! {
         MirrorZigzag = "mirror-zigzag",
         /// No symmetry, and no net rotation either.
         AsymmetricZigzag = "asymmetric-zigzag",
-        /// In a field: the heading turns through full circles at a rate that depends on its direction, so that in general the body drifts.
+        /// The heading turns through full circles in a period, and the body is not turned after it: in a field, or at parameters where the net
+        /// rotation is a whole number of turns. In general the body drifts.
         DriftingCircular = "drifting-circular",
         /// The heading swings left and right, by more than the net rotation of a period.
         RotatingZigzag = "rotating-zigzag",
@@ -49,7 +49,7 @@ impl Form {
             }
             Self::AsymmetricZigzag => "the shape repeats without net rotation",
             Self::DriftingCircular => {
-                "the heading turns through full circles, at a rate that depends on its direction"
+                "the heading turns through full circles in a period, at a rate that is not constant"
             }
             Self::RotatingZigzag => {
                 "a slowly rotating zigzag: the heading swings by more than the net rotation"
@@ -72,14 +72,8 @@ impl Form {
     }
 
     /// The form of an orbit whose shapes all have the symmetry `symmetry`, with the path of one period. Net rotations below
-    /// `no_turn` (rad) are none; `group` is the symmetry of the model.
-    pub(super) fn of(
-        symmetry: &Isotropy,
-        orbit: &PeriodicOrbit,
-        path: &Path,
-        no_turn: f64,
-        group: Symmetry,
-    ) -> Self {
+    /// `no_turn` (rad) are none.
+    pub(super) fn of(symmetry: &Isotropy, orbit: &PeriodicOrbit, path: &Path, no_turn: f64) -> Self {
         let turns = orbit.net_rotation().abs() >= no_turn;
         if !path.moves() {
             return Self::PulsatingAtRest;
@@ -95,7 +89,7 @@ impl Form {
             (true, _, _) if returns => Self::BackAndForth,
             (true, _, _) => Self::PulsatingStraight,
             (false, true, _) => Self::MirrorZigzag,
-            (false, false, false) if !group.rotations && path.windings() != 0 => Self::DriftingCircular,
+            (false, false, false) if path.windings() != 0 => Self::DriftingCircular,
             (false, false, false) => Self::AsymmetricZigzag,
             (false, false, true) => Self::turning(path),
         }
@@ -142,7 +136,7 @@ mod tests {
             errors: Vec::new(),
         };
         let isotropy = Isotropy { folds: 1, circle: false, mirror: None };
-        Form::of(&isotropy, &orbit, &path, 1e-6, Symmetry { rotations: true, mirror: true })
+        Form::of(&isotropy, &orbit, &path, 1e-6)
     }
 
     /// The legs of a rectangle, with corners at rest, are no motion along a line, straight as each of them is.

@@ -1,5 +1,6 @@
 //! Shapes of a periodic orbit at moments that are spread over its period.
 
+use super::place::{BESIDE, displaced};
 use super::settings::Settings;
 use crate::isotropy::Isotropy;
 use crate::linear::norm;
@@ -54,15 +55,16 @@ fn moments(
         .collect()
 }
 
-/// Returns `true` if the orbit is an equilibrium within the errors of the steps: these swing, too, and a deviation that decays more slowly
-/// than they do comes back to its section.
+/// Returns `true` if the orbit is an equilibrium within its errors: those of the steps, which swing, too, and that of its own place. A spiral
+/// into an equilibrium nearly comes back to its section; where it shrinks slowly, the residual of a turn is small against the shape, and
+/// not against the spiral.
 pub(super) fn is_a_point(
     body: &dyn Equivariant,
     orbit: &PeriodicOrbit,
     settings: &Settings,
     watch: &dyn Watch,
 ) -> bool {
-    let least = settings.hovering() * norm(&orbit.shape);
+    let least = (settings.hovering() * norm(&orbit.shape)).max(BESIDE * displaced(orbit));
     let near = |shape: &Vec<f64>| align(body, shape, &orbit.shape, false).distance <= least;
     moments(body, orbit, settings, watch).is_ok_and(|shapes| shapes.iter().all(near))
 }

@@ -18,7 +18,7 @@ pub(super) struct Path {
     pub(super) times: Vec<f64>,
     pub(super) positions: Vec<[f64; 2]>,
     pub(super) velocities: Vec<[f64; 2]>,
-    /// The largest speed that is round-off.
+    /// The largest speed that is no more than the errors of the shapes.
     pub(super) resolution: f64,
     /// The largest size `|u|` of a shape on the way.
     pub(super) largest: f64,
@@ -34,7 +34,8 @@ impl Path {
         settings: &Settings,
         watch: &dyn Watch,
     ) -> Result<Self, motiform_dynamics::Error> {
-        let mut sampler = Sampler { body, atol: settings.atol(), path: Self::empty() };
+        let errors = [settings.atol(), settings.flow().closed()];
+        let mut sampler = Sampler { body, errors, path: Self::empty() };
         let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, shape)?;
         let request =
             Request { sample_every: Some(time / steps as f64), watch, ..settings.request(time, shape.len()) };
@@ -147,6 +148,13 @@ impl Path {
         self.velocities.iter().all(|v| (x * v[1] - y * v[0]).abs() <= most)
     }
 
+    /// The largest angle (rad) by which the heading turns between two samples; `None` where the body stops on the way. Beside a stop it turns
+    /// by half a turn at once, and samples do not tell to which side.
+    pub(super) fn largest_turn(&self) -> Option<f64> {
+        let heading = self.heading()?;
+        Some(heading.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max))
+    }
+
     /// Full turns of the heading from start to end; 0 where the body stops on the way.
     pub(super) fn windings(&self) -> i32 {
         let turned = self.heading().and_then(|heading| Some(heading.last()? - heading.first()?));
@@ -179,7 +187,8 @@ fn time_mean(times: &[f64], values: &[f64]) -> f64 {
 
 struct Sampler<'b> {
     body: &'b dyn Equivariant,
-    atol: f64,
+    /// Absolute and relative errors of the shapes.
+    errors: [f64; 2],
     path: Path,
 }
 
@@ -187,7 +196,9 @@ impl Sink for Sampler<'_> {
     fn sample(&mut self, t: f64, u: &[f64]) {
         self.path.times.push(t);
         self.path.velocities.push(velocity(self.body, u));
-        self.path.resolution = self.path.resolution.max(self.body.speed_resolution(u, self.atol));
-        self.path.largest = self.path.largest.max(norm(u));
+        let size = norm(u);
+        let resolution = self.body.speed_resolution(u, self.errors[0] + self.errors[1] * size);
+        self.path.resolution = self.path.resolution.max(resolution);
+        self.path.largest = self.path.largest.max(size);
     }
 }

@@ -9,7 +9,7 @@ use motiform_dynamics::{Equivariant, Watch};
 const NEAR_ONE: f64 = 0.05;
 
 /// Distance of the other starts, in units of what the residual allows.
-const BESIDE: f64 = 8.0;
+pub(super) const BESIDE: f64 = 8.0;
 
 /// Errors in units of the change between the starts.
 const SAFE: f64 = 2.0;
@@ -34,7 +34,7 @@ pub(super) fn find_placed(
     watch: &dyn Watch,
 ) -> Option<PeriodicOrbit> {
     let orbit = PeriodicOrbit::find_within(body, guess, flow, effort, watch)?;
-    let nearest = orbit.multipliers.iter().map(|m| libm::hypot(1.0 - m.0, m.1)).fold(f64::INFINITY, f64::min);
+    let nearest = nearest(&orbit);
     if nearest >= NEAR_ONE || !is_whole(body.dim()) || orbit.errors.is_empty() {
         return Some(orbit);
     }
@@ -57,6 +57,16 @@ pub(super) fn find_placed(
     }
     let errors = orbit.errors.iter().zip(&off).map(|(error, off)| error.max(SAFE * off)).collect();
     Some(PeriodicOrbit { errors, ..orbit })
+}
+
+/// The distance `|1 - m|` of the nearest multiplier from 1; infinite without one.
+fn nearest(orbit: &PeriodicOrbit) -> f64 {
+    orbit.multipliers.iter().map(|m| libm::hypot(1.0 - m.0, m.1)).fold(f64::INFINITY, f64::min)
+}
+
+/// The distance of the shape from the orbit that its residual r leaves: `r/|1 - m|` for the multiplier m nearest to 1.
+pub(super) fn displaced(orbit: &PeriodicOrbit) -> f64 {
+    orbit.residual / nearest(orbit).min(1.0)
 }
 
 /// The direction from the orbit to where the motion was, which shrinks most slowly; one in general position where the motion was there.

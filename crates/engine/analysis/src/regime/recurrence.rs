@@ -152,8 +152,8 @@ pub(super) fn periodic(
 /// By this factor the tolerance is tighter where multipliers do not decide.
 const DECIDING: f64 = 1e-3;
 
-/// The orbit in a tighter tolerance, where its multipliers do not say at this one whether it is stable, or without the neutral ones of a
-/// family that it lies in.
+/// The orbit in a tighter tolerance, where at this one its multipliers do not say whether it is stable, or its size is not known beyond the
+/// error of its place; or without the neutral multipliers of a family that it lies in.
 fn resolved(
     body: &dyn Equivariant,
     orbit: PeriodicOrbit,
@@ -161,7 +161,9 @@ fn resolved(
     effort: &mut f64,
     watch: &dyn Watch,
 ) -> PeriodicOrbit {
-    let decided = |orbit: &PeriodicOrbit| orbit.is_stable() || orbit.is_unstable();
+    let decided = |orbit: &PeriodicOrbit| {
+        (orbit.is_stable() || orbit.is_unstable()) && !is_a_point(body, orbit, settings, watch)
+    };
     if decided(&orbit) {
         return orbit;
     }

@@ -55,7 +55,7 @@ pub fn repeating(
     };
     let symmetry = common_symmetry(body, nodes);
     let no_turn = NO_TURN.max(settings.accuracy());
-    let form = Form::of(&symmetry, orbit, &path, no_turn, body.symmetry());
+    let form = Form::of(&symmetry, orbit, &path, no_turn);
     let period = Period::of(form, &symmetry, orbit, no_turn);
     let straight = orbit.mirrored || form.regime() == Regime::PulsatingStraight;
     let turning_rate = if straight { Some(0.0) } else { path.turning_rate() };

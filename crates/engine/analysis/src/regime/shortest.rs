@@ -9,8 +9,9 @@ use crate::symmetry::align;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, Watch};
 
-/// Parts of the period after which the shape may be back already: extremes that a step passes over hide a return.
-const PARTS: usize = 8;
+/// Parts of the period after which the shape may be back already: extremes that a step passes over hide a return, and a shape of constant
+/// size has none at all. More than the returns that are tried ([`super::recurrence`]).
+const PARTS: usize = 64;
 
 /// Shapes nearer to each other than this part of the diameter may be the same.
 const NEAR: f64 = 1e-2;

@@ -153,7 +153,7 @@ pub(super) fn periodic(
     let path = Path::follow(body, &orbit.shape, orbit.period(), SAMPLES, settings, watch)?;
     let no_turn = NO_TURN.max(settings.accuracy());
     let symmetry = symmetry_of(body, orbit, settings, watch)?;
-    let form = Form::of(&symmetry, orbit, &path, no_turn, body.symmetry());
+    let form = Form::of(&symmetry, orbit, &path, no_turn);
     let Period { time: period, rotation } = Period::of(form, &symmetry, orbit, no_turn);
     let what = match form.regime() {
         Regime::QuasiPeriodic => format!("{}; turned by {rotation:.6} rad each period", form.meaning()),
@@ -177,7 +177,8 @@ pub(super) fn periodic(
     } else {
         rotation.abs() / no_turn
     };
-    verdict.margin = Some(stability.min(if turning < 1.0 { 1.0 / turning.max(1e-3) } else { turning }));
+    let turning = if turning < 1.0 { 1.0 / turning.max(1e-3) } else { turning };
+    verdict.margin = Some(stability.min(turning).min(sense_margin(form, &path)));
     verdict.period = Some(period);
     verdict.net_rotation = Some(rotation);
     verdict.speed = path.speed();
@@ -196,6 +197,17 @@ pub(super) fn periodic(
         }
     }
     Ok(verdict)
+}
+
+/// The margin of the full turns of the heading where a name depends on them: below 1 where it turns by more than a quarter turn between two
+/// samples, whose sense is not known.
+fn sense_margin(form: Form, path: &Path) -> f64 {
+    let step = match form {
+        Form::AsymmetricZigzag | Form::DriftingCircular => path.largest_turn(),
+        _ => None,
+    };
+    let unclear = step.filter(|&step| step > std::f64::consts::FRAC_PI_2);
+    unclear.map_or(f64::MAX, |step| std::f64::consts::FRAC_PI_2 / step)
 }
 
 /// The reason why a motion that stays on a periodic orbit has no name.

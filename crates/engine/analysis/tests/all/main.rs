@@ -28,6 +28,7 @@ mod share;
 mod steady;
 mod symmetric_motions;
 mod symmetry;
+mod texts;
 mod thresholds;
 mod welch;
 mod zero_one;

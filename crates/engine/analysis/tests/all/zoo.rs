@@ -170,3 +170,21 @@ fn errors_of_steps_are_no_orbit() {
         near(seen.exponents[0].value, -slow, 1e-6 * slow);
     }
 }
+
+/// Lorenz's equations just below their subcritical Hopf points: beside chaos there are two stable foci, and no stable orbit. A turn of a
+/// spiral that shrinks by 0.3 % nearly closes.
+#[test]
+fn slow_spirals_are_no_orbits() {
+    let (mut chaotic, mut focus) = (0, 0);
+    for (rho, seeds) in [(24.4, 16_u64), (24.6, 24)] {
+        for seed in 0..seeds {
+            let start = common::Random(seed).state(3, 10.0);
+            let seen = named(&Lorenz { rho, ..Lorenz::default() }, &start, &ORDINARY);
+            assert_ne!(seen.attractor, Attractor::Periodic, "{rho} {seed}: {}", seen.why);
+            chaotic += usize::from(seen.attractor == Attractor::Chaotic);
+            focus += usize::from(seen.attractor == Attractor::Equilibrium);
+        }
+    }
+    println!("{chaotic} chaotic, {focus} at a focus, of 40");
+    assert!(chaotic > 0 && focus > 0);
+}

@@ -3,7 +3,7 @@
 use super::{Control, Named, NoiseSettings, Plan, Question};
 use crate::checks::{check, check_figure, check_stability, check_start, check_steps};
 use crate::error::nearest_of;
-use crate::run_settings::unit;
+use crate::run_settings::{largest_unit, unit};
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
@@ -154,7 +154,7 @@ impl RunPlan {
             stepper: method.name().to_owned(),
             control,
             max_steps: run.max_steps,
-            escape_norm: run.escape_norm_in(unit(study)?),
+            escape_norm: run.escape_norm_in(largest_unit(study)?),
             return_map: study.return_map.clone(),
             noise,
         };

@@ -6,7 +6,7 @@ use crate::plan::{
     stepper,
 };
 use crate::random::Random;
-use crate::run_settings::unit;
+use crate::run_settings::largest_unit;
 use crate::{Error, Perturbation, Study, Ties};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, ModelName, parameters};
@@ -134,7 +134,7 @@ impl ScanPlan {
             stepper: method.name().to_owned(),
             control: control(study, method)?,
             max_steps: run.max_steps,
-            escape_norm: run.escape_norm_in(unit(study)?),
+            escape_norm: run.escape_norm_in(largest_unit(study)?),
             budget: scan.budget,
         };
         let title = crate::titles::of_scan(study, info);
