@@ -37,7 +37,7 @@ mod tracks;
 mod turning;
 mod windows;
 
-pub use answer::{Answer, Measured, four_digits, to_error, with_error};
+pub use answer::{Answer, Measured};
 pub use consistency::Seen;
 pub use correlate::lagged_sums;
 pub use correlation::{Autocorrelation, autocorrelation};
@@ -48,6 +48,7 @@ pub use error::{Error, Result};
 pub use exponent::local_exponent;
 pub use gapped::GappedVectors;
 pub use jackknife::jackknife;
+pub use motiform_dynamics::digits::{four_digits, to_error, with_error};
 pub use oscillation::Oscillation;
 pub use passage::{Passage, first_passages, radii};
 pub use persistence::{Walk, furth, persistent_walk};

@@ -2,6 +2,7 @@
 
 use super::homoclinic::{Connection, ConnectionKind, PeriodLaw};
 use super::joins::words;
+use motiform_dynamics::digits::value_and_error;
 
 impl std::fmt::Display for Connection {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -78,8 +79,5 @@ fn places<const DECIMALS: usize>(x: f64) -> String {
 /// A value with its error, to the decimals that the error leaves.
 #[must_use]
 pub fn stated(value: f64, error: f64) -> String {
-    let decimals = (-libm::log10(error)).ceil().clamp(0.0, 15.0) as usize;
-    let text = format!("{value:.decimals$}");
-    let zero = text.trim_start_matches(['-', '0', '.']).is_empty();
-    format!("{} +- {error:.0e}", if zero { text.trim_start_matches('-') } else { &text })
+    value_and_error(value, error, 1).join(" +- ")
 }

@@ -12,6 +12,7 @@
 
 pub mod conformance;
 mod control;
+pub mod digits;
 pub mod distributions;
 pub mod drive;
 pub mod ensemble;

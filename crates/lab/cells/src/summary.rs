@@ -59,7 +59,7 @@ fn whole(sample: &Sample, cells: impl Iterator<Item = Value>) -> Value {
 
 fn with_quality(mut object: Value, cell: Option<&CellTrack>) -> Value {
     if let Some(cell) = cell {
-        object["radius"] = json!(cell.radius);
+        object["radius"] = json!((cell.radius > 0.0).then_some(cell.radius));
         object["flags"] = json!(cell.flags());
         object["left_out"] = json!(cell.left_out());
     }

@@ -6,6 +6,7 @@ use crate::commands::{figure, film, subject};
 use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_analysis::Verdict;
+use motiform_dynamics::digits::six_decimals;
 use motiform_lab::draw::Picture;
 use motiform_lab::fields::write_rest;
 use motiform_lab::long::read_shown;
@@ -294,10 +295,15 @@ impl Display for Simulated<'_> {
         if let Some(verdict) = self.verdict {
             write!(f, "\nmotion    at the end {}: {}", verdict.regime, verdict.why)?;
         }
-        let state: Vec<String> =
-            manifest.state.0.iter().map(|(name, value)| format!("{name} = {value:.6}")).collect();
+        let state: Vec<String> = manifest
+            .state
+            .0
+            .iter()
+            .map(|(name, &value)| format!("{name} = {}", six_decimals(value)))
+            .collect();
         write!(f, "\nstate     {}", state.join("  "))?;
-        write!(f, "\nposition  x = {:.6}  y = {:.6}", manifest.position[0], manifest.position[1])?;
+        let [x, y] = manifest.position.map(six_decimals);
+        write!(f, "\nposition  x = {x}  y = {y}")?;
         if let Some(crossings) = &self.run.crossings {
             write!(f, "\ncrossings {}", crossings.rows())?;
         }

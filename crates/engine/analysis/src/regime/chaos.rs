@@ -8,6 +8,7 @@ use super::verdict::{Attractor, Regime, Verdict};
 use super::words::lasting;
 use crate::lyapunov::{GROWN, Lyapunov, LyapunovSettings, SECULAR, lyapunov, separates};
 use crate::{Estimate, Result, escape_limits};
+use motiform_dynamics::digits::value_and_error;
 use motiform_dynamics::{Equivariant, Watch};
 
 /// K of the 0-1 test below this speaks for order.
@@ -123,11 +124,9 @@ pub(super) fn chaotic(
     Ok(Some(verdict))
 }
 
-/// An exponent with its error, to four decimals or to two digits of a smaller error.
+/// An exponent with its error.
 pub(super) fn stated(Estimate { value, error }: Estimate) -> String {
-    let needed = if error > 0.0 { 1.0 - libm::floor(libm::log10(error)) } else { 0.0 };
-    let places = if error < 1e-4 { needed.clamp(4.0, 15.0) as usize } else { 4 };
-    format!("{value:.places$} +- {error:.places$}")
+    value_and_error(value, error, 2).join(" +- ")
 }
 
 /// An exponent above this many of its errors is worth more time.
@@ -168,9 +167,9 @@ pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verd
     if k > ORDER && growth > most {
         return None;
     }
+    let exponent = stated(Estimate { value, error });
     let why = format!(
-        "the returns lie on a closed curve (dimension {dimension:.2}), lambda_1 = {value:.1e} +- \
-        {error:.1e}, 0-1 test {k:.2}: a torus of shapes"
+        "the returns lie on a closed curve (dimension {dimension:.2}), lambda_1 = {exponent}, 0-1 test {k:.2}: a torus of shapes"
     );
     let mut verdict = Verdict::new(Regime::QuasiPeriodic, Attractor::Torus, why, time);
     verdict.margin = Some((ORDER / k.abs().max(0.03)).max(most / growth.max(0.1)));
@@ -183,11 +182,13 @@ pub(super) fn missing(runs: &[Growth], witness: &Witness) -> String {
     let Some(Pooled { estimate, .. }) = pooled(runs) else {
         return "no exponent".to_owned();
     };
-    let Estimate { value, error } = estimate;
-    let error = if estimate.has_error() { format!("+- {error:.1e}") } else { "without an error".to_owned() };
+    let exponent = match estimate.has_error() {
+        true => stated(estimate),
+        false => format!("{:.1e} without an error", estimate.value),
+    };
     let k = witness.zero_one.map_or_else(|| "no 0-1 test".to_owned(), |k| format!("0-1 test {k:.2}"));
     let drifts = if witness.stationary == Some(false) { ", the returns drift or shrink" } else { "" };
     format!(
-        "lambda_1 = {value:.1e} {error} and {k} decide neither chaos nor order{drifts}, no stable recurrence was found"
+        "lambda_1 = {exponent} and {k} decide neither chaos nor order{drifts}, no stable recurrence was found"
     )
 }

@@ -2,12 +2,13 @@
 
 use crate::Units;
 use crate::report::motion::capital;
-use crate::report::numbers::{estimate, plain, with_error};
+use crate::report::numbers::{estimate, interval, plain, with_error};
 use crate::report::terms::{typeset, unit};
 use crate::{CellFit, Fitted};
 use motiform_figures::literal;
 use motiform_figures::report::{Cell, Section, Table};
 use motiform_inference::{Coefficient, EquationKnowledge, PValue, Rung, paper};
+use motiform_statistics::to_error;
 use motiform_study::Dimension;
 
 pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
@@ -80,7 +81,7 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
         let (name, factor) = paper(&c.term, c.imaginary);
         let part = if c.imaginary { "imaginary part of " } else { "" };
         let over = fitted.over_sets(&c.name).filter(|_| !c.imaginary);
-        let [low, high] = over.map_or(c.estimate.interval, |over| over.interval).map(plain);
+        let [low, high] = interval(over.map_or(c.estimate.interval, |over| over.interval));
         let interval = if sound && stated { format!("{low} to {high}") } else { String::new() };
         let mut row = vec![
             Cell::text(format!("{part}{}", typeset(&c.name))),
@@ -90,7 +91,11 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
                 plain(c.estimate.value)
             }),
             Cell::text(unit(&c.term, units)),
-            Cell::number(if sound { plain(c.estimate.robust) } else { "not converged".to_owned() }),
+            Cell::number(if sound {
+                to_error(c.estimate.robust, c.estimate.robust)
+            } else {
+                "not converged".to_owned()
+            }),
             Cell::number(interval),
             Cell::text(literal(&format!("{name} = {}", plain(c.estimate.value / factor)))),
         ];

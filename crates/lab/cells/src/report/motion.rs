@@ -45,12 +45,16 @@ pub(crate) fn capital(text: &str) -> String {
 
 fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
     let (time, length) = (&units.time, &units.length);
+    let radius = match case.cell.radius {
+        none if none <= 0.0 => "not known: no frame has modes of the radius".to_owned(),
+        radius => format!("{} {length}", plain(radius)),
+    };
     let mut all = vec![
         (
             "frames that count".to_owned(),
             format!("{} of {}", case.cell.frames(), case.cell.modes.frames.len()),
         ),
-        ("mean radius".to_owned(), format!("{} {length}", plain(case.cell.radius))),
+        ("mean radius".to_owned(), radius),
     ];
     for (flag, count) in case.cell.flags() {
         all.push((flag.to_owned(), format!("{count} frame{}", if count == 1 { "" } else { "s" })));

@@ -3,6 +3,7 @@
 use super::{About, decimals, estimate};
 use motiform_analysis::Verdict;
 use motiform_analysis::regime::Resolution;
+use motiform_dynamics::digits::six_decimals;
 use motiform_study::Plan;
 use motiform_study::plan::Named;
 use serde::Serialize;
@@ -59,8 +60,7 @@ fn certainty(f: &mut Formatter<'_>, verdict: &Verdict) -> Result {
         writeln!(f, "margin         {margin} times the uncertainty of the decisive quantity ({sure})")?;
     }
     if let Some(Resolution { parameter, value, change, exponent }) = &verdict.resolution {
-        let there =
-            exponent.map(|there| format!("lambda_1 is {:.4} +- {:.4} and ", there.value, there.error));
+        let there = exponent.map(|there| format!("lambda_1 is {} and ", estimate(&there, 0, 4)));
         let what = match (verdict.saddle, exponent) {
             (Some(_), _) => "the rates at the saddle",
             (_, Some(_)) => "mean speed and exponent",
@@ -83,7 +83,8 @@ fn certainty(f: &mut Formatter<'_>, verdict: &Verdict) -> Result {
 
 fn numbers(f: &mut Formatter<'_>, verdict: &Verdict) -> Result {
     if let Some(speed) = verdict.speed {
-        writeln!(f, "speed          {:.6} (from {:.6} to {:.6})", speed.mean, speed.min, speed.max)?;
+        let [mean, least, most] = [speed.mean, speed.min, speed.max].map(six_decimals);
+        writeln!(f, "speed          {mean} (from {least} to {most})")?;
     }
     if let Some(heading) = verdict.heading {
         let what = if verdict.period.is_some() { "of the drift, " } else { "" };
@@ -98,7 +99,7 @@ fn numbers(f: &mut Formatter<'_>, verdict: &Verdict) -> Result {
     ];
     for (name, value, unit) in numbers {
         if let Some(value) = value {
-            writeln!(f, "{name:14} {value:.6} {unit}")?;
+            writeln!(f, "{name:14} {} {unit}", six_decimals(value))?;
         }
     }
     Ok(())

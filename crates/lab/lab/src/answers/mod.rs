@@ -18,6 +18,7 @@ pub use scanned::Scanned;
 pub use steady::SteadyMotions;
 
 use motiform_analysis::Estimate;
+use motiform_dynamics::digits::value_and_error;
 use motiform_models::ModelName;
 use motiform_study::Plan;
 use motiform_study::plan::{Control, Named};
@@ -60,9 +61,12 @@ fn decimals(all: &[Estimate], usual: usize) -> usize {
     usual + more.clamp(0.0, 12.0) as usize
 }
 
-/// `0.0902 +- 2.1e-3`, or a note that there is no error.
-fn estimate(estimate: &Estimate, width: usize, digits: usize) -> String {
-    let Estimate { value, error } = estimate;
-    let error = if estimate.has_error() { format!("+- {error:.1e}") } else { "(no error)".to_owned() };
-    format!("{value:>width$.digits$} {error}")
+/// `0.0902 +- 0.0021`, or a note that there is no error, with so many decimals.
+fn estimate(estimate: &Estimate, width: usize, decimals: usize) -> String {
+    let Estimate { value, error } = *estimate;
+    if !estimate.has_error() {
+        return format!("{value:>width$.decimals$} (no error)");
+    }
+    let [value, error] = value_and_error(value, error, 2);
+    format!("{value:>width$} +- {error}")
 }
