@@ -6,6 +6,7 @@ use crate::protocol::{self, Registry, SectionKind};
 use crate::task::lock;
 use motiform_lab::registry;
 use motiform_models::{ModelInfo, amplitudes};
+use motiform_study::plan::check;
 use motiform_study::scan::Axis;
 use motiform_study::study::{DisplaySettings, ReturnMapSettings};
 use motiform_study::{Error, Study, input, presets};
@@ -41,6 +42,24 @@ pub(crate) struct Subject {
     pub(crate) study: Study,
     /// Its text, if it was given as text.
     pub(crate) text: Option<String>,
+}
+
+/// The most noise that a page can ask for, unless the study itself has more.
+const MOST_NOISE: f64 = 1.0;
+
+impl Subject {
+    /// Gives a study of this subject noise of this amplitude, the larger one of velocity and shape, in the subject's ratio.
+    ///
+    /// # Errors
+    /// More noise than any body stands, unless the subject has it.
+    pub(crate) fn set_noise(&self, study: &mut Study, amplitude: f64) -> Result<(), Error> {
+        let own = &self.study.run;
+        let remedy = "the explorer takes amplitudes from 0 to 1; for more, write them in a study file";
+        let allowed = 0.0..=MOST_NOISE.max(own.largest_noise());
+        check("noise", amplitude, allowed.contains(&amplitude), remedy)?;
+        study.run.set_largest_noise(amplitude, own);
+        Ok(())
+    }
 }
 
 /// A study file that the explorer opens.
@@ -173,7 +192,7 @@ impl Catalogue {
         for model in list(&mut all, "models") {
             let info = ModelInfo::find(model["name"].as_str().unwrap_or_default())?;
             model["plane"] = plane(&DisplaySettings::of_model(info).plane);
-            model["noise"] = json!(Study::of_model(info).run.noise);
+            model["noise"] = json!(Study::of_model(info).run.largest_noise());
             model["editable"] = json!(editable(info));
         }
         for preset in list(&mut all, "presets") {
@@ -228,7 +247,7 @@ fn described(name: &str, subject: &Subject) -> Result<Value, Error> {
         parameter["default"] = json!(value);
     }
     model["plane"] = plane(&study.display.plane);
-    model["noise"] = json!(study.run.noise);
+    model["noise"] = json!(study.run.largest_noise());
     model["editable"] = json!(editable(info));
     Ok(model)
 }

@@ -21,10 +21,15 @@ const COUNT: usize = 3;
 const LOOKS: (f64, f64) = (2.0, 40.0);
 const POINTS: f64 = 200.0;
 
+/// What the evidence of a noisy body is about.
+pub(crate) const WITHOUT_NOISE: &str = "the equations without noise";
+
 /// A motion: the plan whose start is the state of the body, without noise.
 pub(crate) struct Motion {
     pub(crate) revision: u32,
     pub(crate) plan: Plan,
+    /// The body has noise: its name is that of the equations without it.
+    pub(crate) noisy: bool,
     /// Classified before, but the body has moved on since: repeat the classification.
     pub(crate) again: bool,
 }
@@ -64,12 +69,12 @@ impl Naming {
 
     /// Classifies this motion, replacing an earlier one.
     pub(crate) fn name(&self, motion: Motion) {
-        let Motion { revision, plan, again } = motion;
+        let Motion { revision, plan, noisy, again } = motion;
         let mut known = lock(&self.heard.known);
         known.complete = false;
         let before = known.name.map(|name| name.1).filter(|_| again);
         drop(known);
-        self.worker.put(Job { revision, plan, again, before });
+        self.worker.put(Job { revision, plan, noisy, again, before });
     }
 
     /// Takes what a helper found.
@@ -148,6 +153,7 @@ pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) -> bool
 pub(crate) struct Job {
     revision: u32,
     plan: Plan,
+    noisy: bool,
     again: bool,
     /// Its name as known before.
     before: Option<Regime>,
@@ -195,7 +201,8 @@ impl Work<'_> {
         };
         let (regime, numbers) = (row.regime, numbers(&row));
         let time = row.number("time").unwrap_or(0.0);
-        let text = said(MotionNamed { revision, regime: regime.name(), why: row.why, numbers });
+        let why = if self.job.noisy { format!("{WITHOUT_NOISE}: {}", row.why) } else { row.why };
+        let text = said(MotionNamed { revision, regime: regime.name(), why, numbers });
         (self.tell)(Found::Named { revision, regime, time, text })?;
         Ok(Some(regime))
     }

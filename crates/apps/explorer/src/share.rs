@@ -114,7 +114,7 @@ pub(crate) fn source(start: &Subject, study: &Study) -> Result<String, Error> {
         Source::Preset { name, .. } => format!("{name}, changed"),
         Source::File(path) => format!("{}, changed", file_name(path)),
     };
-    text.run.noise = study.run.noise;
+    (text.run.noise, text.run.noise_velocity) = (study.run.noise, study.run.noise_velocity);
     let known = |axis: &motiform_study::scan::Axis| definition.parameters.iter().any(|p| p.name == axis.name);
     if study.display.plane.iter().all(known) {
         text.display.plane.clone_from(&study.display.plane);

@@ -60,6 +60,9 @@ pub trait Diffusion: Send + Sync {
 
     /// The rate (inverse model time) at which it changes states of size 1; it limits the step of the noise.
     fn rate(&self) -> f64;
+
+    /// Returns `true` if it changes this entry of the state.
+    fn moves(&self, entry: usize) -> bool;
 }
 
 /// The noise that belongs to a model, beside that of a run.

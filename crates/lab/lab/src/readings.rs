@@ -1,7 +1,7 @@
 //! Quantities computed from recorded states: the tables of a dataset, the numbers of its manifest.
 
 use motiform_dynamics::model::{turning_rate, velocity_and_acceleration};
-use motiform_dynamics::{Model, Trajectory};
+use motiform_dynamics::{Model, Noise, Trajectory};
 use motiform_store::table::{Column, Table};
 use motiform_study::plan::{Computation, Named};
 use motiform_study::quantity::state::{self, RISING, SPEED, T, TURNING_RATE, X, Y};
@@ -70,8 +70,7 @@ impl<'m> Readings<'m> {
         Self {
             model,
             atol: c.control.absolute_tolerance(),
-            // A velocity that is read off a shape under noise has no derivative.
-            turns: c.noise.is_none() || model.velocities() > 0,
+            turns: turns(model, c),
             named: vec![0.0; model.coordinates().len()],
             seen: vec![0.0; model.observables().len()],
             boundary: vec![0.0; model.measures().len()],
@@ -90,6 +89,20 @@ impl<'m> Readings<'m> {
         let values = values.chain(pace).chain(self.seen.iter().copied()).chain(self.boundary.iter().copied());
         table.columns.iter_mut().zip(values).for_each(|(column, value)| column.values.push(value));
     }
+}
+
+/// Returns `true` if the heading of a run has a derivative. A velocity under white noise has none, and neither has one that is read off a
+/// shape under noise.
+///
+/// # Checked by  tests/all/noise.rs: noise on the velocity, on the shape alone, of the equations
+#[must_use]
+pub(crate) fn turns(model: &dyn Model, c: &Computation) -> bool {
+    let Some(settings) = c.noise else { return true };
+    let additive = Noise::on(model, settings.velocity, settings.shape, settings.step).amplitudes;
+    let own = model.noise().diffusion;
+    let rough =
+        |entry: usize| additive[entry] > 0.0 || own.as_ref().is_some_and(|diffusion| diffusion.moves(entry));
+    model.velocities() > 0 && !(0..model.velocities()).any(rough)
 }
 
 /// Speed and turning rate of a shape; the latter is NaN at rest: below what a run with absolute tolerance `atol` resolves.

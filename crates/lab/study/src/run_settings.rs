@@ -79,6 +79,16 @@ impl RunSettings {
         self.noise.max(self.noise_velocity.unwrap_or(0.0))
     }
 
+    /// Makes `amplitude` the larger one of its noise. Noise on velocity and shape that `own` distinguishes keeps the ratio that it has
+    /// there.
+    pub fn set_largest_noise(&mut self, amplitude: f64, own: &Self) {
+        let part = if amplitude == own.largest_noise() { 1.0 } else { amplitude / own.largest_noise() };
+        (self.noise, self.noise_velocity) = match own.noise_velocity {
+            Some(velocity) if own.largest_noise() > 0.0 => (part * own.noise, Some(part * velocity)),
+            _ => (amplitude, None),
+        };
+    }
+
     /// The size beyond which a shape has escaped: what is given, or 1e6 units of the equations, at least 1e6.
     #[must_use]
     pub fn escape_norm_in(&self, unit: f64) -> f64 {

@@ -13,9 +13,6 @@ use std::collections::BTreeMap;
 /// The strongest kick, relative to the shape.
 const STRONGEST: f64 = 3.0;
 
-/// The most noise that a page can ask for, unless the study itself has more.
-pub(super) const MOST_NOISE: f64 = 1.0;
-
 /// A body placed on an unstable motion deviates from it by this part of its shape, so that it soon leaves it.
 const DEVIATION: f64 = 1e-3;
 
@@ -42,9 +39,8 @@ impl Setting {
 
     /// The body with this noise.
     pub(super) fn with_noise(&self, amplitude: f64, seen: &Seen<'_>) -> Result<Self, Error> {
-        check_noise(amplitude, self.study().run.noise)?;
         let mut study = self.study().clone();
-        study.run.noise = amplitude;
+        self.origin().set_noise(&mut study, amplitude)?;
         self.changed(study, seen.t, seen.state.to_vec(), seen.radius)
     }
 
@@ -74,8 +70,7 @@ impl Setting {
         let state = state_of(model, &coordinates, put.position.unwrap_or([position[0], position[1]]))?;
         let mut study = next.study().clone();
         if let Some(noise) = put.noise {
-            check_noise(noise, study.run.noise)?;
-            study.run.noise = noise;
+            self.origin().set_noise(&mut study, noise)?;
         }
         self.changed(study, put.t.unwrap_or(seen.t), state, seen.radius)
     }
@@ -148,18 +143,14 @@ impl Setting {
     }
 }
 
-/// Rejects more noise than any body stands, unless the study has it.
-pub(super) fn check_noise(amplitude: f64, own: f64) -> Result<(), Error> {
-    let remedy = "the explorer takes amplitudes from 0 to 1; for more, write them in a study file";
-    check("noise", amplitude, (0.0..=MOST_NOISE.max(own)).contains(&amplitude), remedy)
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
     use super::super::setting::tests::begin;
     use super::*;
+    use crate::catalogue::Catalogue;
+    use crate::protocol::Begin;
 
     #[test]
     fn a_change_keeps_the_state() {
@@ -172,6 +163,22 @@ mod tests {
         assert!(setting.with(&BTreeMap::from([("kapa2".to_owned(), 0.5)]), &seen).is_err());
         let noisy = setting.with_noise(0.1, &seen).unwrap();
         assert!(noisy.plan().computation.noise.is_some() && noisy.motion().plan.computation.noise.is_none());
+    }
+
+    /// One amplitude for both: the larger one; velocity and shape keep the ratio of the study.
+    #[test]
+    fn noise_keeps_the_ratio_of_its_study() {
+        let catalogue = Catalogue::new(None).unwrap();
+        let begin = |noise| Begin { model: "noisy-heading".to_owned(), noise, ..Begin::default() };
+        let setting = Setting::begin(&begin(None), 1, &catalogue).unwrap();
+        assert!(setting.begun().noise == 0.2 && setting.motion().noisy);
+        let amplitudes = |setting: &Setting| (setting.study().run.noise, setting.study().run.noise_velocity);
+        let less = setting.with_noise(0.1, &setting.start()).unwrap();
+        assert_eq!((amplitudes(&less), less.told().noise), ((0.0, Some(0.1)), 0.1));
+        assert_eq!(amplitudes(&Setting::begin(&begin(Some(0.1)), 1, &catalogue).unwrap()), (0.0, Some(0.1)));
+        let none = less.with_noise(0.0, &setting.start()).unwrap();
+        assert!(!none.motion().noisy);
+        assert_eq!(amplitudes(&none.with_noise(0.2, &none.start()).unwrap()), (0.0, Some(0.2)));
     }
 
     #[test]

@@ -163,7 +163,7 @@ fn ahead(job: &Job, watch: &dyn Watch) -> Result<Option<ReturnsTold>, Error> {
     let model = plan.body()?;
     let body = InPlane(model.as_ref());
     let kept = LIMITS.2 / (2 * job.state.len() + 8);
-    let mut record = Record::new(model.as_ref(), plan.computation.control.absolute_tolerance(), kept);
+    let mut record = Record::new(model.as_ref(), &plan.computation, kept);
     let mut stretch = Stretch::new(plan, &body, job.t, &job.state, u64::from(job.revision))?;
     let wanted = usize::from(job.count.min(LIMITS.0));
     let (begun, mut samples) = (Moment::now(), FIRST);

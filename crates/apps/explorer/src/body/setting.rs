@@ -1,6 +1,5 @@
 //! A body between two changes: model, parameters, initial state.
 
-use super::changes::check_noise;
 use crate::catalogue::{Catalogue, Subject};
 use crate::motion::Motion;
 use crate::protocol::{Begin, Begun, Changed, Observable};
@@ -59,9 +58,8 @@ impl Setting {
         let mut study = origin.study.clone();
         study.set_all(begin.parameters.iter().map(|(name, value)| (name.as_str(), *value)))?;
         study.run.seed = begin.seed;
-        if let Some(noise) = begin.noise.filter(|noise| *noise != study.run.noise) {
-            check_noise(noise, study.run.noise)?;
-            (study.run.noise, study.run.noise_velocity) = (noise, None);
+        if let Some(noise) = begin.noise {
+            origin.set_noise(&mut study, noise)?;
         }
         let plan = RunPlan::new(&study)?;
         let model = plan.body()?;
@@ -114,7 +112,7 @@ impl Setting {
             return Ok(self.study.figure.radius);
         }
         let body = InPlane(self.model());
-        let mut record = Record::new(self.model(), 0.0, AHEAD.0);
+        let mut record = Record::new(self.model(), &self.quiet.computation, AHEAD.0);
         let mut stretch = Stretch::new(&self.quiet, &body, self.t, &self.state, 0)?;
         let end = self.t + AHEAD.0 as f64 * self.study.display.sample;
         stretch.advance(end, AHEAD.1, &mut record, self.model());
@@ -164,16 +162,21 @@ impl Setting {
         self.study.return_map.as_ref()
     }
 
+    /// Returns `true` if the body has noise.
+    fn noisy(&self) -> bool {
+        self.plan.computation.noise.is_some()
+    }
+
     /// The motion to be classified.
     pub(crate) fn motion(&self) -> Motion {
-        Motion { revision: self.revision, plan: self.quiet.clone(), again: false }
+        Motion { revision: self.revision, plan: self.quiet.clone(), noisy: self.noisy(), again: false }
     }
 
     /// The same motion, from a later state.
     pub(crate) fn motion_at(&self, state: &[f64]) -> Result<Motion, Error> {
         let mut study = self.study_at(state);
         study.run.silence();
-        Ok(Motion { revision: self.revision, plan: RunPlan::new(&study)?, again: true })
+        Ok(Motion { revision: self.revision, plan: RunPlan::new(&study)?, noisy: self.noisy(), again: true })
     }
 
     /// The study that continues from a state.
@@ -192,7 +195,7 @@ impl Setting {
             title: self.study.title.clone(),
             about: self.study.about.clone(),
             parameters: self.plan.computation.parameters.clone(),
-            noise: self.study.run.noise,
+            noise: self.study.run.largest_noise(),
             sample: display.sample,
             speed: display.speed,
             speeds: display.speeds(),
@@ -206,7 +209,7 @@ impl Setting {
         Changed {
             revision: self.revision,
             parameters: self.plan.computation.parameters.clone(),
-            noise: self.study.run.noise,
+            noise: self.study.run.largest_noise(),
         }
     }
 }

@@ -59,8 +59,7 @@ impl<'s> Stage<'s> {
     ) -> Result<Self, Error> {
         let Seen { t, state, radius } = setting.start();
         let stretch = Stretch::new(setting.plan(), body, t, state, u64::from(setting.revision()))?;
-        let record =
-            Record::new(setting.model(), setting.plan().computation.control.absolute_tolerance(), KEPT);
+        let record = Record::new(setting.model(), &setting.plan().computation, KEPT);
         let swarm = Swimmers::again(setting, body, t, &services.swarms).unwrap_or_else(|error| {
             services.swarms.end();
             // A page that has gone is noticed at its next request.

@@ -177,7 +177,7 @@ impl<'s> Swimmers<'s> {
             let plans = states.iter().map(plan).collect();
             swarms.worker.put(Job { revision: setting.revision(), plans });
         }
-        let record = Record::new(model, plan.computation.control.absolute_tolerance(), 2);
+        let record = Record::new(model, &plan.computation, 2);
         Ok(Some(Self { from: *from, members: members?, record }))
     }
 

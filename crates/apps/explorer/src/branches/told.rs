@@ -3,6 +3,7 @@
 use super::Known;
 use crate::body::short;
 use crate::protocol::{BranchTold, SpecialPoint, Specials};
+use motiform_diagrams::draw::Ordinate;
 use motiform_diagrams::{Followed, Origin, Sample, SpecialEntry, is_stable, motion_between};
 
 /// Enough digits for a picture, and for a value of the parameter.
@@ -60,6 +61,10 @@ fn special(branch: usize, followed: &Followed, entry: &SpecialEntry) -> Option<S
         point,
         kind: entry.kind,
         parameter: short(entry.parameter, DIGITS.1),
+        speed: entry.connection.as_ref().and_then(|connection| {
+            let last = || followed.samples().nth(point).map(|sample| sample.reading.speed[0]);
+            Ordinate::Speed.at(connection).or_else(last).map(|speed| short(speed, DIGITS.0))
+        }),
         period: entry.period.map(|period| short(period, DIGITS.1)),
         criticality: entry.criticality.filter(|word| *word != "undecided"),
         breaks: entry.breaks,

@@ -168,13 +168,15 @@ messages! {
         between: Vec<&'static str>,
         stable: Vec<bool>,
     }
-    /// A special point, and where it is on its branch; `leads`: the branch that begins or lies there.
+    /// A special point, and where it is on its branch; `leads`: the branch that begins or lies there. `speed`: of a connection, where the
+    /// branch ends beyond its last point.
     #[derive(Serialize)]
     SpecialPoint {
         branch: usize,
         point: usize,
         kind: &'static str,
         parameter: f64,
+        speed: Option<f64>,
         period: Option<f64>,
         criticality: Option<&'static str>,
         breaks: Option<&'static str>,

@@ -41,9 +41,13 @@ fn branches_come_one_by_one_with_their_special_points() {
     follow(&mut page, 1, 4);
     let start = page.json("branches");
     assert_eq!((&start["along"]["name"], &start["parameters"]["kappa3"]), (&"kappa2".into(), &0.1.into()));
+    let mut straight = [Vec::new(), Vec::new()];
     let motions: Vec<Value> = (0..4)
         .map(|number| {
             let branch = page.json("branch");
+            if number == 1 {
+                straight = ["parameter", "speed"].map(|name| numbers(&branch[name]));
+            }
             assert_eq!((branch["epoch"].as_u64(), branch["branch"].as_u64()), (Some(1), Some(number)));
             let count = |name: &str| branch[name].as_array().unwrap().len();
             let points = count("parameter");
@@ -71,6 +75,13 @@ fn branches_come_one_by_one_with_their_special_points() {
     for (point, value) in zigzag.iter().zip([0.783_547_485, 1.148_047_264, 1.344_178_98]) {
         near(&point["parameter"], value, 1e-7);
     }
+    // at the connection the orbit is at its saddle, the straight motion there
+    let [parameter, speed] = straight;
+    let after =
+        (1..parameter.len()).find(|&k| (parameter[k - 1] < 1.344_178_98) != (parameter[k] < 1.344_178_98));
+    let (low, high) = (speed[after.unwrap() - 1], speed[after.unwrap()]);
+    near(&zigzag[2]["speed"], 0.5 * (low + high), 0.6 * (high - low).abs());
+    assert!(zigzag[0]["speed"].is_null());
     let hopf = of(3);
     assert_eq!((&hopf[0]["kind"], &hopf[0]["criticality"]), (&"hopf".into(), &"subcritical".into()));
     near(&hopf[0]["parameter"], 1.121_937_264, 1e-7);

@@ -31,9 +31,9 @@ import { StripPanels } from "./strips/panels";
 import { onTheme, visible } from "./theme";
 import { SwarmPanel } from "./swarm";
 import { toast } from "./toasts";
-import { unitOf } from "./tracked";
 import { Tour } from "./tour/tour";
 import { Undo } from "./undo";
+import { unitsOf, useUnits } from "./units";
 
 /** The body's colour while its motion has no name. */
 const NAMELESS = "#888888";
@@ -230,7 +230,8 @@ export class App implements Hearer {
     session.begun(begun, this.speedOf(place, begun));
     this.history.clear();
     this.swarm.clear();
-    this.body.begin(unitOf(session));
+    useUnits(unitsOf(session));
+    this.body.begin();
     this.compare.begin(session);
     if (this.map.current()) this.branches.forget();
     this.loop.look();

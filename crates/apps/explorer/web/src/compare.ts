@@ -7,8 +7,9 @@ import type { Beside } from "./half";
 import type { Connect } from "./listener";
 import type { Plane } from "./protocol";
 import type { Session } from "./session";
-import { trackedBy, TrackedView, unitOf, type Sight } from "./tracked";
+import { TrackedView, type Sight } from "./tracked";
 import { Twin } from "./twin";
+import { trackedBy, unitsOf } from "./units";
 
 /** What is to be held, and what the body looks like. */
 export interface Compared {
@@ -48,7 +49,7 @@ export class Compare {
     const { model, parameters, registry } = session;
     this.beside?.end();
     const names = [...new Set([plane?.x.name ?? "", plane?.y?.name ?? "", ...Object.keys(place.parameters)])];
-    this.beside = new Twin(this.connect, { place, model, names, values: { ...parameters }, regimes: registry.regimes, unit: unitOf(session) }, () => (this.beside = null));
+    this.beside = new Twin(this.connect, { place, model, names, values: { ...parameters }, regimes: registry.regimes, unit: unitsOf(session).length }, () => (this.beside = null));
   }
 
   draw(seconds: number, moving: boolean): void {

@@ -2,6 +2,7 @@
 
 import { byId, setText, takesKeys } from "./dom";
 import { pretty } from "./numbers";
+import { behind, units } from "./units";
 
 /** What the controls do. */
 export interface Actions {
@@ -27,8 +28,8 @@ const TRAIL = { least: 1, usual: 15, most: 80 };
 export class Controls {
   private readonly playButton = byId<HTMLButtonElement>("play");
   private readonly followButton = byId<HTMLButtonElement>("follow");
-  private readonly speed = new LogDial("speed", (value) => `${pretty(value, 2)}/s`);
-  private readonly trail = new LogDial("trail", (value) => pretty(value, 2));
+  private readonly speed = new LogDial("speed", (value) => `${pretty(value, 2)}${behind(units().time)}/s`);
+  private readonly trail = new LogDial("trail", (value) => `${pretty(value, 2)}${behind(units().time)}`);
   private readonly strength = new LogDial("strength", (value) => pretty(value, 2));
   private kickBy = 0.2;
   private readonly noise = byId<HTMLInputElement>("noise");

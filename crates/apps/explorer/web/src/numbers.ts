@@ -11,12 +11,48 @@ export function minus(text: string): string {
 export function pretty(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "\u2013";
   const text = Math.abs(value) >= 1e5 ? String(value.toExponential(digits - 1)).replace(/\.?0*e/, "e") : plain(value, digits);
-  return minus(text).replace(/e\+?(.+)$/, (_, power: string) => `\u00b7${superscript(10, power)}`);
+  return text.replace(/e\+?(.+)$/, (_, power: string) => `\u00b7${tenTo(Number(power))}`).replace("-", MINUS);
 }
 
-function superscript(base: number, power: string): string {
-  const raised = [...power].map((c) => (c === MINUS ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[Number(c)]));
-  return `${base}${raised.join("")}`;
+/** A power of ten. */
+export function tenTo(power: number): string {
+  return `10${[...String(power)].map((c) => (c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[Number(c)])).join("")}`;
+}
+
+/** Numbers from here to there are written without a power of ten: as along the axes of figures. */
+const PLAIN = { least: 1e-3, most: 1e5 };
+
+/** The power of ten that numbers up to this size have in common; 0 where they are written out. */
+function commonPower(largest: number): number {
+  return largest > 0 && (largest < PLAIN.least || largest >= PLAIN.most) ? Math.floor(Math.log10(largest) + 1e-9) : 0;
+}
+
+/** Digits of an error. */
+const ERROR_DIGITS = 2;
+/** A value beyond so many of its errors is known to all digits that are shown of any. */
+const CERTAIN = 1e6;
+
+/** `0.123 ± 0.012`: the error to two digits, the value to the same place; without an error the value to four. */
+export function withError(value: number, error: number | null, unit = ""): string {
+  if (error === null || !(error > 0) || Math.abs(value) > CERTAIN * error) return error === null ? `${pretty(value)}${unit}` : `${pretty(value)} \u00b1 ${pretty(error)}${unit}`;
+  const rounded = Number(error.toPrecision(ERROR_DIGITS));
+  const place = Math.floor(Math.log10(rounded) + 1e-9) - (ERROR_DIGITS - 1);
+  const largest = Math.max(Math.abs(value), rounded);
+  const power = place < -6 || largest >= PLAIN.most ? commonPower(largest) : 0;
+  const [low, high] = [value, rounded].map((one) => fixed(one / 10 ** power, Math.max(0, power - place)));
+  const text = `${low} \u00b1 ${high}`;
+  return power ? `(${text})\u00b7${tenTo(power)}${unit}` : unit ? `(${text})${unit}` : text;
+}
+
+/** As many digits as a field for so many characters holds: written out, or with a power of ten where that holds more. */
+export function fitting(value: number, characters: number): string {
+  for (let digits = 8; digits > 1; digits--) {
+    const short = Number(value.toPrecision(digits));
+    const texts = [String(short), short.toExponential().replace("e+", "e")];
+    const fits = texts.find((text) => text.length <= characters);
+    if (fits !== undefined) return fits;
+  }
+  return plain(value, 1);
 }
 
 /** The same in ASCII, for inputs and addresses. */
@@ -42,10 +78,17 @@ export function decimalsOf(step: number): number {
   return Math.min(12, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
 }
 
-/** Round values along an axis and their labels. */
+/** Round values along an axis, their labels, and the power of ten that the labels leave out. */
 export interface Ticks {
   values: number[];
   labels: string[];
+  power: number;
+}
+
+/** The name of an axis with the power of ten of its ticks, before its unit: `*x* (10^{4} s)`. */
+export function scaledLabel(name: string, unit: string | null, power: number): string {
+  const all = [...(power ? [`10^{${power}}`] : []), ...(unit ? [unit] : [])].join(" ");
+  return all ? `${name} (${all})` : name;
 }
 
 /** Ticks in steps of 1, 2 or 5 times a power of ten, at most about `target`. */
@@ -56,10 +99,14 @@ export function ticks(low: number, high: number, target: number): Ticks {
   const values: number[] = [];
   const first = Math.ceil(low / step - 1e-9);
   for (let k = first; k * step <= high + 1e-9 * step && values.length < 50; k++) values.push(k * step);
-  const decimals = decimalsOf(step);
-  const largest = Math.max(Math.abs(low), Math.abs(high));
-  const label = largest >= 1e5 || largest < 1e-3 ? (v: number) => pretty(v, 3) : (v: number) => fixed(v, decimals);
-  return { values, labels: values.map(label) };
+  return labelled(values, step);
+}
+
+/** Ticks at multiples of a step. */
+export function labelled(values: number[], step: number): Ticks {
+  const power = commonPower(Math.max(step, ...values.map(Math.abs)));
+  const decimals = decimalsOf(step / 10 ** power);
+  return { values, labels: values.map((value) => fixed(value / 10 ** power, decimals)), power };
 }
 
 /** Seconds as people say them. */

@@ -3,12 +3,17 @@
 import { byId, make } from "./dom";
 import { equations } from "./equations";
 import { readNumber } from "./fields";
-import { plain, decimalsOf, roundStep } from "./numbers";
+import { decimalsOf, fitting, roundStep } from "./numbers";
 import type { Model, Parameter, Preset, Values } from "./protocol";
-import { spoken, symbol } from "./symbols";
+import { spoken, symbol, symbolWidth } from "./symbols";
 
 /** A slider goes over its range in at least so many steps, each a round number. */
 const STEPS = 400;
+/** Room for a symbol beside its slider, and its size; a wider one has a line of its own. */
+const BESIDE = 44;
+const SIZE = 17;
+/** So many characters fit into the field of a number. */
+const FIELD = 9;
 
 interface Row {
   parameter: Parameter;
@@ -76,10 +81,16 @@ export class ParameterPanel {
       const value = values[parameter.name];
       if (value === undefined) continue;
       slider.value = String(value);
-      if (document.activeElement !== number) number.value = plain(value, 8);
+      if (document.activeElement !== number) this.write(number, value);
       reset.classList.toggle("shown", value !== this.base[parameter.name]);
       reset.disabled = value === this.base[parameter.name];
     }
+  }
+
+  /** As much of a value as its field holds; all of it where one points. */
+  private write(number: HTMLInputElement, value: number): void {
+    number.value = fitting(value, FIELD);
+    number.title = String(value);
   }
 
   /** Marks the axes of the map. */
@@ -119,7 +130,7 @@ export class ParameterPanel {
     const number = make("input", { type: "text", inputmode: "decimal", class: "number", autocomplete: "off", "aria-label": `${name}, value` });
     const reset = make("button", { type: "button", class: "reset", title: "Reset to the value of the preset", "aria-label": `Reset ${name}` }, "\u21ba");
     const refusal = make("p", { class: "refusal", role: "alert", hidden: "" });
-    const element = make("div", { class: "parameter", "data-parameter": name, "data-testid": `parameter-${name}` }, about, mark, slider, number, reset, text, refusal);
+    const element = make("div", { class: symbolWidth(parameter.symbol, SIZE) > BESIDE ? "parameter wide" : "parameter", "data-parameter": name, "data-testid": `parameter-${name}` }, about, mark, slider, number, reset, text, refusal);
     about.addEventListener("click", () => {
       text.hidden = !text.hidden;
       about.setAttribute("aria-expanded", String(!text.hidden));
@@ -130,14 +141,15 @@ export class ParameterPanel {
     };
     slider.addEventListener("input", () => choose(snapped(slider.valueAsNumber, step)));
     const typed = (): void => {
-      if (number.value === plain(this.values[name], 8)) return;
+      if ([fitting(this.values[name], FIELD), String(this.values[name])].includes(number.value)) return;
       const read = readNumber(number.value);
       if ("value" in read) choose(read.value);
       else Object.assign(refusal, { hidden: false, textContent: read.why });
     };
     number.addEventListener("change", typed);
     number.addEventListener("keydown", (event) => event.key === "Enter" && typed());
-    number.addEventListener("blur", () => (number.value = plain(this.values[name], 8)));
+    number.addEventListener("focus", () => (number.value = String(this.values[name])));
+    number.addEventListener("blur", () => this.write(number, this.values[name]));
     reset.addEventListener("click", () => choose(this.base[name]));
     return { parameter, element, slider, number, reset, mark, refusal };
   }

@@ -1,7 +1,7 @@
 /** Axes around a rectangle of data, for the map and the return map. */
 
-import { ticks, type Ticks } from "./numbers";
-import { drawSymbol } from "./symbols";
+import { scaledLabel, ticks, type Ticks } from "./numbers";
+import { drawSymbol, fittedSymbol } from "./symbols";
 import type { Inks } from "./theme";
 
 /** A rectangle in CSS pixels. */
@@ -20,6 +20,13 @@ export interface View {
   y1: number;
 }
 
+/** The name of an axis, as markup, its unit, if it has one, and what is taken at the right of its line. */
+export interface AxisLabel {
+  name: string;
+  unit?: string | null;
+  taken?: number;
+}
+
 export const UI_FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif';
 
 export const pixelX = (box: Box, view: View, x: number): number => box.left + ((x - view.x0) / (view.x1 - view.x0)) * box.width;
@@ -27,8 +34,8 @@ export const pixelY = (box: Box, view: View, y: number): number => box.top + ((v
 export const dataX = (box: Box, view: View, x: number): number => view.x0 + ((x - box.left) / box.width) * (view.x1 - view.x0);
 export const dataY = (box: Box, view: View, y: number): number => view.y1 - ((y - box.top) / box.height) * (view.y1 - view.y0);
 
-/** Frame, ticks outside, numbers, labels in markup; an axis without a label is left out. Ticks upwards may be given. */
-export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labels: { x: string | null; y: string | null }, inks: Inks, up?: Ticks): void {
+/** Frame, ticks outside, numbers, labels; an axis without a label is left out. Ticks upwards may be given. */
+export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labels: { x: AxisLabel | null; y: AxisLabel | null }, inks: Inks, up?: Ticks): void {
   g.strokeStyle = inks.muted;
   g.fillStyle = inks.ink;
   g.lineWidth = 1;
@@ -38,6 +45,11 @@ export function drawAxes(g: CanvasRenderingContext2D, box: Box, view: View, labe
 }
 
 const FONT = `11px ${UI_FONT}`;
+/** Size of the names of axes, and what is left free at the edge of the sheet. */
+const TITLE = 15;
+const MARGIN = 3;
+/** Pixels between numbers across. */
+const BESIDE = 12;
 /** Pixels between the numbers of an upward axis. */
 const RISE = 40;
 /** Least room left of a frame; and what its title takes beside the numbers. */
@@ -61,17 +73,24 @@ function widest(g: CanvasRenderingContext2D, labels: string[]): number {
 
 /** Ticks across, so many that their numbers do not touch. */
 function across(g: CanvasRenderingContext2D, box: Box, view: View): Ticks {
-  let count = Math.max(2, box.width / 52);
+  const [range, least] = [view.x1 - view.x0, 2];
+  const touch = ({ values, labels }: Ticks): boolean => values.length > 1 && ((values[1] - values[0]) / range) * box.width < widest(g, labels) + BESIDE;
+  let count = Math.max(least, box.width / 52);
   let found = ticks(view.x0, view.x1, count);
-  while (count > 2 && found.values.length > 1 && (widest(g, found.labels) + 8) * found.values.length > box.width + 30) {
+  while (count > least && touch(found)) {
     count -= 1;
-    found = ticks(view.x0, view.x1, count);
+    found = ticks(view.x0, view.x1, Math.max(least, count));
   }
-  return found;
+  return touch(found) ? thinned(found) : found;
 }
 
-function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string): void {
-  const { values, labels } = across(g, box, view);
+/** Every other number only. */
+function thinned({ values, labels, power }: Ticks): Ticks {
+  return { values, labels: labels.map((label, i) => (i % 2 ? "" : label)), power };
+}
+
+function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, { name, unit = null, taken = 0 }: AxisLabel): void {
+  const { values, labels, power } = across(g, box, view);
   const bottom = Math.round(box.top + box.height) + 0.5;
   const edge = g.canvas.width / g.getTransform().a;
   g.font = FONT;
@@ -86,10 +105,12 @@ function xAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string)
     g.fillText(labels[i], Math.min(x, edge - 2 - g.measureText(labels[i]).width / 2), bottom + 15);
   });
   g.stroke();
-  drawSymbol(g, label, box.left + box.width / 2, bottom + 31, 15);
+  const free = edge - taken;
+  const { markup, size, width } = fittedSymbol(scaledLabel(name, unit, power), TITLE, free - 2 * MARGIN);
+  drawSymbol(g, markup, within(box.left + box.width / 2, width, free), bottom + 31, size);
 }
 
-function yAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string, { values, labels }: Ticks): void {
+function yAxis(g: CanvasRenderingContext2D, box: Box, view: View, { name, unit = null }: AxisLabel, { values, labels, power }: Ticks): void {
   const left = Math.round(box.left) - 0.5;
   g.font = FONT;
   g.textAlign = "right";
@@ -104,9 +125,16 @@ function yAxis(g: CanvasRenderingContext2D, box: Box, view: View, label: string,
   g.stroke();
   g.textBaseline = "alphabetic";
   const title = left - widest(g, labels) - 15;
+  const sheet = g.canvas.height / g.getTransform().a;
+  const { markup, size, width } = fittedSymbol(scaledLabel(name, unit, power), TITLE, sheet - 2 * MARGIN);
   g.save();
-  g.translate(title, box.top + box.height / 2);
+  g.translate(title, within(box.top + box.height / 2, width, sheet));
   g.rotate(-Math.PI / 2);
-  drawSymbol(g, label, 0, 0, 15);
+  drawSymbol(g, markup, 0, 0, size);
   g.restore();
+}
+
+/** The place nearest to `centre` at which so wide a text lies on the sheet. */
+function within(centre: number, width: number, sheet: number): number {
+  return Math.max(MARGIN + width / 2, Math.min(sheet - MARGIN - width / 2, centre));
 }

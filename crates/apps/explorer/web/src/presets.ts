@@ -2,7 +2,7 @@
 
 import { byId, make } from "./dom";
 import type { Model, Parameter, Registry } from "./protocol";
-import { symbol } from "./symbols";
+import { spoken, symbol } from "./symbols";
 
 /** So many changed parameters are named. */
 const MOST = 4;
@@ -64,10 +64,21 @@ export class PresetBar {
   }
 }
 
-/** Text with the symbols of parameters in place of their names, but for names that are words, too. */
+/** A word that may be a symbol, with its index and its power; and an arrow. */
+const WORD = /(->|\b[A-Za-z]+\d*(?:_[A-Za-z0-9]+)?(?:\^-?\d+)?)/;
+
+/** Text with symbols as they are set: those of parameters in place of their names, indices and powers. */
 function prose(text: string, parameters: Parameter[]): (Node | string)[] {
-  return text.split(/\b(gamma|[a-z]+\d)\b/).map((part) => {
-    const parameter = parameters.find((one) => one.name === part);
-    return parameter ? symbol(parameter.symbol) : part;
-  });
+  return text.split(WORD).map((part, i) => (i % 2 ? worded(part, parameters) : part));
+}
+
+/** Names that are words, too, are left as they are. */
+function worded(word: string, parameters: Parameter[]): Node | string {
+  if (word === "->") return "\u2192";
+  const [, name, index, power] = word.match(/^([A-Za-z]+\d*)(?:_([A-Za-z0-9]+))?(?:\^(-?\d+))?$/) ?? [];
+  const own = parameters.find((one) => one.name === name)?.symbol ?? null;
+  const formal = own !== null && /\d|[\u0370-\u03ff]/.test(spoken(own));
+  if (index === undefined && power === undefined) return own !== null && formal ? symbol(own) : word;
+  const base = own !== null && formal ? own : name.length === 1 ? `*${name}*` : name;
+  return symbol(`${base}${index === undefined ? "" : `_{*${index}*}`}${power === undefined ? "" : `^{${power}}`}`);
 }

@@ -133,12 +133,13 @@ export interface Line {
   points: [number, number][];
 }
 
-/** A special point, and where it is on its branch; `leads`: the branch that begins or lies there. */
+/** A special point, and where it is on its branch; `leads`: the branch that begins or lies there. `speed`: of a connection, where the branch ends beyond its last point. */
 export interface SpecialPoint {
   branch: number;
   point: number;
   kind: string;
   parameter: number;
+  speed: number | null;
   period: number | null;
   criticality: string | null;
   breaks: string | null;

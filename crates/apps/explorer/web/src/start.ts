@@ -13,6 +13,7 @@ import "./styles/swarm.css";
 import "./styles/tour.css";
 import "./styles/phone.css";
 import { App } from "./app";
+import { startWhy } from "./body/naming";
 import { byId } from "./dom";
 import { startEmbed } from "./embed";
 import { startKeys } from "./keys";
@@ -24,6 +25,7 @@ export function start(connect: Connect): void {
   startTheme(byId<HTMLButtonElement>("theme"));
   startEmbed();
   startDefinitions();
+  startWhy();
   startKeys();
   new App(connect);
 }

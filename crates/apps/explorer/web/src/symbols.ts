@@ -3,6 +3,9 @@
  * The same markup as in the figures, for the document and for canvases.
  */
 
+import { make } from "./dom";
+import type { Parameter } from "./protocol";
+
 type Script = "base" | "sub" | "sup";
 
 interface Run {
@@ -71,6 +74,11 @@ export function symbol(markup: string): HTMLElement {
   return out;
 }
 
+/** A parameter in a list: as short as its symbol; its name and meaning are told where one points. */
+export function symbolOption({ name, symbol: markup, meaning }: Parameter): HTMLOptionElement {
+  return make("option", { value: name, title: `${name}: ${meaning}` }, spoken(markup));
+}
+
 function wrapped(tag: string, child: Node): HTMLElement {
   const element = document.createElement(tag);
   element.append(child);
@@ -79,13 +87,53 @@ function wrapped(tag: string, child: Node): HTMLElement {
 
 const SERIF = '"STIX Two Text", Georgia, "Times New Roman", serif';
 
-/** Draws the symbol on a canvas, centred about `x`, its baseline at `y`. */
-export function drawSymbol(g: CanvasRenderingContext2D, markup: string, x: number, y: number, size: number): void {
-  const runs = parse(markup);
-  const widths = runs.map((run) => {
+/** The width of each run. */
+function widthsOf(g: CanvasRenderingContext2D, runs: Run[], size: number): number[] {
+  return runs.map((run) => {
     g.font = font(run, size);
     return g.measureText(signed(run.text)).width;
   });
+}
+
+let ruler: CanvasRenderingContext2D | null = null;
+
+/** What texts are measured with. */
+function rule<T>(measure: (g: CanvasRenderingContext2D) => T, none: T): T {
+  ruler ??= document.createElement("canvas").getContext("2d");
+  return ruler ? measure(ruler) : none;
+}
+
+/** The width of a text, in pixels. */
+export function textWidth(text: string, fontOfText: string): number {
+  return rule((g) => {
+    g.font = fontOfText;
+    return g.measureText(text).width;
+  }, 0);
+}
+
+/** The width of a symbol at this size, in pixels. */
+export function symbolWidth(markup: string, size: number): number {
+  return rule((g) => widthsOf(g, parse(markup), size).reduce((a, b) => a + b, 0), 0);
+}
+
+/** A name of an axis is set no smaller than this. */
+const SMALLEST = 10;
+
+/** The symbol for so much room: smaller where it is too wide, and at the smallest size cut, with an ellipsis. */
+export function fittedSymbol(markup: string, size: number, room: number): { markup: string; size: number; width: number } {
+  const width = symbolWidth(markup, size);
+  if (width <= room) return { markup, size, width };
+  const smaller = Math.max(SMALLEST, Math.floor((size * room) / width));
+  let cut = markup;
+  while (cut && symbolWidth(cut === markup ? cut : `${cut}\u2026`, smaller) > room) cut = cut.slice(0, -1);
+  const fitted = cut === markup ? markup : `${cut}\u2026`;
+  return { markup: fitted, size: smaller, width: symbolWidth(fitted, smaller) };
+}
+
+/** Draws the symbol on a canvas, centred about `x`, its baseline at `y`. */
+export function drawSymbol(g: CanvasRenderingContext2D, markup: string, x: number, y: number, size: number): void {
+  const runs = parse(markup);
+  const widths = widthsOf(g, runs, size);
   g.textAlign = "left";
   let at = x - widths.reduce((a, b) => a + b, 0) / 2;
   runs.forEach((run, i) => {

@@ -10,8 +10,8 @@ import { hideHalf, showHalf, type Beside } from "./half";
 import { History, SHAPE } from "./history";
 import { fixed } from "./numbers";
 import type { Tracked } from "./protocol";
-import type { Session } from "./session";
 import { currentInks, edge } from "./theme";
+import { unitsOfCell } from "./units";
 
 /** Corners of an outline. */
 const CORNERS = 96;
@@ -30,22 +30,6 @@ export interface Sight {
   enlarged: number;
   /** Time of the trail. */
   trail: number;
-}
-
-/** The tracked cell that the model of a session was fitted to. */
-export function trackedBy({ tracked, model }: Session): Tracked | null {
-  return tracked?.model === model.name ? tracked : null;
-}
-
-/** The unit of the lengths of a session's model: that of its cell; `null`: its own. */
-export function unitOf(session: Session): string | null {
-  const cell = trackedBy(session);
-  return cell && lengthOf(cell);
-}
-
-/** The unit of the lengths of a cell, as it is written. */
-function lengthOf({ length }: Tracked): string {
-  return length === "um" ? "\u00b5m" : length;
 }
 
 export class TrackedView implements Beside {
@@ -68,7 +52,7 @@ export class TrackedView implements Beside {
     const gaps = cell.frames.slice(1).map((frame, k) => frame[0] - cell.frames[k][0]).sort((a, b) => a - b);
     this.interval = gaps[gaps.length >> 1] ?? 1;
     showHalf(`The tracked cell ${cell.name}, at the same scale as the body`, "Hide the tracked cell");
-    this.camera.unit = lengthOf(cell);
+    this.camera.unit = unitsOfCell(cell).length;
     byId("twin-label").replaceChildren(make("b", {}, `tracked cell ${cell.name}`), this.clock);
   }
 
@@ -101,7 +85,7 @@ export class TrackedView implements Beside {
     this.backdrop.paint(sheet, scene, currentInks());
     paintBody(sheet.g, scene, currentInks());
     const notes = [frame.outlined ? "" : ", no frame here", sight.enlarged > 1 ? `, drawn ${sight.enlarged}\u00d7` : ""];
-    setText(this.clock, `${fixed(frame.t, 1)} of ${fixed(duration, 1)} ${cell.time}${notes.join("")}`);
+    setText(this.clock, `${fixed(frame.t, 1)} of ${fixed(duration, 1)} ${unitsOfCell(cell).time}${notes.join("")}`);
   }
 
   /** The cell at a time: its frames up to then go to the history; after the last one it begins again. */

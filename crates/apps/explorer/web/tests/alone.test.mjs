@@ -11,7 +11,7 @@ import { oneFile } from "../site.mjs";
 import { assertAccessible } from "./axe.mjs";
 import { SITE } from "./engine.mjs";
 import { assertAllFiles } from "./files.mjs";
-import { denied, launch, ofDriver, PATIENCE, shoot } from "./stage.mjs";
+import { denied, launch, ofDriver, onlyIn, PATIENCE, shoot, unhurried } from "./stage.mjs";
 
 /** Where the static host has the page: it must not need the root. */
 const PATH = "/talks/2026/";
@@ -64,6 +64,7 @@ after(async () => {
 /** Opens an address; any error in the console fails the test. */
 async function visit(address, act, context = {}, tolerate = null) {
   const place = await it.browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "light", ...context });
+  await place.addInitScript(unhurried);
   const page = await place.newPage();
   page.setDefaultTimeout(PATIENCE);
   const faults = [];
@@ -136,8 +137,9 @@ test("every file can be saved without a server", async () => {
   });
 });
 
-for (const [name, context] of [["a desktop", {}], ["a narrow window", { viewport: { width: 390, height: 844 } }]]) {
-  test(`axe finds nothing without a server, on ${name}`, async () => {
+// What axe judges, the document and its styles, is the same in both browsers: one of the two widths is enough in Firefox.
+for (const [name, context, options] of [["a desktop", {}, {}], ["a narrow window", { viewport: { width: 390, height: 844 } }, onlyIn("chromium", "a narrow window")]]) {
+  test(`axe finds nothing without a server, on ${name}`, options, async () => {
     await visit(`${it.file}#preset=fig1`, async (page) => {
       await moving(page);
       await page.locator("#regime:not([data-regime=''])").waitFor({ timeout: 4 * PATIENCE });

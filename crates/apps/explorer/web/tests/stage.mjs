@@ -76,6 +76,7 @@ export function upon(it, options, act) {
 /** Opens a page; `leave` closes it and asserts that it behaved. */
 export async function visit({ browser, server }, { hash = "", tolerate = null, address = server.address, ...context } = {}) {
   const place = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...context });
+  await place.addInitScript(unhurried);
   const page = await place.newPage();
   page.setDefaultTimeout(PATIENCE);
   const [wire, faults] = [new Wire(page), []];
@@ -144,6 +145,15 @@ const DRIVERS = /Content-Security-Policy.*inline style \(style-src-elem\)/;
 /** Whether an error in the console is of who drives the browser, not of the page. It comes some time after the picture, or not at all if the page closes first. */
 export const ofDriver = (text) => FIREFOX && DRIVERS.test(text);
 
+/**
+ * In the page, before it begins: between two pictures lie three more. Without a graphics card drawing is most of what a test costs, and what
+ * is tested holds at any pace: time goes on as the clock does.
+ */
+export function unhurried() {
+  const next = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (act) => window.setTimeout(() => next(act), 50);
+}
+
 /** In the page, before it begins: storage is denied, as browsers do in frames of other sites and where cookies are blocked. */
 export function denied() {
   for (const name of ["localStorage", "sessionStorage"]) {
@@ -155,11 +165,10 @@ export function denied() {
   }
 }
 
-let folder = null;
-
-/** Keeps a picture for people to look at, in MOTIFORM_SHOTS or in a temporary folder. */
+/** Keeps a picture for people to look at, in the folder that MOTIFORM_SHOTS names; where it names none, nobody looks. */
 export async function shoot(page, name) {
-  folder ??= process.env.MOTIFORM_SHOTS ?? mkdtempSync(join(tmpdir(), "motiform-shots-"));
+  const folder = process.env.MOTIFORM_SHOTS;
+  if (!folder) return;
   mkdirSync(folder, { recursive: true });
   await page.screenshot({ path: join(folder, `${name}.png`), animations: "allow" });
 }

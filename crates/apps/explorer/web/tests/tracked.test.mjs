@@ -83,6 +83,11 @@ test("the cell stands beside its model, at the time and the scale of the body", 
   }
   assert.ok(Math.abs(wire.frame.radius - shown.radius) < 0.01, "the body is drawn with the radius of the cell");
   assert.equal(await page.evaluate(() => window.motiform.body.unit), "\u00b5m", "the bar has the unit of the cell");
+  const texts = await page.locator(".axis-name").allTextContents();
+  assert.deepEqual(texts, ["frequency (1/s)", "averaging time (s); bands: 95 %"]);
+  assert.match(await page.locator("#clock").textContent(), /^t = [\d.]+ s x = \S+ \u00b5m y = \S+ \u00b5m$/);
+  assert.match(await page.locator("#trail-value").textContent(), / s$/);
+  assert.match(await page.locator("#series").textContent(), /speed\u00b5m\/s.*turning raterad\/s.*t \(s\)/);
   await shoot(page, "tracked");
 }));
 

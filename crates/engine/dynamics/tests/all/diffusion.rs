@@ -49,6 +49,10 @@ impl Diffusion for Geometric {
     fn rate(&self) -> f64 {
         self.s * self.s
     }
+
+    fn moves(&self, entry: usize) -> bool {
+        entry < self.dim
+    }
 }
 
 /// Entries of `du = (a - k u) dt + s u o dW` from 1 on at the time `t`, by steps of length `h`, and the increments in their order.
@@ -163,6 +167,10 @@ impl Diffusion for Areas {
 
     fn rate(&self) -> f64 {
         1.0
+    }
+
+    fn moves(&self, entry: usize) -> bool {
+        entry < 2 * self.pairs
     }
 }
 

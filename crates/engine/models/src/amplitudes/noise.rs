@@ -141,4 +141,8 @@ impl Diffusion for Multiplicative {
     fn rate(&self) -> f64 {
         self.rate
     }
+
+    fn moves(&self, entry: usize) -> bool {
+        self.places.iter().any(|(place, _)| *place == entry / 2)
+    }
 }

@@ -1,7 +1,8 @@
 //! The samples of a motion since its last change.
 
-use crate::readings::pace;
+use crate::readings::{pace, turns};
 use motiform_dynamics::Model;
+use motiform_study::plan::Computation;
 
 /// The last samples of a motion, in memory that does not grow beyond twice `most` of them.
 #[derive(Clone, Debug)]
@@ -12,6 +13,8 @@ pub struct Record {
     read: usize,
     /// Absolute tolerance of the method: speeds that it does not resolve have no heading.
     atol: f64,
+    /// The heading has a derivative.
+    turns: bool,
     /// Complete rows: time, state, quantities computed from it.
     numbers: Vec<f64>,
 }
@@ -23,7 +26,7 @@ pub struct Row<'r> {
     pub t: f64,
     /// The shape as the model computes with it, then x and y.
     pub state: &'r [f64],
-    /// Speed, turning rate (NaN at rest), then the model's observables.
+    /// Speed, turning rate (NaN at rest, and where noise leaves the velocity no derivative), then the model's observables.
     pub read: &'r [f64],
 }
 
@@ -37,11 +40,12 @@ impl Row<'_> {
 }
 
 impl Record {
-    /// An empty record of a model's motion, computed with this absolute tolerance, that keeps the last `most` samples.
+    /// An empty record of a model's motion, computed like this, that keeps the last `most` samples.
     #[must_use]
-    pub fn new(model: &dyn Model, atol: f64, most: usize) -> Self {
+    pub fn new(model: &dyn Model, computation: &Computation, most: usize) -> Self {
         let (state, read) = (model.dim() + 2, 2 + model.observables().len());
-        Self { most: most.max(1), state, read, atol, numbers: Vec::new() }
+        let (atol, turns) = (computation.control.absolute_tolerance(), turns(model, computation));
+        Self { most: most.max(1), state, read, atol, turns, numbers: Vec::new() }
     }
 
     fn width(&self) -> usize {
@@ -69,7 +73,7 @@ impl Record {
         self.numbers.extend_from_slice(sample);
         let shape = &sample[1..self.state - 1];
         let [speed, turning, ..] = pace(model, shape, self.atol);
-        self.numbers.extend([speed, turning]);
+        self.numbers.extend([speed, if self.turns { turning } else { f64::NAN }]);
         let observed = self.numbers.len();
         self.numbers.resize(observed + self.read - 2, f64::NAN);
         model.observe(shape, &mut self.numbers[observed..]);

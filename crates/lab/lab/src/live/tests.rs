@@ -26,7 +26,7 @@ fn built(plan: &RunPlan) -> (Box<dyn Model>, Vec<f64>) {
 /// Moves a plan's body to its end in looks of length `look`.
 fn watched(plan: &RunPlan, look: f64) -> (Record, Box<dyn Model>, Option<Outcome>, Vec<f64>) {
     let (model, state) = built(plan);
-    let mut record = Record::new(model.as_ref(), 0.0, 100_000);
+    let mut record = Record::new(model.as_ref(), &plan.computation, 100_000);
     let (outcome, end) = {
         let body = InPlane(model.as_ref());
         let mut stretch = Stretch::new(plan, &body, 0.0, &state, 0).unwrap();
@@ -71,7 +71,7 @@ fn a_record_keeps_the_last_samples() {
     let plan = RunPlan::new(&study("tensor", "fig5a")).unwrap();
     let (model, state) = built(&plan);
     let body = InPlane(model.as_ref());
-    let mut record = Record::new(model.as_ref(), 0.0, 50);
+    let mut record = Record::new(model.as_ref(), &plan.computation, 50);
     let mut stretch = Stretch::new(&plan, &body, 7.0, &state, 0).unwrap();
     for k in 1..40 {
         stretch.advance(7.0 + 0.5 * f64::from(k), PLENTY, &mut record, model.as_ref());
@@ -83,13 +83,31 @@ fn a_record_keeps_the_last_samples() {
     assert!((times[49] - last).abs() < 1e-9 && times.windows(2).all(|w| (w[1] - w[0] - 0.05).abs() < 1e-9));
 }
 
+/// A velocity under white noise has no derivative, so its heading has no rate; under noise on the shape alone it has one.
+#[test]
+fn noise_on_the_velocity_leaves_no_turning_rate() {
+    for (noise, noise_velocity, turns) in
+        [(0.0, None, true), (0.01, Some(0.0), true), (0.0, Some(0.01), false)]
+    {
+        let mut study = study("tensor", "fig5a");
+        (study.run.noise, study.run.noise_velocity) = (noise, noise_velocity);
+        (study.run.transient, study.run.t_end) = (0.0, 5.0);
+        let plan = RunPlan::new(&study).unwrap();
+        let (record, ..) = watched(&plan, 1.0);
+        assert!(record.rows().all(|row| row.read[1].is_nan() != turns), "{noise} {noise_velocity:?}");
+        let simulated = simulate(&plan, &()).unwrap();
+        let rates = simulated.trajectory.columns.iter().find(|column| column.name == "turning_rate").unwrap();
+        assert!(rates.values.iter().all(|rate| rate.is_nan() != turns), "{noise} {noise_velocity:?}");
+    }
+}
+
 /// Short of time, a body is shown where it got to.
 #[test]
 fn a_body_that_is_late_says_so() {
     let plan = RunPlan::new(&study("tensor", "fig5b")).unwrap();
     let (model, state) = built(&plan);
     let body = InPlane(model.as_ref());
-    let mut record = Record::new(model.as_ref(), 0.0, 50);
+    let mut record = Record::new(model.as_ref(), &plan.computation, 50);
     let mut stretch = Stretch::new(&plan, &body, 0.0, &state, 0).unwrap();
     assert!(!stretch.advance(1e6, Duration::from_millis(1), &mut record, model.as_ref()));
     assert!(stretch.t() > 0.0 && stretch.t() < 1e6 && stretch.outcome().is_none());

@@ -9,6 +9,7 @@ import type { Orbit, Values, Wish } from "../protocol";
 import { watch } from "../pointer";
 import { currentInks, edge } from "../theme";
 import type { Sight } from "../tracked";
+import { units } from "../units";
 import { Backdrop } from "./backdrop";
 import { Camera } from "./camera";
 import { Ghost } from "./ghost";
@@ -127,9 +128,9 @@ export class BodyPanel {
     return this.frame;
   }
 
-  /** A new body: the sight jumps to it. `unit`: of its lengths; `null`: the model's own. */
-  begin(unit: string | null): void {
-    this.camera.unit = unit;
+  /** A new body: the sight jumps to it. */
+  begin(): void {
+    this.camera.unit = units().length;
     this.backdrop.forget();
     this.frame = this.outline = null;
     this.show(null);

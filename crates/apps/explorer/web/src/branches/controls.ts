@@ -1,8 +1,8 @@
 /** The controls of the branches: which side of the panel is shown, along which parameter, what is drawn, start and stop, progress. */
 
-import { byId, make, setText } from "../dom";
+import { byId, setText } from "../dom";
 import type { Parameter } from "../protocol";
-import { spoken } from "../symbols";
+import { symbolOption } from "../symbols";
 import type { Ordinate } from "./set";
 
 export interface BranchActions {
@@ -38,7 +38,7 @@ export class BranchControls {
   offer(sides: Parameter[]): void {
     const before = this.side.value;
     if (sides.map((one) => one.name).join() === [...this.side.options].map((one) => one.value).join()) return;
-    this.side.replaceChildren(...sides.map(({ name, symbol }) => make("option", { value: name }, spoken(symbol) === name ? name : `${spoken(symbol)} (${name})`)));
+    this.side.replaceChildren(...sides.map(symbolOption));
     if (sides.some((one) => one.name === before)) this.side.value = before;
   }
 

@@ -3,10 +3,11 @@
 import { Sheet } from "../canvas";
 import { pretty, type Ticks } from "../numbers";
 import { drawAxes, leftRoom, pixelX, pixelY, type Box, type View } from "../plot";
-import type { Parameter, Regime } from "../protocol";
+import type { Parameter, Regime, SpecialPoint } from "../protocol";
 import { currentInks, type Inks } from "../theme";
+import { ofSpeed, units } from "../units";
 import { colourOf, paintBranches, paintSelected, paintSpecials } from "./painting";
-import type { BranchSet, Ordinate, Spot } from "./set";
+import { isSpecial, type BranchSet, type Ordinate, type Spot } from "./set";
 
 /** What a diagram shows. */
 export interface DiagramScene {
@@ -61,7 +62,7 @@ export class Diagram {
   }
 
   /** Where a point is on the canvas. */
-  place(spot: Spot): [number, number] | null {
+  place(spot: Spot | SpecialPoint): [number, number] | null {
     const { scene, view } = this;
     return scene && view && placed(scene, this.box(), view, spot);
   }
@@ -70,8 +71,8 @@ export class Diagram {
 const isLog = (ordinate: Ordinate): boolean => ordinate === "period";
 const scaled = (ordinate: Ordinate, value: number): number => (isLog(ordinate) ? Math.log10(value) : value);
 
-function placed({ set, ordinate }: DiagramScene, box: Box, view: View, spot: Spot): [number, number] | null {
-  const at = set.at(spot, ordinate);
+function placed({ set, ordinate }: DiagramScene, box: Box, view: View, spot: Spot | SpecialPoint): [number, number] | null {
+  const at = isSpecial(spot) ? set.markAt(spot, ordinate) : set.at(spot, ordinate);
   return at && [pixelX(box, view, at[0]), pixelY(box, view, scaled(ordinate, at[1]))];
 }
 
@@ -82,7 +83,7 @@ function viewOf({ set, ordinate }: DiagramScene): View {
   let [y0, y1] = [Infinity, -Infinity];
   for (const value of values) [y0, y1] = [Math.min(y0, value), Math.max(y1, value)];
   if (!values.length) [y0, y1] = [0, 1];
-  const room = { x: ROOM.x * (high - low), y: Math.max(ROOM.y * (y1 - y0), 1e-3 * Math.max(Math.abs(y0), Math.abs(y1)), 1e-9) };
+  const room = { x: ROOM.x * (high - low), y: Math.max(ROOM.y * (y1 - y0), 1e-3 * Math.max(Math.abs(y0), Math.abs(y1))) || 1 };
   return { x0: low - room.x, x1: high + room.x, y0: y0 - room.y, y1: y1 + room.y };
 }
 
@@ -97,13 +98,13 @@ function paint(g: CanvasRenderingContext2D, scene: DiagramScene, box: Box, view:
   paintNow(g, box, pixelX(box, view, now), inks);
   const toPixel = (_: number, [x, y]: [number, number]): [number, number] => [pixelX(box, view, x), pixelY(box, view, scaled(ordinate, y))];
   paintBranches(g, set, ordinate, toPixel, colourOf(regimes), null);
-  const place = (spot: Spot): [number, number] | null => placed(scene, box, view, spot);
+  const place = (spot: Spot | SpecialPoint): [number, number] | null => placed(scene, box, view, spot);
   paintSpecials(g, set, place, inks.ink, inks.plot);
   const at = selected && place(selected);
   if (at) paintSelected(g, at, inks.ink, inks.plot);
   g.restore();
-  const label = isLog(ordinate) ? "period (time)" : "mean speed";
-  drawAxes(g, box, view, { x: parameter.symbol, y: label }, inks, isLog(ordinate) ? logTicks(view) : undefined);
+  const label = isLog(ordinate) ? { name: "period", unit: units().time ?? "time" } : { name: "mean speed", unit: ofSpeed(units()) };
+  drawAxes(g, box, view, { x: { name: parameter.symbol }, y: label }, inks, isLog(ordinate) ? logTicks(view) : undefined);
 }
 
 /** The value of the body's parameter. */
@@ -118,7 +119,7 @@ function paintNow(g: CanvasRenderingContext2D, box: Box, x: number, inks: Inks):
 
 /** 1, 2 and 5 times powers of ten, in logarithms. */
 function logTicks({ y0, y1 }: View): Ticks {
-  const out: Ticks = { values: [], labels: [] };
+  const out: Ticks = { values: [], labels: [], power: 0 };
   for (let power = Math.floor(y0); power <= y1; power++) {
     for (const digit of [1, 2, 5]) {
       const value = digit * 10 ** power;

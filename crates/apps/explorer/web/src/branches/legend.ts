@@ -22,7 +22,7 @@ export function showBranchLegend(element: HTMLElement, set: BranchSet | null, re
 /** The legend of the branches upon the map, whose colours are those of the map's own motions. */
 export function showLegendOnMap(element: HTMLElement, set: BranchSet | null, others: (Node | string)[]): void {
   if (!set) return element.replaceChildren();
-  element.replaceChildren(make("li", { title: "The branches lie side by side, all at this value." }, "branches ", make("span", {}, ...others), ":"), ...lines(set));
+  element.replaceChildren(make("li", { title: "The branches lie side by side." }, ...(others.length ? ["branches ", make("span", {}, ...others), ":"] : ["branches:"])), ...lines(set));
 }
 
 /** Lines and markers. */

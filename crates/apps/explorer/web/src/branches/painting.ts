@@ -2,11 +2,11 @@
 
 import { drawMarker } from "../glyphs";
 import { pixelX, pixelY, type Box, type View } from "../plot";
-import type { Plane, Regime } from "../protocol";
+import type { Plane, Regime, SpecialPoint } from "../protocol";
 import { edge, visible } from "../theme";
 import { divided } from "../map/exponents";
 import { kindOf } from "./kinds";
-import type { BranchSet, Ordinate, Spot } from "./set";
+import { isSpecial, type BranchSet, type Ordinate, type Spot } from "./set";
 
 export const STABLE = { width: 3, dash: [] as number[] };
 export const UNSTABLE = { width: 1.4, dash: [4, 2.5] };
@@ -42,7 +42,7 @@ function stroke(g: CanvasRenderingContext2D, path: Path2D, colour: string, width
 }
 
 /** Draws the special points. */
-export function paintSpecials(g: CanvasRenderingContext2D, set: BranchSet, place: (spot: Spot) => [number, number] | null, ink: string, halo: string): void {
+export function paintSpecials(g: CanvasRenderingContext2D, set: BranchSet, place: (special: SpecialPoint) => [number, number] | null, ink: string, halo: string): void {
   for (const special of set.specials) {
     const at = place(special);
     if (at) drawMarker(g, kindOf(special.kind).glyph, at, MARKER, ink, halo);
@@ -65,13 +65,18 @@ export function colourOf(regimes: Regime[]): (motion: string) => string {
   return (motion) => edge(visible(regimes.find((one) => one.name === motion)?.colour ?? "#888888"));
 }
 
+/** The height of a place for all branches side by side. */
+export function lanesOf(set: BranchSet | null): number {
+  return set ? APART * (set.branches.length + 1) : 0;
+}
+
 /** Where points of branches lie upon a map; `null` where the parameter followed is no axis of it. */
-export function onMap(set: BranchSet, plane: Plane, box: Box, view: View): ((spot: Spot) => [number, number]) | null {
+export function onMap(set: BranchSet, plane: Plane, box: Box, view: View): ((spot: Spot | SpecialPoint) => [number, number]) | null {
   const { along, parameters } = set.start;
-  const value = ({ branch, point }: Spot): number => set.branches[branch].parameter[point];
+  const value = (spot: Spot | SpecialPoint): number => (isSpecial(spot) ? spot.parameter : set.branches[spot.branch].parameter[spot.point]);
   if (plane.x.name === along.name) {
-    const strip = plane.y ? null : divided(box).strip;
-    const base = strip ? strip.top + strip.height - 4 : pixelY(box, view, parameters[plane.y?.name ?? ""]);
+    const lanes = plane.y ? null : divided(box, lanesOf(set)).lanes;
+    const base = lanes ? lanes.top + lanes.height - APART : pixelY(box, view, parameters[plane.y?.name ?? ""]);
     return (spot) => [pixelX(box, view, value(spot)), base - APART * spot.branch];
   }
   if (plane.y?.name !== along.name) return null;

@@ -8,7 +8,7 @@ import { BranchControls } from "./controls";
 import { Diagram } from "./diagram";
 import { listenToBranchKeys } from "./keys";
 import { showBranchLegend, showLegendOnMap } from "./legend";
-import { onMap, paintOnMap } from "./painting";
+import { lanesOf, onMap, paintOnMap } from "./painting";
 import { BranchSet, type Spot } from "./set";
 import { Tip } from "./tip";
 import { describe } from "./words";
@@ -118,6 +118,11 @@ export class BranchPanel {
 
   touch(): void {
     this.diagram.touch();
+  }
+
+  /** The height that the branches need beside a map of one axis. */
+  lanesOnMap(): number {
+    return this.isOnMap() ? lanesOf(this.set) : 0;
   }
 
   /** Upon the map: draws, or finds the point of a branch under a pixel. */

@@ -11,6 +11,11 @@ export interface Spot {
   point: number;
 }
 
+/** Whether a spot is a special point. */
+export function isSpecial(spot: Spot | SpecialPoint): spot is SpecialPoint {
+  return "kind" in spot;
+}
+
 /** A stretch of a branch over which motion and stability stay. */
 export interface Piece {
   motion: string;
@@ -25,6 +30,18 @@ export class BranchSet {
 
   constructor(readonly start: BranchesStart) {}
 
+  /** The connection at which a branch ends beyond this point, and its place there: where the parameter and the mean speed go to. */
+  private beyond({ branch, point }: Spot, ordinate: Ordinate): [number, number] | null {
+    const end = this.specials.find((one) => one.branch === branch && one.point === point && one.speed !== null);
+    if (!end || end.speed === null) return null;
+    return ordinate === "speed" ? [end.parameter, end.speed] : [end.parameter, this.branches[branch].period[point]];
+  }
+
+  /** Where a special point is drawn: a connection lies beyond the last point of its branch. */
+  markAt(special: SpecialPoint, ordinate: Ordinate): [number, number] | null {
+    return special.speed === null ? this.at(special, ordinate) : this.beyond(special, ordinate);
+  }
+
   /** Parameter and value of a point; a motion that is steady has no period. */
   at({ branch, point }: Spot, ordinate: Ordinate): [number, number] | null {
     const of = this.branches[branch];
@@ -32,7 +49,7 @@ export class BranchSet {
     return value === undefined || (ordinate === "period" && value === 0) ? null : [of.parameter[point], value];
   }
 
-  /** A branch as it is drawn, from the special point where it begins. */
+  /** A branch as it is drawn, from the special point where it begins to the connection at which it ends. */
   pieces(number: number, ordinate: Ordinate): Piece[] {
     const branch = this.branches[number];
     const all: Piece[] = [];
@@ -49,7 +66,16 @@ export class BranchSet {
       }
       before = next;
     }
+    this.extend(number, ordinate, all);
     return all;
+  }
+
+  /** Draws the first and the last piece on to the connections there. */
+  private extend(number: number, ordinate: Ordinate, all: Piece[]): void {
+    const last = this.branches[number].parameter.length - 1;
+    const [start, end] = [0, last].map((point) => this.beyond({ branch: number, point }, ordinate));
+    if (start) all[0]?.points.unshift(start);
+    if (end && last > 0) all.at(-1)?.points.push(end);
   }
 
   /** Where a branch begins on another one; its period there is its own. */
@@ -66,20 +92,20 @@ export class BranchSet {
   }
 
   /** The point next to a pixel, at most `reach` pixels away; special points go first. */
-  nearest(toPixel: (spot: Spot) => [number, number] | null, [px, py]: [number, number], reach: number): Spot | null {
+  nearest(toPixel: (spot: Spot | SpecialPoint) => [number, number] | null, [px, py]: [number, number], reach: number): Spot | null {
     const far = (spot: Spot): number => {
       const at = toPixel(spot);
       return at ? Math.hypot(at[0] - px, at[1] - py) : Infinity;
     };
-    const best = (spots: Iterable<Spot>): Spot | null => {
+    const best = (spots: Iterable<Spot | SpecialPoint>): Spot | null => {
       let [least, found]: [number, Spot | null] = [reach, null];
       for (const spot of spots) {
         const distance = far(spot);
-        if (distance < least) [least, found] = [distance, spot];
+        if (distance < least) [least, found] = [distance, { branch: spot.branch, point: spot.point }];
       }
       return found;
     };
-    return best(this.specials.map(({ branch, point }) => ({ branch, point }))) ?? best(this.spots());
+    return best(this.specials) ?? best(this.spots());
   }
 
   private *spots(): Generator<Spot> {

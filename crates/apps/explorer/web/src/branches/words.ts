@@ -4,6 +4,7 @@ import { make } from "../dom";
 import { pretty } from "../numbers";
 import type { Parameter } from "../protocol";
 import { symbol } from "../symbols";
+import { behind, ofSpeed, units } from "../units";
 import { CRITICALITY, kindOf } from "./kinds";
 import type { BranchSet, Spot } from "./set";
 
@@ -14,7 +15,7 @@ export function describe(set: BranchSet, spot: Spot, parameter: Parameter): HTML
   const period = special ? special.period : branch.period[spot.point] || null;
   const value = special?.parameter ?? branch.parameter[spot.point];
   const head = special ? kindOf(special.kind).label : motion(set.state(spot));
-  const numbers = make("span", {}, symbol(parameter.symbol), ` = ${pretty(value, special ? 8 : 5)}`, period ? `, period ${pretty(period, 5)}` : "", `, mean speed ${pretty(branch.speed[spot.point], 3)}`);
+  const numbers = make("span", {}, symbol(parameter.symbol), ` = ${pretty(value, special ? 8 : 5)}`, period ? `, period ${pretty(period, 5)}${behind(units().time)}` : "", `, mean speed ${pretty(branch.speed[spot.point], 3)}${behind(ofSpeed(units()))}`);
   const lines = [make("b", {}, head), numbers];
   if (special?.criticality) lines.push(make("span", {}, CRITICALITY[special.criticality]));
   if (special?.breaks) lines.push(make("span", {}, special.breaks === "mirror" ? "the motions that begin turn left or right" : "the motions that begin have fewer axes"));

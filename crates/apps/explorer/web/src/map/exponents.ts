@@ -11,13 +11,16 @@ const LEAST = 0.02;
 const ROOM = 0.08;
 const DOT = 2.4;
 
-/** The strip of regimes below, and what is above it. */
-export function divided(box: Box): { strip: Box; above: Box } {
+/** The strip of regimes below, a place for branches of this height upon it, and what is above. */
+export function divided(box: Box, wanted: number): { strip: Box; lanes: Box; above: Box } {
   const height = Math.round(Math.min(40, 0.2 * box.height));
   const gap = 6;
+  const free = box.height - height - gap;
+  const lanes = Math.min(wanted, free / 2);
   return {
     strip: { ...box, top: box.top + box.height - height, height },
-    above: { ...box, height: box.height - height - gap },
+    lanes: { ...box, top: box.top + free - lanes + gap, height: lanes },
+    above: { ...box, height: free - lanes },
   };
 }
 

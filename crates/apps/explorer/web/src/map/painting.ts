@@ -2,8 +2,9 @@
 
 import { drawGlyph } from "../glyphs";
 import type { Line, LineStyle, Regime } from "../protocol";
-import { drawAxes, pixelX, pixelY, type Box, type View } from "../plot";
+import { drawAxes, pixelX, pixelY, type AxisLabel, type Box, type View } from "../plot";
 import type { Inks } from "../theme";
+import { units } from "../units";
 import { divided, paintExponents, rangeOf } from "./exponents";
 import type { Landmark } from "./landmarks";
 import type { Lattice } from "./lattice";
@@ -25,10 +26,11 @@ export interface Areas {
   memory: Memory | null;
 }
 
-/** The whole picture. */
+/** The whole picture; `lanes`: the height of what lies between the strip and the exponents. */
 export interface Scene extends Areas {
-  labels: { x: string; y: string | null };
+  labels: { x: AxisLabel; y: AxisLabel | null };
   landmarks: Landmark[];
+  lanes: number;
   mark: { x: number; y: number };
 }
 
@@ -46,7 +48,7 @@ const PALE = 0.45;
 /** Draws the whole map; a strip has the exponents above it. */
 export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): void {
   const { box, view, labels } = scene;
-  const { strip, above } = labels.y === null ? divided(box) : { strip: box, above: null };
+  const { strip, above } = labels.y === null ? divided(box, scene.lanes) : { strip: box, above: null };
   const range = above && rangeOf(scene.lattice, view);
   clipped(g, strip, () => {
     paintAreas(g, { ...scene, box: strip }, inks);
@@ -57,7 +59,7 @@ export function paint(g: CanvasRenderingContext2D, scene: Scene, inks: Inks): vo
   const at = markPixel(scene, strip);
   clipped(g, box, () => paintHairs(g, scene, at));
   drawAxes(g, strip, view, labels, inks);
-  if (above && range) drawAxes(g, above, range, { x: null, y: "*\u03bb*_1 (1/time)" }, inks);
+  if (above && range) drawAxes(g, above, range, { x: null, y: { name: "*\u03bb*_1", unit: `1/${units().time ?? "time"}` } }, inks);
   paintRing(g, box, at);
 }
 

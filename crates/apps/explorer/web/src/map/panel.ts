@@ -19,6 +19,8 @@ import { side, variesStart } from "./sides";
 /** What is drawn upon the map, and answers pointer and click where it is. */
 export interface Upon {
   paintOnMap(g: CanvasRenderingContext2D, box: Box, view: View): void;
+  /** The height that it needs beside a map of one axis. */
+  lanesOnMap(): number;
   hoverOnMap(at: [number, number] | null, box: Box, view: View): boolean;
   clickOnMap(at: [number, number], box: Box, view: View): boolean;
 }
@@ -68,7 +70,7 @@ export class MapPanel {
 
   constructor(private readonly host: MapHost) {
     const canvas = byId<HTMLCanvasElement>("map");
-    this.picture = new MapPicture(canvas, () => host.regimes(), (g, box, view) => host.upon.paintOnMap(g, box, view));
+    this.picture = new MapPicture(canvas, () => host.regimes(), (g, box, view) => host.upon.paintOnMap(g, box, view), () => host.upon.lanesOnMap());
     this.readout = new Readout(byId("readout"), () => host.regimes(), (cell) => host.send({ do: "evidence", epoch: this.epoch, cell }));
     watch(canvas, {
       click: (x, y) => this.click(x, y),

@@ -29,6 +29,8 @@ export class MapPicture {
     private readonly regimes: () => Regime[],
     /** Draws more upon the areas. */
     private readonly more: (g: CanvasRenderingContext2D, box: Box, view: View) => void,
+    /** The height of what lies between a strip and its exponents. */
+    private readonly lanes: () => number,
   ) {
     this.sheet = new Sheet(canvas, () => (this.dirty = true));
   }
@@ -86,9 +88,10 @@ export class MapPicture {
     if (!this.dirty || this.sheet.width < LEAST) return;
     this.dirty = false;
     this.sheet.clear();
-    const labels = { x: sides.x.symbol, y: sides.y?.symbol ?? null };
-    this.left = sides.y ? leftRoom(this.sheet.g, this.box(), view) : leftRoom(this.sheet.g, divided(this.box()).above, rangeOf(this.lattice, view));
-    paint(this.sheet.g, { ...this.areas(this.box(), view), labels, mark, landmarks: this.marks }, currentInks());
+    const lanes = this.lanes();
+    const labels = { x: { name: sides.x.symbol }, y: sides.y && { name: sides.y.symbol } };
+    this.left = sides.y ? leftRoom(this.sheet.g, this.box(), view) : leftRoom(this.sheet.g, divided(this.box(), lanes).above, rangeOf(this.lattice, view));
+    paint(this.sheet.g, { ...this.areas(this.box(), view), labels, mark, landmarks: this.marks, lanes }, currentInks());
     this.more(this.sheet.g, this.box(), view);
   }
 
@@ -99,7 +102,7 @@ export class MapPicture {
   /** Keeps the areas in sight as a picture, until the new map covers them. */
   private remember(view: View, strip: boolean): void {
     if (!this.lattice || this.sheet.width < LEAST) return;
-    const box = { ...(strip ? divided(this.box()).strip : this.box()), left: 0, top: 0 };
+    const box = { ...(strip ? divided(this.box(), 0).strip : this.box()), left: 0, top: 0 };
     const picture = document.createElement("canvas");
     picture.width = Math.max(1, Math.round(box.width));
     picture.height = Math.max(1, Math.round(box.height));

@@ -2,7 +2,7 @@
 
 import { byId, make } from "../dom";
 import type { Model, Plane } from "../protocol";
-import { spoken } from "../symbols";
+import { symbolOption } from "../symbols";
 import { fullAxis } from "./plane";
 import { side, starts } from "./sides";
 
@@ -21,11 +21,11 @@ export class AxisSelectors {
   show(model: Model, plane: Plane): void {
     if (model !== this.model) {
       const options = (): HTMLElement[] => [
-        ...model.parameters.map((one) => make("option", { value: one.name }, label(one.name, spoken(one.symbol)))),
+        ...model.parameters.map(symbolOption),
         make("optgroup", { label: "start of the body (basins)" }, ...starts(model).map(({ name, meaning }) => make("option", { value: name, title: meaning }, `${name}(0)`))),
       ];
       this.x.replaceChildren(...options());
-      this.y.replaceChildren(make("option", { value: "" }, "none (\u03bb\u2081)"), ...options());
+      this.y.replaceChildren(make("option", { value: "", title: "the largest Lyapunov exponent \u03bb\u2081 along one axis" }, "none"), ...options());
       this.model = model;
     }
     this.plane = plane;
@@ -49,6 +49,3 @@ export class AxisSelectors {
   }
 }
 
-function label(name: string, symbol: string): string {
-  return name === symbol ? name : `${symbol} (${name})`;
-}

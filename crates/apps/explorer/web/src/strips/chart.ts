@@ -1,8 +1,9 @@
 /** What all curve charts share: colours of the theme, true minus signs, fixed margins, size of their place. */
 
 import uPlot from "uplot";
-import { minus, pretty, ticks } from "../numbers";
+import { labelled, pretty, tenTo, ticks } from "../numbers";
 import { UI_FONT } from "../plot";
+import { textWidth } from "../symbols";
 import { currentInks, onTheme } from "../theme";
 
 const FONT = `11px ${UI_FONT}`;
@@ -22,24 +23,37 @@ export function axis(options: Partial<uPlot.Axis>): uPlot.Axis {
 /** Pixels per number along the lower axis. */
 const SPACING = 58;
 
-/** Numbers of a linear axis, none in the room `above`; without a target as many as the width of the chart has room for. */
-export function linear(target?: number, above = 0): Pick<uPlot.Axis, "splits" | "values"> {
+/** Numbers of an axis across: as many as the width of the chart has room for. */
+export function across(): Pick<uPlot.Axis, "splits" | "values"> {
   return {
-    splits: (chart, _axis, low, high) => {
-      const top = high - (above / (1 + above)) * (high - low);
-      return high > low ? ticks(low, top, target ?? Math.max(2, chart.width / SPACING)).values : [low];
-    },
+    splits: (chart, _axis, low, high) => (high > low ? ticks(low, high, Math.max(2, chart.width / SPACING)).values : [low]),
     values: (_chart, splits) => splits.map((value) => pretty(value, 6)),
+  };
+}
+
+/** Least width of the numbers of an upward axis; and what ticks take beside them. */
+const LEAST = 44;
+const BESIDE = 12;
+
+/** Numbers of an upward axis, none in the room `above`; `told` hears their common power of ten, and the room that they take. */
+export function upward(target: number, above: number, told: (power: string, room: number) => void): Pick<uPlot.Axis, "splits" | "values"> {
+  return {
+    splits: (_chart, _axis, low, high) => (high > low ? ticks(low, high - (above / (1 + above)) * (high - low), target).values : [low]),
+    values: (_chart, splits) => {
+      const { labels, power } = labelled(splits, splits.length > 1 ? splits[1] - splits[0] : Math.abs(splits[0]) || 1);
+      told(power ? tenTo(power) : "", Math.max(LEAST, ...labels.map((label) => textWidth(label, FONT) + BESIDE)));
+      return labels;
+    },
   };
 }
 
 /** Relative changes below this look like what they are: none. */
 const STEADY = 0.05;
 
-/** The range of data with some room, and more above; a constant gets a little, too. */
-export function roomy(low: number | null, high: number | null, above: number, least = 1e-9): [number, number] {
+/** The range of data with some room, and more above; a constant gets a little, too, and what is 0 the range about it. */
+export function roomy(low: number | null, high: number | null, above: number, least = 0): [number, number] {
   if (low === null || high === null) return [0, 1];
-  const span = Math.max(high - low, STEADY * Math.max(Math.abs(low), Math.abs(high)), least);
+  const span = Math.max(high - low, STEADY * Math.max(Math.abs(low), Math.abs(high)), least) || 1;
   return [low - 0.06 * span, high + (0.06 + above) * span];
 }
 
@@ -62,8 +76,8 @@ function powersWithin(low: number, high: number, most: number): number[] {
 
 function power(value: number): string {
   const exponent = Math.round(Math.log10(value));
-  if (exponent >= -1 && exponent <= 2) return minus(String(10 ** exponent));
-  return `10${[...String(exponent)].map((c) => (c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[Number(c)])).join("")}`;
+  if (exponent >= -1 && exponent <= 2) return String(10 ** exponent);
+  return tenTo(exponent);
 }
 
 /** A chart called `name` that fills `place` and follows its size and the theme, until it is destroyed. */

@@ -2,10 +2,11 @@
 
 import type uPlot from "uplot";
 import { byId, setText } from "../dom";
-import { pretty } from "../numbers";
+import { withError } from "../numbers";
 import type { Exponents } from "../protocol";
 import { currentInks, curve, DASHES } from "../theme";
-import { axis, chart, linear, roomy } from "./chart";
+import { units } from "../units";
+import { axis, chart, across, roomy, upward } from "./chart";
 import { showKeys } from "./keys";
 
 const MOST = 3;
@@ -25,6 +26,8 @@ export class ExponentStrip {
   /** Value, upper and lower end of each exponent, one after the other. */
   private readonly curves: (number | null)[][] = Array.from({ length: PER_CURVE * MOST }, () => []);
   private dirty = true;
+  /** Room that the numbers of the upward axis take. */
+  private room = 50;
 
   constructor() {
     const indices = Array.from({ length: MOST }, (_, i) => i);
@@ -33,7 +36,7 @@ export class ExponentStrip {
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: { x: { time: false }, y: { range: () => this.range() } },
       padding: [8, 20, 0, 0],
-      axes: [axis({ ...linear(), size: 20 }), axis({ ...linear(4), size: 50 })],
+      axes: [axis({ ...across(), size: 20 }), axis({ ...upward(4, HEADROOM, (power, room) => this.told(power, room)), size: () => this.room })],
       series: [{}, ...indices.flatMap((i) => [{ stroke: () => curve(i), dash: DASHES[i], width: 1.8, points: { show: () => this.time.length < FEW, size: 5 } }, edge, edge])],
       bands: indices.map((i) => ({ series: [PER_CURVE * i + 2, PER_CURVE * i + 3], fill: () => `${curve(i)}33` })),
       hooks: { drawAxes: [zero] },
@@ -59,8 +62,14 @@ export class ExponentStrip {
     if (this.time.length > POINTS) for (const list of [this.time, ...this.curves]) thin(list);
     showKeys(byId("exponent-keys"), exponents.slice(0, MOST).map((_, i) => `*λ*_${i + 1}`));
     const first = exponents[0];
-    if (first) setText(byId("exponent-values"), `\u03bb\u2081 = ${valueText(first.value, first.error)}${first.error === null ? "" : ` \u00b1 ${pretty(first.error, 2)}`}${done ? "" : " so far"}`);
+    const { time: unit } = units();
+    if (first) setText(byId("exponent-values"), `\u03bb\u2081 = ${withError(first.value, first.error, unit ? `/${unit}` : "")}${done ? "" : " so far"}`);
     this.dirty = true;
+  }
+
+  private told(power: string, room: number): void {
+    this.room = room;
+    setText(byId("exponent-power"), power);
   }
 
   /** Room for the band but for its beginning, where it is as wide as it is meaningless; zero is always in sight. */
@@ -82,11 +91,6 @@ export class ExponentStrip {
     byId("exponents-empty").hidden = this.time.length > 0;
     this.plot.setData([this.time, ...this.curves]);
   }
-}
-
-/** A value far below its error is nothing but its error. */
-function valueText(value: number, error: number | null): string {
-  return error !== null && Math.abs(value) < 0.05 * error ? "0" : pretty(value, 3);
 }
 
 /** The line that matters most. */

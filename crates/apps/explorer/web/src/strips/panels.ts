@@ -96,7 +96,7 @@ export class StripPanels {
     if (now - this.drawn < DRAW_GAP) return;
     this.drawn = now;
     const mark = body.now() + 1e-3 * this.history.length + body.since();
-    if (mark !== this.shown) this.series.show(body.since(), body.now());
+    if (mark !== this.shown) this.series.show(body.since(), body.now(), body.last()?.radius ?? 1);
     this.shown = mark;
     this.returns.draw();
     this.exponent.draw();

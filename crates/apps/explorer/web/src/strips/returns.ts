@@ -8,6 +8,10 @@ import { pretty } from "../numbers";
 import { drawAxes, leftRoom, pixelX, pixelY, type Box, type View } from "../plot";
 import type { Returns, ReturnsAhead, Section } from "../protocol";
 import { currentInks, curve } from "../theme";
+import { behind, ofSpeed, units } from "../units";
+
+/** Width of the button beside the name of the lower axis. */
+const BUTTON = 32;
 
 export class ReturnStrip {
   private readonly sheet: Sheet;
@@ -72,7 +76,7 @@ export class ReturnStrip {
   /** Takes the returns ahead. */
   take({ returns, time, complete }: ReturnsAhead): void {
     this.waits(false);
-    if (!complete) toast(returns.points.length ? `The motion gives only ${returns.points.length} returns up to t = ${pretty(time)}.` : "This motion gives no returns.");
+    if (!complete) toast(returns.points.length ? `The motion gives only ${returns.points.length} returns up to t = ${pretty(time)}${behind(units().time)}.` : "This motion gives no returns.");
     this.ahead = returns.points.length ? returns : null;
     this.dirty = true;
   }
@@ -103,7 +107,7 @@ export class ReturnStrip {
     if (shown && points.length) this.paint(shown);
   }
 
-  private paint({ points, label }: Returns): void {
+  private paint({ points, label, section }: Returns): void {
     const { g, width, height } = this.sheet;
     const view = square(points);
     const room = leftRoom(g, { height: height - 46 }, view);
@@ -130,7 +134,8 @@ export class ReturnStrip {
       g.fill();
     }
     g.restore();
-    drawAxes(g, box, view, { x: `${label} (*n*)`, y: `${label} (*n*+1)` }, inks);
+    const unit = section === "speed" ? ofSpeed(units()) : units().length;
+    drawAxes(g, box, view, { x: { name: `${label} (*n*)`, unit, taken: BUTTON }, y: { name: `${label} (*n*+1)`, unit } }, inks);
   }
 }
 
@@ -141,6 +146,6 @@ function square(points: [number, number][]): View {
     low = Math.min(low, a, b);
     high = Math.max(high, a, b);
   }
-  const room = Math.max(0.06 * (high - low), 1e-3 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+  const room = Math.max(0.06 * (high - low), 1e-3 * Math.max(Math.abs(low), Math.abs(high))) || 1;
   return { x0: low - room, x1: high + room, y0: low - room, y1: high + room };
 }

@@ -5,7 +5,7 @@ use crate::branches::result::Leg;
 use crate::branches::stability;
 use crate::branches::sweep::{SweepPoint, Sweeps};
 use crate::{Branches, Followed, Origin, Sample, motion_between};
-use motiform_continuation::{End, Special};
+use motiform_continuation::{Connection, End, Special};
 use motiform_figures::axes::AxisKind;
 use motiform_figures::{BranchDiagram, BranchDots, BranchMark, BranchPart, Chart, Glyph};
 use motiform_lab::draw::{Figures, words};
@@ -49,6 +49,19 @@ impl Ordinate {
             (Self::TurningRate, false) => Self::SignedTurningRate,
             (Self::NetRotation, false) => Self::SignedNetRotation,
             (as_given, _) => as_given,
+        }
+    }
+
+    /// Its value at a connection. There the orbit is at its saddle for all but a vanishing part of the time, so that means over time are
+    /// those of the saddle. `None` for numbers without a limit, as the period, and where the saddle is not known.
+    #[must_use]
+    pub fn at(self, connection: &Connection) -> Option<f64> {
+        let saddle = connection.saddle.as_ref()?;
+        match self {
+            Self::Speed => Some(saddle.velocity[0].hypot(saddle.velocity[1])),
+            Self::TurningRate => Some(saddle.turning_rate.abs()),
+            Self::SignedTurningRate => Some(saddle.turning_rate),
+            _ => None,
         }
     }
 
@@ -279,19 +292,11 @@ fn parts(followed: &Followed, ordinate: Ordinate) -> Vec<BranchPart> {
     all
 }
 
-/// The connection at which a leg ends. There the orbit is at its saddle for all but a vanishing part of the time, so that means over time
-/// are those of the saddle; a period that is infinite is marked at the last one computed.
+/// The connection at which a leg ends; a number that it has no limit of is marked at the last one computed.
 fn connection(leg: &Leg, ordinate: Ordinate) -> Option<[f64; 2]> {
     let End::Homoclinic(connection) = &leg.end else { return None };
     let last = ordinate.read(leg.samples.last()?)?;
-    let saddle = connection.saddle.as_ref();
-    let value = match ordinate {
-        Ordinate::Speed => saddle.map(|saddle| saddle.velocity[0].hypot(saddle.velocity[1])),
-        Ordinate::TurningRate => saddle.map(|saddle| saddle.turning_rate.abs()),
-        Ordinate::SignedTurningRate => saddle.map(|saddle| saddle.turning_rate),
-        _ => None,
-    };
-    Some([connection.parameter, value.unwrap_or(last)])
+    Some([connection.parameter, ordinate.at(connection).unwrap_or(last)])
 }
 
 /// The special points of a branch, and the connections that it ends at.

@@ -1,0 +1,40 @@
+/** Numbers as the page writes them. */
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { transformWithOxc } from "vite";
+
+const path = new URL("../src/numbers.ts", import.meta.url).pathname;
+const { code } = await transformWithOxc(readFileSync(path, "utf8"), path);
+const { fitting, pretty, scaledLabel, ticks, withError } = await import(`data:text/javascript;base64,${Buffer.from(code).toString("base64")}`);
+
+test("a value has the digits of its error", () => {
+  const cases = [
+    [0.123456, 0.0123, "0.123 \u00b1 0.012"],
+    [-123.456, 20, "\u2212123 \u00b1 20"],
+    [-1e-4, 0.036, "0.000 \u00b1 0.036"],
+    [2.89e-5, 9.7e-5, "0.000029 \u00b1 0.000097"],
+    [7.33e-10, 2.2e-9, "(0.7 \u00b1 2.2)\u00b710\u207b\u2079"],
+    [0.0997, 0.00996, "0.100 \u00b1 0.010"],
+    [1, 0, "1 \u00b1 0"],
+    [0.5, null, "0.5"],
+  ];
+  for (const [value, error, text] of cases) assert.equal(withError(value, error), text);
+  assert.equal(withError(0.00886, 0.00042, "/s"), "(0.00886 \u00b1 0.00042)/s");
+});
+
+test("the numbers of an axis share a power of ten where they are small or large", () => {
+  const small = ticks(8.4e-5, 9.6e-5, 3);
+  assert.deepEqual([small.labels, small.power], [["8.5", "9.0", "9.5"], -5]);
+  assert.deepEqual([ticks(0, 1, 2).labels, ticks(0, 1, 2).power], [["0.0", "0.5", "1.0"], 0]);
+  assert.deepEqual(ticks(0, 2e6, 2).labels, ["0", "1", "2"]);
+  assert.equal(scaledLabel("*v*", "m/s", -5), "*v* (10^{-5} m/s)");
+  assert.equal(scaledLabel("*v*", null, 0), "*v*");
+});
+
+test("a field shows as many digits as it holds", () => {
+  const cases = [[-0.39829465712907214, "-0.398295"], [0.0000123456789, "1.2346e-5"], [0.9, "0.9"], [-123456789.5, "-1.2346e8"], [0, "0"]];
+  for (const [value, text] of cases) assert.equal(fitting(value, 9), text);
+  assert.equal(pretty(-1.5e-9, 2), "\u22121.5\u00b710\u207b\u2079");
+});
