@@ -11,7 +11,8 @@ struct Harness {
     filter: &'static str,
 }
 
-const ALL: [Harness; 4] = [
+const ALL: [Harness; 5] = [
+    Harness { name: "samples", variable: "MOTIFORM_SAMPLES", most: 1, filter: "" },
     Harness { name: "faults", variable: "MOTIFORM_FAULTS", most: 1, filter: "faults" },
     Harness { name: "kills", variable: "MOTIFORM_KILLS", most: 1000, filter: "kills" },
     Harness { name: "invariances", variable: "MOTIFORM_INVARIANCES", most: 1, filter: "invariances::" },

@@ -41,6 +41,7 @@ usage: cargo xtask COMMAND
   faults   [N]: every N-th call that changes the file system fails, or is the last one, in every command that writes (1: every call)
   kills    [N]: every command that writes is killed N times at random moments (1000)
   fuzz     [N]: N damaged inputs of each kind (100000)
+  samples  all Rust tests, with the whole of every statistical sample
   emulated the tests of lanes under qemu-user, as a processor without vector registers to speak of and as one with AVX2
            (needs qemu-user)
   build-cost [--runs N] [--write]: a build from an empty cargo folder to the first picture, beside `cargo install ripgrep`, compared

@@ -1,6 +1,6 @@
 //! Coefficients over tied sets.
 
-use crate::common::{Experiment, FULL, full, vertex_noise};
+use crate::common::{Experiment, FULL, full, vertex_noise, zigzag};
 use motiform_inference::{Averaged, Settings, Subset, Subsets, averaged, fit, subsets};
 
 /// kappa3 = 0.1 in zigzags of 250 frames, whose best set may lack a term (or kappa3 itself): intervals over
@@ -9,17 +9,11 @@ use motiform_inference::{Averaged, Settings, Subset, Subsets, averaged, fit, sub
 fn intervals_over_tied_sets_hold_the_truth() {
     let (mut alone, mut over, runs) = (0, 0, 10);
     for seed in 0..runs {
-        let mut experiment = Experiment {
-            errors: vertex_noise(1.2),
-            interval: 0.5,
-            ..Experiment::new(full(0.9, 0.1), 0.01, 300 + seed)
-        };
-        experiment.frames = 250;
-        let whole = fit(&[experiment.track()], &Settings::default(), &()).expect("it converges");
-        let sets = subsets(&whole);
+        let whole = &zigzag(seed).whole;
+        let sets = subsets(whole);
         let best = Subsets { ties: sets.ties[..1].to_vec(), ..sets.clone() };
         let holds = |sets: &Subsets| {
-            let all = averaged(&whole, sets);
+            let all = averaged(whole, sets);
             let found = all.iter().find(|one| one.name == "z3: z3");
             println!("{seed}: {} sets, {found:?}", sets.ties.len());
             u32::from(found.is_some_and(|one| one.interval[0] < -0.1 && -0.1 < one.interval[1]))

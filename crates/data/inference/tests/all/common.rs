@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use motiform_dynamics::{Complex, Normal};
-use motiform_inference::{Fit, Observation, Settings, Track, fit};
+use motiform_inference::{Fit, Observation, Selection, Settings, Track, fit, select};
 use std::sync::OnceLock;
 
 /// `(equation, coefficient, factors)`: each factor an amplitude from 1, negative for its conjugate.
@@ -230,11 +230,30 @@ impl Experiment {
     }
 }
 
-/// A circle of the full model without noise, 300 frames, and its fit: several tests look at it, and it takes long.
+/// A zigzag of Fig. 5(b) in a short record, kappa2 = 0.9, kappa3 = 0.1: its fit and its terms.
+pub(crate) struct Zigzag {
+    pub(crate) tracks: [Track; 1],
+    pub(crate) whole: Fit,
+    pub(crate) selection: Selection,
+}
+
+/// Twelve of them with 250 frames: several tests look at each.
+pub(crate) fn zigzag(number: usize) -> &'static Zigzag {
+    static ZIGZAGS: [OnceLock<Zigzag>; 12] = [const { OnceLock::new() }; 12];
+    ZIGZAGS[number].get_or_init(|| {
+        let law = Experiment::new(full(0.9, 0.1), 0.01, 300 + number as u64);
+        let tracks = [Experiment { errors: vertex_noise(1.2), frames: 250, ..law }.track()];
+        let whole = fit(&tracks, &Settings::default(), &()).unwrap();
+        let selection = select(&tracks, &whole, &()).unwrap();
+        Zigzag { tracks, whole, selection }
+    })
+}
+
+/// A circle of the full model without noise and its fit: several tests look at it, and it takes long.
 pub(crate) fn circle() -> &'static ([Track; 1], Fit) {
     static CIRCLE: OnceLock<([Track; 1], Fit)> = OnceLock::new();
     CIRCLE.get_or_init(|| {
-        let tracks = [Experiment { frames: 120, ..Experiment::new(full(0.5, 0.3), 0.0, 7) }.track()];
+        let tracks = [Experiment { frames: 60, ..Experiment::new(full(0.5, 0.3), 0.0, 7) }.track()];
         let whole = fit(&tracks, &Settings::default(), &()).unwrap();
         (tracks, whole)
     })

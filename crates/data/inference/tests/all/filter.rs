@@ -15,9 +15,9 @@ fn gradient_by_differences() {
     for (equations, modes, handed) in
         [(three(), 2, false), (three(), 3, false), (three(), 3, true), (four(), 4, false), (four(), 4, true)]
     {
-        let mut track = Experiment { frames: 40, ..Experiment::new(equations, 0.05, 11) }.track();
-        track.0.remove(20);
-        track.0.drain(28..31);
+        let mut track = Experiment { frames: 20, ..Experiment::new(equations, 0.05, 11) }.track();
+        track.0.remove(8);
+        track.0.drain(13..16);
         let library = Library::new(modes, 3).unwrap();
         let settings = Settings { library, handed, ..Settings::default() };
         let n = settings.library.terms.len() * if handed { 2 } else { 1 };

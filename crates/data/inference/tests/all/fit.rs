@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use crate::common::{Equations, Experiment, FULL, full};
+use crate::samples::draws;
 use motiform_inference::{Fit, Library, Settings, Track, fit, fit_from, select};
 
 /// The result for one cell.
@@ -70,13 +71,15 @@ fn figures(runs: u64, experiment: impl Fn(u64) -> Experiment) -> [f64; 5] {
     found
 }
 
-/// The true terms of a chaotic cell, 300 frames, 100 runs: 900 intervals, whose share has a standard deviation of 0.7 %.
+/// The true terms of a chaotic cell, 300 frames: nine intervals a run. Of 100 runs their share has a standard deviation of 0.7 %, of 30
+/// one of 1.3 %: their limits are 3.3 of these away.
 #[test]
 fn coverage_with_the_true_terms() {
     let library = Library::tensor().select(&FULL).unwrap();
     let settings = Settings { library, ..Settings::default() };
     let (mut held, mut robust) = (0, 0);
-    for seed in 0..100 {
+    let runs = draws(30, 100);
+    for seed in 0..runs {
         let mut experiment = Experiment::new(full(0.5, 0.1), 0.02, 2000 + seed);
         experiment.frames = 300;
         let found = fit(&[experiment.track()], &settings, &()).unwrap();
@@ -87,9 +90,10 @@ fn coverage_with_the_true_terms() {
             robust += usize::from((estimate.value - c.re).abs() < 1.96 * estimate.robust);
         }
     }
-    println!("coverage {:.3}, robust {:.3}", held as f64 / 900.0, robust as f64 / 900.0);
-    assert!((0.92..=0.97).contains(&(held as f64 / 900.0)), "{held}");
-    assert!(robust > 810, "{robust}");
+    let share = |count: usize| count as f64 / (9 * runs) as f64;
+    println!("coverage {:.3}, robust {:.3}", share(held), share(robust));
+    assert!((draws(0.905, 0.92)..=draws(0.99, 0.97)).contains(&share(held)), "{held}");
+    assert!(share(robust) > draws(0.89, 0.9), "{robust}");
 }
 
 /// Two cells of the same kind, one with frames missing: their sum of likelihoods.

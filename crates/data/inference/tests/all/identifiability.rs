@@ -51,7 +51,7 @@ fn a_straight_motion_without_noise_fixes_one_combination() {
 fn a_motionless_cell_fixes_relaxation_rates() {
     assert!(!look(still(), (0.0, 120)).identifiable);
     let mut experiment = Experiment::new(still(), 0.02, 7);
-    experiment.frames = 600;
+    experiment.frames = 300;
     let tracks = [experiment.track()];
     let whole = fit(&tracks, &Settings::default(), &()).unwrap();
     let selection = select(&tracks, &whole, &()).unwrap();

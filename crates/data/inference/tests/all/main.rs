@@ -15,6 +15,8 @@ mod null;
 mod order_five;
 mod place;
 mod pooled;
+#[path = "../../../../samples.rs"]
+mod samples;
 mod stage;
 mod stretch;
 mod subsets;

@@ -1,6 +1,7 @@
 //! Persistent random walks against motions.
 
 use crate::common::{Equations, Experiment, full};
+use crate::samples::draws;
 use motiform_dynamics::Complex;
 use motiform_inference::{Fit, Selection, Settings, Track, WALK_RATE, fit, refit_with, select, walk_p_value};
 
@@ -19,7 +20,7 @@ fn p_value(equations: Equations, eta: f64, seed: u64) -> (f64, Vec<String>) {
 fn walks_are_not_excluded_and_motions_exclude_them() {
     let term = |equation, c: f64, factors: &[i32]| (equation, Complex::new(c, 0.0), factors.to_vec());
     let walk = vec![term(1, -0.1, &[1]), term(2, -0.5, &[2]), term(3, -0.7, &[3])];
-    for seed in 0..8 {
+    for seed in 0..draws(3, 8) {
         let (p, names) = p_value(walk.clone(), 0.2, 900 + seed);
         println!("walk {seed}: {p:.1e} {names:?}");
         assert!(p > WALK_RATE, "{seed}: {p:.1e} {names:?}");
@@ -61,7 +62,7 @@ fn values_far_from_a_walk_are_bounds() {
     let motions =
         [(full(0.5, 0.1), 0.02), (full(0.9, 0.1), 0.01), (full(1.5, 0.9), 0.03), (full(0.5, 0.5), 0.1)];
     for (number, (equations, eta)) in motions.into_iter().enumerate() {
-        for seed in [3, 4] {
+        for seed in 3..draws(4, 5) {
             let frames = 200;
             let experiment = Experiment { frames, ..Experiment::new(equations.clone(), eta, seed) };
             let tracks = [experiment.track()];

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use crate::common;
+use crate::samples::draws;
 
 use common::{Random, cell, full, near, reduced};
 use motiform_analysis::lyapunov::separates;
@@ -154,11 +155,12 @@ fn errors_of_chaos_are_sharp() {
         let start = [random.between(-10.0, 10.0), random.between(-10.0, 10.0), random.between(15.0, 35.0)];
         run(&Lorenz::default(), &start, &settings(1, 20.0, 1000.0)).exponents[0]
     };
-    let lorenz: Vec<Estimate> = (0..160).map(lorenz).collect();
+    let starts = draws(60, 160);
+    let lorenz: Vec<Estimate> = (0..starts).map(lorenz).collect();
     let mut seen = vec![("lorenz", coverage(&lorenz, Some(published("lorenz").0[0])))];
     for (name, kappa2, kappa3) in [("(.5, .1)", 0.5, 0.1), ("(.63, .11)", 0.63, 0.11)] {
         let model = full(kappa2, kappa3);
-        let runs: Vec<Lyapunov> = (0..160)
+        let runs: Vec<Lyapunov> = (0..starts)
             .map(|seed| run(&model, &Random(seed).state(6, 0.01), &settings(3, 300.0, 1500.0)))
             .filter(|run| run.outcome.is_complete())
             .collect();
@@ -166,13 +168,15 @@ fn errors_of_chaos_are_sharp() {
         seen.push((name, coverage(&firsts, None)));
         let zeros: Vec<Estimate> = runs.iter().flat_map(Lyapunov::zeros).collect();
         let (covered, width) = coverage(&zeros, Some(0.0));
-        println!("{name}: zeros {covered}, {width} times too wide; {} of 160 runs", runs.len());
-        assert!(covered > 0.99 && width < 4.0, "{name}: zeros {covered} {width}");
+        println!("{name}: zeros {covered}, {width} times too wide; {} of {starts} runs", runs.len());
+        assert!(covered > draws(0.98, 0.99) && width < 4.0, "{name}: zeros {covered} {width}");
     }
+    // of 60 runs less than 51 are covered with a probability of 3e-4, and the scatter has an error of a tenth
     for (name, (covered, width)) in seen {
         println!("{name}: {covered}, width {width}");
         assert!(
-            (0.92..=0.985).contains(&covered) && (0.9..1.25).contains(&width),
+            draws(0.85..=1.0, 0.92..=0.985).contains(&covered)
+                && draws(0.75..1.5, 0.9..1.25).contains(&width),
             "{name}: {covered} {width}"
         );
     }
@@ -255,12 +259,12 @@ fn a_positive_exponent_needs_three_errors_and_growth_beyond_powers_of_time() {
 /// Chaos has two zeros: along the flow, and along the rotations.
 #[test]
 fn both_neutral_directions_of_a_chaotic_body_vanish_within_their_errors() {
-    let tensor = run(&full(0.5, 0.1), &Random(1).state(6, 0.01), &settings(3, 500.0, 8000.0));
+    let tensor = run(&full(0.5, 0.1), &Random(1).state(6, 0.01), &settings(3, 500.0, 4000.0));
     let methods = common::settings("cell");
     let slow = LyapunovSettings {
         method: methods.method,
         control: methods.control,
-        ..settings(3, 6000.0, 24_000.0)
+        ..settings(3, 6000.0, 12_000.0) // errors of zeros are then a tenth of the exponent
     };
     let cell = run(&cell(21.6, 21), &Random(5).state(42, 0.01), &slow);
     for (name, seen) in [("tensor", &tensor), ("cell", &cell)] {

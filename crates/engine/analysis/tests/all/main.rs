@@ -23,6 +23,8 @@ mod rest_law;
 mod rests;
 mod returns;
 mod same_set;
+#[path = "../../../../samples.rs"]
+mod samples;
 mod series_mean;
 mod share;
 mod steady;

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+use crate::samples::draws;
 use motiform_analysis::{RelativeEquilibrium, Result};
 use motiform_continuation::{Branch, Point, Settings, switch};
 use motiform_dynamics::{Equivariant, Scalar, VectorField};
@@ -39,7 +40,8 @@ fn orbits(eps: f64, settings: &Settings, larger: bool, count: usize) -> Vec<Poin
 /// The folds of both canard explosions are images of each other: their currents and their periods are the same within their errors.
 #[test]
 fn folds_of_mirror_images_within_canard_explosions_have_the_same_period() {
-    for (eps, low, high, count) in [(0.05, -0.5, 2.0, 200), (0.02, -0.3, 1.9, 260)] {
+    let all = [(0.05, -0.5, 2.0, 200), (0.02, -0.3, 1.9, 260)];
+    for (eps, low, high, count) in all.into_iter().take(draws(1, 2)) {
         let settings = Settings::over(low, high);
         let fold = |larger: bool| {
             let points = orbits(eps, &settings, larger, count);
@@ -62,7 +64,7 @@ fn folds_of_mirror_images_within_canard_explosions_have_the_same_period() {
 /// Far from 1 a multiplier excludes a fold, whatever the sign of a slope of round-off.
 #[test]
 fn where_a_multiplier_is_far_from_1_there_is_no_fold() {
-    let points = orbits(0.001, &Settings::over(-0.5, 2.0), true, 240);
+    let points = orbits(0.001, &Settings::over(-0.5, 2.0), true, draws(170, 240));
     assert!(points.len() > 160, "{}", points.len());
     for point in points.iter().filter(|point| point.special.is_some()) {
         let multiplier = point.motion.orbit().unwrap().multipliers[0].0;

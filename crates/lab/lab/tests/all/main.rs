@@ -21,6 +21,8 @@ mod plan;
 mod presets;
 mod questions;
 mod random;
+#[path = "../../../../samples.rs"]
+mod samples;
 mod scan;
 mod scan_lanes;
 mod settings;

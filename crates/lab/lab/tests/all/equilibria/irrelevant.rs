@@ -3,6 +3,7 @@
 
 use super::other_search::{Field, distance, field, norm, text};
 use super::{list, study, values};
+use crate::samples::draws;
 use motiform_study::{Study, presets::find_any};
 
 /// The list for this seed, as values of the unknowns.
@@ -49,7 +50,7 @@ fn assert_same(found: &[Vec<f64>], wanted: &[Vec<f64>], what: &str) {
 #[test]
 fn seeds_units_order_and_silent_unknowns_change_no_list() {
     let mut most = 0;
-    for dim in 2..=6 {
+    for dim in (2..=6).step_by(draws(2, 1)) {
         for cubic in [false, true] {
             let field = field(dim, cubic, 1000 + dim as u64);
             let wanted = roots(&field, 0);
