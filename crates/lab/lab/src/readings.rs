@@ -50,7 +50,7 @@ pub fn dimension(model: &dyn Model, column: &str) -> Dimension {
 pub(crate) struct Readings<'m> {
     model: &'m dyn Model,
     atol: f64,
-    turns: bool,
+    turning: Turning,
     named: Vec<f64>,
     seen: Vec<f64>,
     boundary: Vec<f64>,
@@ -61,8 +61,7 @@ impl<'m> Readings<'m> {
         Self {
             model,
             atol: c.control.absolute_tolerance(),
-            // A velocity that is read off a shape under noise has no derivative.
-            turns: c.noise.is_none() || model.velocities() > 0,
+            turning: Turning::of(model, c),
             named: vec![0.0; model.coordinates().len()],
             seen: vec![0.0; model.observables().len()],
             boundary: vec![0.0; model.measures().len()],
@@ -76,11 +75,56 @@ impl<'m> Readings<'m> {
         self.model.observe(shape, &mut self.seen);
         self.model.measure(shape, &mut self.boundary);
         let (speed, rate) = pace(self.model, shape, self.atol);
-        let pace = [speed, if self.turns { rate } else { f64::NAN }];
+        let pace = [speed, self.turning.rate(t, shape, rate)];
         let values = [t].into_iter().chain(position.iter().copied()).chain(self.named.iter().copied());
         let values = values.chain(pace).chain(self.seen.iter().copied()).chain(self.boundary.iter().copied());
         table.columns.iter_mut().zip(values).for_each(|(column, value)| column.values.push(value));
     }
+}
+
+/// The turning rate of a row.
+#[derive(Clone, Copy)]
+enum Turning {
+    /// The derivative of the heading.
+    Derivative,
+    /// The change of the heading since the row before over the time between them: noise acts on the velocity, which has no derivative.
+    /// With the row before: its time and heading.
+    Differences(f64, f64),
+    /// None: the velocity is read off a shape under noise, which is rough on all scales.
+    Undefined,
+}
+
+impl Turning {
+    fn of(model: &dyn Model, c: &Computation) -> Self {
+        let Some(noise) = c.noise else { return Self::Derivative };
+        if model.velocities() == 0 {
+            Self::Undefined
+        } else if noise.velocity > 0.0 || !model.noise().is_none() {
+            Self::Differences(f64::NAN, f64::NAN)
+        } else {
+            Self::Derivative
+        }
+    }
+
+    /// The rate of a row of this shape, whose equations without noise turn it at `drift` (NaN at rest).
+    fn rate(&mut self, t: f64, shape: &[f64], drift: f64) -> f64 {
+        match self {
+            Self::Derivative => drift,
+            Self::Undefined => f64::NAN,
+            Self::Differences(before, heading) => {
+                let now = if drift.is_nan() { f64::NAN } else { libm::atan2(shape[1], shape[0]) };
+                let turned = libm::remainder(now - *heading, std::f64::consts::TAU);
+                let rate = if t > *before { turned / (t - *before) } else { f64::NAN };
+                (*before, *heading) = (t, now);
+                rate
+            }
+        }
+    }
+}
+
+/// Returns `true` if the turning rates of a plan are differences from row to row.
+pub(crate) fn turns_by_rows(model: &dyn Model, c: &Computation) -> bool {
+    matches!(Turning::of(model, c), Turning::Differences(..))
 }
 
 /// Speed and turning rate of a shape; the latter is NaN at rest: below what a run with absolute tolerance `atol` resolves.
