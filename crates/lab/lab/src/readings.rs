@@ -75,7 +75,7 @@ impl<'m> Readings<'m> {
         self.model.observe(shape, &mut self.seen);
         self.model.measure(shape, &mut self.boundary);
         let (speed, rate) = pace(self.model, shape, self.atol);
-        let pace = [speed, self.turning.rate(t, shape, rate)];
+        let pace = [speed, self.turning.rate(t, &self.named, rate)];
         let values = [t].into_iter().chain(position.iter().copied()).chain(self.named.iter().copied());
         let values = values.chain(pace).chain(self.seen.iter().copied()).chain(self.boundary.iter().copied());
         table.columns.iter_mut().zip(values).for_each(|(column, value)| column.values.push(value));
@@ -106,13 +106,13 @@ impl Turning {
         }
     }
 
-    /// The rate of a row of this shape, whose equations without noise turn it at `drift` (NaN at rest).
-    fn rate(&mut self, t: f64, shape: &[f64], drift: f64) -> f64 {
+    /// The rate of a row with these coordinates, which the equations without noise turn at `drift` (NaN at rest).
+    fn rate(&mut self, t: f64, named: &[f64], drift: f64) -> f64 {
         match self {
             Self::Derivative => drift,
             Self::Undefined => f64::NAN,
             Self::Differences(before, heading) => {
-                let now = if drift.is_nan() { f64::NAN } else { libm::atan2(shape[1], shape[0]) };
+                let now = if drift.is_nan() { f64::NAN } else { libm::atan2(named[1], named[0]) };
                 let turned = libm::remainder(now - *heading, std::f64::consts::TAU);
                 let rate = if t > *before { turned / (t - *before) } else { f64::NAN };
                 (*before, *heading) = (t, now);

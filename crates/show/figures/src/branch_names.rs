@@ -12,7 +12,7 @@ use super::svg::{Anchor, Svg};
 use super::text::Label;
 
 /// Size of the letters, in pixels.
-const SIZE: f64 = 11.0;
+const SIZE: f64 = 12.0;
 /// Distances of a name from its curve, in pixels.
 const GAPS: [f64; 3] = [-3.0, 0.0, 4.0];
 /// Places along a curve where its name is tried, as parts of its length.
@@ -111,8 +111,8 @@ fn along(curve: &[Point], mut left: f64) -> Point {
 
 #[cfg(test)]
 mod tests {
-    use super::super::branches::{BranchPart, Stability};
     use super::super::Chart;
+    use super::super::branches::{BranchPart, Stability};
     use super::*;
 
     /// Two motions, and a third one as a short curve: each long curve has its name beside it, a second time besides the legend.

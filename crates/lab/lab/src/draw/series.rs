@@ -17,7 +17,7 @@ pub(super) fn figure(body: &Body<'_>) -> SeriesFigure {
         let quantity = declared(observable);
         let largest = largest(body, &quantity);
         if largest < body.accuracy.least(0.0) {
-            notes.push(format!("{} {}.", observable.symbol, below(body, &quantity)));
+            notes.push(format!("{} {}.", observable.symbol, below(body, &quantity, largest)));
         } else {
             panels.push(panel(body, &quantity, 2 + index));
         }
@@ -75,8 +75,11 @@ fn without_rounding(mut panel: Panel, body: &Body<'_>) -> Panel {
     panel
 }
 
-/// `stays below 10^-9`: the size from which it is known not to be 0.
-fn below(body: &Body<'_>, quantity: &Quantity) -> String {
+/// `stays below 10^-9`: the size from which it is known not to be 0; or that it is 0.
+fn below(body: &Body<'_>, quantity: &Quantity, largest: f64) -> String {
+    if largest == 0.0 {
+        return "is 0 throughout".to_owned();
+    }
     format!("stays below {}", body.units().words(body.accuracy.least(0.0), quantity.dimension, ""))
 }
 
@@ -94,8 +97,6 @@ fn measures(body: &Body<'_>, panels: &mut Vec<Panel>, notes: &mut Vec<String>) {
         let high = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if body.accuracy.varies(shown.iter().copied()) {
             panels.push(panel(body, &quantity, 2 + panels.len()));
-        } else if shown.iter().all(|x| x.is_nan() || *x == 0.0) {
-            notes.push(format!("The {} is 0 throughout.", measure.symbol));
         } else if high > body.accuracy.least(0.0) {
             notes.push(format!(
                 "The {} stays at {}.",
@@ -103,7 +104,11 @@ fn measures(body: &Body<'_>, panels: &mut Vec<Panel>, notes: &mut Vec<String>) {
                 body.units().words(high, quantity.dimension, "")
             ));
         } else {
-            notes.push(format!("The {} {}.", measure.symbol, below(body, &quantity)));
+            notes.push(format!(
+                "The {} {}.",
+                measure.symbol,
+                below(body, &quantity, largest(body, &quantity))
+            ));
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::common;
 use common::{column, headings, preset, run};
 use motiform_figures::{Drawn, Style};
 use motiform_lab::draw;
-use motiform_study::Dataset;
+use motiform_study::{Dataset, Study};
 
 fn of(name: &str, set: &[(&str, f64)]) -> Dataset {
     run(&preset(name, |study| set.iter().for_each(|(name, value)| study.set(name, *value).unwrap())))
@@ -18,9 +18,10 @@ fn figure(dataset: &Dataset, name: &str) -> Drawn {
     all.into_iter().find(|(known, _)| *known == name).unwrap().1
 }
 
-/// The texts of a figure.
+/// The texts of a figure, without its fonts.
 fn texts(drawn: &Drawn) -> Vec<String> {
-    let pieces = drawn.svg.split('<').filter_map(|piece| piece.split_once('>'));
+    let drawing = drawn.svg.rsplit("</style>").next().unwrap_or_default();
+    let pieces = drawing.split('<').filter_map(|piece| piece.split_once('>'));
     pieces.map(|(_, text)| text.trim().to_owned()).filter(|text| !text.is_empty()).collect()
 }
 
@@ -57,7 +58,8 @@ fn a_body_at_rest_is_one_outline_at_true_size() {
 /// Noise turns a swimmer whose equations do not: the rates are those of the headings of the rows, and add up to the turns of the path.
 #[test]
 fn noise_turns_the_path() {
-    let dataset = run(&preset("noisy-heading", |study| study.run.t_end = 50.0));
+    let text = "preset = \"noisy-heading\"\n[run]\nt_end = 50\n";
+    let dataset = run(&Study::parse(text, "text", "test").unwrap());
     let (rates, times, headings) =
         (column(&dataset, "turning_rate"), column(&dataset, "t"), headings(&dataset));
     assert!(rates[0].is_nan() && rates.len() > 50);

@@ -149,8 +149,8 @@ fn the_path_does_not_depend_on_the_rows() {
     ] {
         let rows = |dt_out: f64| run(&noisy(model, parameters, 1e-2, (60.0, dt_out)));
         let (rare, dense) = (rows(0.3), rows(0.1));
-        for column in &rare.trajectory.columns {
-            // at rest there is no turning rate
+        // the turning rate is a difference between rows
+        for column in rare.trajectory.columns.iter().filter(|column| column.name != "turning_rate") {
             let all = &dense.trajectory.get(&column.name).unwrap();
             let largest = column.values.iter().map(|x| x.abs()).fold(0.0, f64::max);
             for (row, value) in column.values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
