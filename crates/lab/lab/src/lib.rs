@@ -1,6 +1,7 @@
 //! The laboratory executes plans. A [`Plan`](motiform_study::Plan) is simulated, or analysed for its motion, its exponents and its
 //! steady shapes; a [`ScanPlan`](motiform_study::ScanPlan) is computed row by row; datasets and scans become figures.
 
+mod accuracy;
 pub mod analyse;
 pub mod answers;
 pub mod clock;

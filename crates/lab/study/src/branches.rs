@@ -2,7 +2,7 @@
 
 use crate::plan::{Computation, Plan, Question, RunPlan, check, check_no_noise};
 use crate::titles::capital;
-use crate::{Error, Given, Stride, Study, Ties, Towards};
+use crate::{Error, Given, Stride, Study, Ties, Towards, UnitSettings};
 use motiform_analysis::Regime;
 use motiform_models::parameters::index_of;
 use motiform_models::spelling::ascii;
@@ -221,7 +221,8 @@ impl BranchPlan {
             ties,
             start,
         };
-        Ok(Self::of(&plan.name, &plan.title, computation))
+        let figure = UnitSettings { units: study.figure.units.clone() };
+        Ok(Self { figure, ..Self::of(&plan.name, &plan.title, computation) })
     }
 
     /// The value of the varied parameter at the start.
@@ -239,7 +240,7 @@ impl BranchPlan {
 }
 
 impl Question for BranchComputation {
-    type Figure = ();
+    type Figure = UnitSettings;
     const KIND: Kind = Kind::Branches;
     const KEY: &'static str = "branches";
 

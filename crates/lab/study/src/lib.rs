@@ -55,4 +55,4 @@ pub use scan::ScanPlan;
 pub use stride::{DOUBLINGS, Stride, Towards};
 pub use study::Study;
 pub use ties::Ties;
-pub use units::Shown;
+pub use units::{Shown, UnitSettings};

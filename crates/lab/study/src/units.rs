@@ -4,6 +4,16 @@ use crate::Error;
 use crate::titles::number;
 use motiform_store::quantity::Unit;
 use motiform_store::{Dimension, Quantity};
+use serde::{Deserialize, Serialize};
+
+/// Settings of the figures of a result whose figures have nothing else to set.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct UnitSettings {
+    /// As in [`Shown::parse`].
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub units: String,
+}
 
 /// A size and its unit.
 #[derive(Clone, Debug, PartialEq)]

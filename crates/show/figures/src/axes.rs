@@ -111,7 +111,7 @@ impl Axes {
             Ticks::share_step((&mut x_ticks, scale.x), (&mut y_ticks, scale.y));
         }
         let x_label = x_label.map(|label| Label::parse(&x_ticks.scaled_label(label)));
-        let y_label = Label::parse(&y_ticks.scaled_label(y_label)).wrap(LABEL_SIZE, h + 10.0);
+        let y_label = Label::parse(&y_ticks.scaled_label(y_label)).wrap_words(LABEL_SIZE, h + 10.0);
         Self { scale, x_ticks, y_ticks, x_label, y_label }
     }
 
@@ -135,9 +135,25 @@ impl Axes {
         }
         if kinds[1] == AxisKind::Logarithmic {
             axes.y_ticks = Ticks::decades(scale.y, h, |_| TICK_SIZE);
-            axes.y_label = Label::parse(y_label).wrap(LABEL_SIZE, h + 10.0);
+            axes.y_label = Label::parse(y_label).wrap_words(LABEL_SIZE, h + 10.0);
         }
         axes
+    }
+
+    /// The same axes with ticks at the numbers of listed values, where there are some, labelled by the values.
+    #[must_use]
+    pub(crate) fn over(mut self, columns: [Option<&[f64]>; 2], labels: [&str; 2]) -> Self {
+        let Rect { w, h, .. } = self.scale.frame;
+        if let Some(values) = columns[0] {
+            let width = |text: &str| Label::parse(text).width(TICK_SIZE);
+            self.x_ticks = Ticks::listed(values, w / self.scale.x.span(), width);
+            self.x_label = Some(Label::parse(labels[0]));
+        }
+        if let Some(values) = columns[1] {
+            self.y_ticks = Ticks::listed(values, h / self.scale.y.span(), |_| TICK_SIZE);
+            self.y_label = Label::parse(labels[1]).wrap_words(LABEL_SIZE, h + 10.0);
+        }
+        self
     }
 
     /// Pixels that the y axis needs to the left of its frame.

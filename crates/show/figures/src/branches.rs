@@ -74,7 +74,7 @@ pub struct BranchMark {
     pub at: Point,
 }
 
-/// Branches against a parameter: thick where stable, thin where neutral, thin and dashed where unstable, with markers at special points.
+/// Branches against a parameter, with the names of their motions beside them: thick where stable, thin where neutral, thin and dashed where unstable, with markers at special points.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BranchDiagram {
     /// Range of the parameter; what lies outside is cut off.
@@ -117,6 +117,7 @@ impl Marks for BranchDiagram {
                 .filter(|part| part.stability == stability)
                 .for_each(|part| part.draw(svg, plane));
         }
+        self.draw_names(svg, plane);
         for mark in &self.marks {
             if let Some(at) = plane.within(mark.at) {
                 mark.glyph.draw(svg, at, 4.0, INK);

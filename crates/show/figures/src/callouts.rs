@@ -51,7 +51,7 @@ impl Around<'_> {
     }
 
     /// The first place of a size beside a point that is clear; with `anyhow`, one on lines or, in the end, the first of all.
-    fn place(&self, at: Point, size: [f64; 2], gaps: &[f64], anyhow: bool) -> Option<Rect> {
+    pub(crate) fn place(&self, at: Point, size: [f64; 2], gaps: &[f64], anyhow: bool) -> Option<Rect> {
         let all = || gaps.iter().flat_map(|gap| beside(at, size, *gap));
         let clear = all().find(|place| self.is_clear(place));
         let free = || all().find(|place| self.is_free(place)).or_else(|| all().next());

@@ -78,6 +78,7 @@ impl Chart {
             legend: self.sorted().flat_map(|(marks, number)| marks.keys(number)).collect(),
             scale: self.scale(kinds)?,
             kinds,
+            columns: [None; 2],
             labels: [&self.x_label, &self.y_label],
             room,
             grid: true,

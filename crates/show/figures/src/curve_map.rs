@@ -135,6 +135,7 @@ impl CurveMap {
             legend: Vec::new(),
             scale,
             kinds: [AxisKind::Linear; 2],
+            columns: [None; 2],
             labels: [&self.x_label, &self.y_label],
             room,
             grid: self.under.is_none(),

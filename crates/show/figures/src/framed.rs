@@ -23,6 +23,8 @@ pub(super) struct Framed<'a> {
     pub(super) scale: Scale,
     /// The divisions of the axes, across and upwards.
     pub(super) kinds: [AxisKind; 2],
+    /// The values of axes whose places are their numbers, across and upwards.
+    pub(super) columns: [Option<&'a [f64]>; 2],
     /// Labels of the axes, across and upwards.
     pub(super) labels: [&'a str; 2],
     /// The room in which the sheet is laid out.
@@ -101,7 +103,7 @@ impl Framed<'_> {
         let Rect { w, h, .. } = self.scale.frame;
         let with = |[w, h]: [f64; 2]| {
             let scale = Scale { frame: Rect { x: 0.0, y: 0.0, w, h }, ..self.scale };
-            Axes::of_kinds(scale, self.kinds, self.labels[0], self.labels[1])
+            Axes::of_kinds(scale, self.kinds, self.labels[0], self.labels[1]).over(self.columns, self.labels)
         };
         let own = with([w, h]);
         if self.room.width().is_none() {

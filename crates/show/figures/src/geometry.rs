@@ -77,7 +77,38 @@ impl Range {
     }
 }
 
+impl Range {
+    /// The range of an axis for values whose differences are known from `least` on: as it is where the values differ by so much. Values
+    /// that do not are one: the range holds 20 % of it, or is empty where it is 0 as far as is known. A `least` of 0 leaves every range.
+    #[must_use]
+    pub fn resolved(&self, least: f64) -> Self {
+        if self.span() >= least {
+            return *self;
+        }
+        let one = self.middle();
+        if one.abs() < least { Self { min: 0.0, max: 0.0 } } else { self.with_span(0.2 * one.abs()) }
+    }
+}
+
 /// Distance of two points.
 pub(crate) fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_does_not_show_errors() {
+        let range = |min, max| Range { min, max };
+        let fine = range(18.221_402_00, 18.221_402_02);
+        assert_eq!(fine.resolved(0.0), fine);
+        assert_eq!(fine.resolved(1e-8), fine, "they differ by 2e-8");
+        let flat = fine.resolved(3e-8);
+        assert!(
+            (flat.min - 0.9 * fine.middle()).abs() < 1e-9 && (flat.max - 1.1 * fine.middle()).abs() < 1e-9
+        );
+        assert_eq!(range(0.0, 1e-24).resolved(1e-12), range(0.0, 0.0));
+    }
 }

@@ -13,6 +13,7 @@ pub mod axes;
 mod bands;
 mod beside;
 mod block;
+mod branch_names;
 mod branches;
 mod callouts;
 mod chart;

@@ -88,6 +88,7 @@ impl PlaceMap {
             legend: self.legend(room)?,
             scale,
             kinds: [AxisKind::Linear; 2],
+            columns: [None; 2],
             labels: [&self.x_label, &self.y_label],
             room,
             grid: false,

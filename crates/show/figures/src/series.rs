@@ -35,6 +35,8 @@ pub struct Panel {
     pub label: String,
     /// Curves, drawn in this order.
     pub curves: Vec<Curve>,
+    /// Least difference of values that is known: values that differ by less are drawn as a constant. 0: every difference.
+    pub least: f64,
 }
 
 /// Time series in stacked panels. Where all curves of a panel are undefined, its ground is grey.
@@ -84,7 +86,7 @@ impl SeriesFigure {
         let first = room.frame([WIDTH, HEIGHT], beside(&own));
         let tight = self.rows([first[0], share(first[1])]);
         let [width, height] = room.frame([WIDTH, HEIGHT], beside(&tight));
-        // labels have been broken into lines as far as they can be
+        // labels have been broken into lines as far as they can be, between words
         let longest = tight.iter().map(|row| row.axes.label_length()).fold(0.0, f64::max);
         let panel_height = room.height().map_or(height, |_| share(height).max(longest));
         let rows = self.rows([width, panel_height]);
@@ -117,7 +119,8 @@ impl SeriesFigure {
         let last = self.panels.len().saturating_sub(1);
         let row = |(i, panel): (usize, &Panel)| {
             let values = panel.curves.iter().flat_map(|c| c.values.iter().copied().flatten());
-            let y = Range::of(values).unwrap_or(Range { min: 0.0, max: 0.0 }).padded(0.07);
+            let y = Range::of(values).unwrap_or(Range { min: 0.0, max: 0.0 }).resolved(panel.least);
+            let y = y.padded(0.07);
             let scale = Scale { frame: Rect { x: 0.0, y: 0.0, w, h }, x, y };
             let label = (i == last).then_some(self.time_label.as_str());
             let entry = |c: &Curve| Entry::new(Mark::Line(curve_paint(c)), &c.label);

@@ -36,7 +36,7 @@ pub(super) fn path(points: Vec<PathPoint>) -> PathFigure {
 pub(super) fn series(values: Vec<Option<f64>>) -> SeriesFigure {
     let times = (0..values.len()).map(|i| i as f64).collect();
     let curve = Curve { label: "speed".into(), colour: BLUE, values };
-    let panel = Panel { label: "speed".into(), curves: vec![curve] };
+    let panel = Panel { label: "speed".into(), curves: vec![curve], least: 0.0 };
     SeriesFigure { times, panels: vec![panel.clone(), panel], ..SeriesFigure::default() }
 }
 

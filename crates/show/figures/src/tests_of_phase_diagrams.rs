@@ -40,6 +40,25 @@ fn no_diagram_holds_a_number_that_is_none() {
     }
 }
 
+/// The markers of rows at 0.001 to 10 stood between the values, and most could not be seen; a single value had a column of length 1.
+#[test]
+fn ticks_are_the_values_of_unequal_steps() {
+    let of = |x: &[f64]| PhaseDiagram {
+        x: x.to_vec(),
+        cells: x.iter().map(|x| cell(*x, 0.0, &[("zigzag", 1.0)])).collect(),
+        ..PhaseDiagram::default()
+    };
+    let listed = of(&[0.36, 0.4, 0.8]);
+    let svg = text(&listed);
+    assert!([">0.36<", ">0.4<", ">0.8<"].iter().all(|tick| svg.contains(tick)), "{svg}");
+    assert!(!svg.contains(">0.6<") && listed.columns() == [true, false]);
+    let geometric = of(&[0.001, 0.01, 0.1]);
+    assert!(!text(&geometric).contains(">0.05<") && geometric.columns() == [false; 2]);
+    let single = text(&of(&[0.9]));
+    assert!(single.contains(">0.9<") && !single.contains(">1.4<") && !of(&[0.9]).columns()[0]);
+    assert!(text(&of(&[0.4, 0.6, 0.8])).contains(">0.6<"));
+}
+
 #[test]
 fn the_legend_names_what_is_present() {
     for mut diagram in [diagram(4, 3), diagram(64, 3)] {

@@ -164,9 +164,20 @@ impl Label {
     /// Breaks at spaces into lines of at most `width` pixels, and a longer word at any of its characters.
     #[must_use]
     pub fn wrap(&self, size: f64, width: f64) -> Vec<Self> {
+        self.lines(size, width, width)
+    }
+
+    /// Breaks at spaces into lines of at most `width` pixels, and no word: a unit stays whole.
+    #[must_use]
+    pub fn wrap_words(&self, size: f64, width: f64) -> Vec<Self> {
+        self.lines(size, width, f64::INFINITY)
+    }
+
+    /// The lines of at most `width` pixels, of words in pieces of at most `piece` pixels.
+    fn lines(&self, size: f64, width: f64, piece: f64) -> Vec<Self> {
         let mut lines: Vec<Vec<Set>> = Vec::new();
         let words = self.0.split(|s| s.is_break()).filter(|word| !word.is_empty());
-        for (word, is_rest) in words.flat_map(|word| pieces(word, width / size)) {
+        for (word, is_rest) in words.flat_map(|word| pieces(word, piece / size)) {
             let space = Set { character: ' ', face: Face::Regular, script: Script::Base };
             let long = |line: &[Set]| {
                 let em: f64 = line.iter().chain([&space]).chain(word).map(|s| s.width()).sum();
@@ -231,6 +242,15 @@ mod tests {
     fn a_terminal_keeps_exponents_and_indices() {
         let shown = Label::parse("*x*_{*n*+1} = 10^{-3} *z*_1^2, -0.9").terminal();
         assert_eq!(shown, "x_{n+1} = 10^-3 z_1^2, \u{2212}0.9");
+    }
+
+    /// The label of the speed on a low panel of a slide: its unit was broken within the bracket.
+    #[test]
+    fn units_stay_whole() {
+        let label = Label::parse("speed (µm/min)");
+        let plain = |lines: Vec<Label>| lines.iter().map(Label::terminal).collect::<Vec<_>>();
+        assert_eq!(plain(label.wrap_words(13.0, 30.0)), ["speed", "(µm/min)"]);
+        assert!(plain(label.wrap(13.0, 30.0)).len() > 2);
     }
 
     #[test]

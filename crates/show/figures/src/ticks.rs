@@ -116,6 +116,31 @@ impl Ticks {
         }
     }
 
+    /// A tick at 0, 1, 2, .. for each of some values, `pixels` apart, with the value as its label, which is left out where it would touch
+    /// the one before; `extent` is the length of a label.
+    #[must_use]
+    pub fn listed(values: &[f64], pixels: f64, extent: impl Fn(&str) -> f64) -> Self {
+        let mut free = f64::NEG_INFINITY;
+        let label = |(place, value): (usize, &f64)| {
+            let text = value.to_string().replace('-', "\u{2212}");
+            let (at, half) = (place as f64 * pixels, 0.5 * extent(&text));
+            if at - half < free {
+                return String::new();
+            }
+            free = at + half + 4.0;
+            text
+        };
+        let labels = values.iter().enumerate().map(label).collect();
+        let step = Step { mantissa: 1, power: 0 };
+        Self {
+            values: (0..values.len()).map(|place| place as f64).collect(),
+            labels,
+            minor: Vec::new(),
+            exponent: 0,
+            step,
+        }
+    }
+
     /// Only every other label, for an axis too short for three.
     fn thinned(mut self) -> Self {
         for label in self.labels.iter_mut().skip(1).step_by(2) {

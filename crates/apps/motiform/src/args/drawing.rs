@@ -32,13 +32,23 @@ pub(crate) struct UnitsOptions {
 }
 
 impl UnitsOptions {
-    /// The units that are given, or those of a study.
+    /// The units that are given, or those of a result.
     ///
     /// # Errors
     /// Units that cannot be read.
-    pub(crate) fn of(&self, study: Option<&Study>) -> Result<Shown, Error> {
-        let own = study.map_or("", |study| study.figure.units.as_str());
+    pub(crate) fn or(&self, own: &str) -> Result<Shown, Error> {
         Shown::parse(self.given.as_deref().unwrap_or(own))
+    }
+
+    /// The units that are given, or those of a study, which keeps them.
+    ///
+    /// # Errors
+    /// Units that cannot be read.
+    pub(crate) fn of(&self, study: &mut Study) -> Result<Shown, Error> {
+        if let Some(units) = &self.given {
+            study.figure.units.clone_from(units);
+        }
+        Shown::parse(&study.figure.units)
     }
 }
 

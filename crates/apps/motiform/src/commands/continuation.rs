@@ -24,12 +24,13 @@ pub(crate) fn run(options: &ContinueOptions) -> anyhow::Result<End> {
     let drawn = output(options, String::new()).is_some() && !options.no_figures;
     let remedy = "nothing is drawn with --no-figures, or with --json and no --out: leave one out";
     options.style.refuse_unless(drawn, remedy)?;
-    let (study, given) = study(options)?;
+    let (mut study, given) = study(options)?;
+    let units = options.units.of(&mut study)?;
     let plan = BranchPlan::new(&study, &BranchSettings { given, ..study.follow.branches()? })?;
     match study.follow.curves()? {
         Some(_) if options.units.given.is_some() => Err(no_units("--curve").into()),
         Some(settings) => curves::run(options, &CurvePlan::new(&study, plan, &settings)?),
-        None => branches(options, plan, &options.units.of(Some(&study))?),
+        None => branches(options, plan, &units),
     }
 }
 

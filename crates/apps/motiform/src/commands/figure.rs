@@ -200,17 +200,16 @@ impl Content {
     /// The content of a folder, whatever is in it.
     fn read(path: &Path, options: &FigureOptions) -> anyhow::Result<Self> {
         Ok(match kind_of(path) {
-            Some(Kind::Scan) => Self::Figures(
-                scan_figures(&ScanFolder::read(path)?, &options.drawing.units.of(None)?)?,
-                false,
-            ),
+            Some(Kind::Scan) => {
+                let folder = ScanFolder::read(path)?;
+                let units = options.drawing.units.or(&folder.plan().figure.units)?;
+                Self::Figures(scan_figures(&folder, &units)?, false)
+            }
             Some(Kind::Branches) => {
                 let BranchFolder { plan, found } = BranchFolder::read(path)?;
                 let ordinate = options.observable.unwrap_or(Observable::Speed).ordinate();
-                Self::Figures(
-                    branch_figures(&plan, &found, ordinate, &options.drawing.units.of(None)?)?,
-                    true,
-                )
+                let units = options.drawing.units.or(&plan.figure.units)?;
+                Self::Figures(branch_figures(&plan, &found, ordinate, &units)?, true)
             }
             Some(Kind::Curves) => {
                 let CurveFolder { plan, found } = CurveFolder::read(path)?;

@@ -51,7 +51,11 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
         let mut text = serde_json::to_vec_pretty(&answer)?;
         text.push(b'\n');
         files.put(FILE, &text)?;
-        for picture in draw_lifetimes(&plan, &found, &options.style.format_in(units.clone()))? {
+        let pictures = draw_lifetimes(&plan, &found, &options.style.format_in(units.clone()))?;
+        if pictures.is_empty() {
+            warn("no figure is drawn: at no value is a life watched after the delay");
+        }
+        for picture in pictures {
             files.put(&picture.name, &picture.bytes)?;
         }
         files.complete()?;
@@ -111,7 +115,8 @@ fn plan(options: &LifetimesOptions) -> Result<(ScanPlan, Shown), Error> {
     study.random = Some(study.starts(2)?); // those that sample basins, also of one start
     options.run.apply(&mut study.run)?;
     ties(&study, &of_scan(&study))?;
-    Ok((ScanPlan::new(&study)?, options.units.of(Some(&study))?))
+    let units = options.units.of(&mut study)?;
+    Ok((ScanPlan::new(&study)?, units))
 }
 
 /// The lifetimes of the motions of a plan.

@@ -14,8 +14,9 @@ use std::path::PathBuf;
 pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     let remedy = "nothing is drawn with --no-figures: leave one out";
     options.style.refuse_unless(!options.no_figures, remedy)?;
-    let study = study(options)?;
-    let (plan, units) = (ScanPlan::new(&study)?, options.units.of(Some(&study))?);
+    let mut study = study(options)?;
+    let units = options.units.of(&mut study)?;
+    let plan = ScanPlan::new(&study)?;
     let shard = options.shard.as_deref().map_or(Ok(Shard::WHOLE), Shard::parse)?;
     let out = options.folder.out.clone().unwrap_or_else(|| PathBuf::from(plan.default_folder()));
     let scan = Scan::open(&out, &plan, shard, options.folder.opening())?;

@@ -24,12 +24,12 @@ pub(crate) fn run(options: &StatisticsOptions) -> anyhow::Result<End> {
     let remedy = "figures are drawn into a folder: give --out DIR, or leave it out";
     options.style.refuse_unless(options.folder.out.is_some(), remedy)?;
     let datasets = !options.subjects.is_empty() && options.subjects.iter().all(|path| is_dataset(path));
-    let mut units = options.units.of(None)?;
+    let mut units = options.units.or("")?;
     let (folder, found) = if datasets {
         (open(options, None)?, recorded(options).map(Some))
     } else {
-        let (study, count) = (study(options)?, options.bodies.unwrap_or(BODIES));
-        units = options.units.of(Some(&study))?;
+        let (mut study, count) = (study(options)?, options.bodies.unwrap_or(BODIES));
+        units = options.units.of(&mut study)?;
         let folder = open(options, Some((&RunPlan::new(&study)?, count)))?;
         let found = bodies(options, &study, count, folder.as_ref());
         (folder, found)

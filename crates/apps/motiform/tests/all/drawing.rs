@@ -150,6 +150,39 @@ fn results_of_every_kind_have_physical_units() {
     assert!(done.stderr.contains("both axes of this figure are parameters"), "{}", done.stderr);
 }
 
+/// The figures of a result are drawn again in the units of the result, where none are given: they went back to those of the model.
+#[test]
+fn results_keep_their_units() {
+    let folder = Folder::new();
+    let branches = "continue tensor --preset fig5a --along kappa2=0.85:0.95 --branches 1 --points 5 --out b";
+    let scan = "scan tensor --preset fig4 --axis kappa2=0.5:0.55:2 --out s";
+    for (command, name, figures) in
+        [(branches, "b", &["branches", "period"][..]), (scan, "s", &["_exponent", "_diagram"])]
+    {
+        folder.run(&format!("{command} --units 20um,3min")).expect(0);
+        folder.run(&format!("figure {name} --out again-{name}")).expect(0);
+        for figure in figures {
+            let read =
+                |at: &str| fs::read_to_string(folder.path(&format!("{at}{name}/{figure}.svg"))).unwrap();
+            assert!(!read("").contains("in model units"), "{figure}");
+            assert_eq!(read(""), read("again-"), "{figure}");
+        }
+    }
+    folder.run("figure s --units 1um,1s --out other").expect(0);
+    assert!(fs::read_to_string(folder.path("other/_exponent.svg")).unwrap().contains("of time 1 s"));
+}
+
+/// A map of undetermined cells says why, in the terminal and below the figure.
+#[test]
+fn undetermined_cells_have_a_reason() {
+    let folder = Folder::new();
+    let done = folder.run("scan tensor --preset fig4 --axis kappa2=0.1:1.6:2 --budget 1 --out s");
+    let why = "no motion had established itself within the budget of 1.0";
+    assert!(done.stdout.contains(&format!("2 rows undetermined: {why}")), "{}", done.stdout);
+    let svg = fs::read_to_string(folder.path("s/_diagram.svg")).unwrap();
+    assert!(svg.contains("Undetermined: no motion"), "{svg}");
+}
+
 /// A study that says what its units are has axes in these.
 #[test]
 fn axes_are_physical_where_units_are_given() {

@@ -99,6 +99,7 @@ fn series(frames: &[FrameModes], units: &Units) -> SeriesFigure {
     let panel = |at: usize, label: String| Panel {
         label: label.clone(),
         curves: vec![Curve { label, colour: INK, values: rows.iter().map(|row| row[at]).collect() }],
+        least: 0.0,
     };
     let panels = vec![
         panel(0, units.axis(&frame::SPEED)),

@@ -8,7 +8,7 @@ use motiform_analysis::regime::Regime;
 use motiform_figures::PhaseDiagram;
 use motiform_inference::Plane;
 use motiform_lab::draw::phase_diagram;
-use motiform_lab::scan::{Axis, CellSummary, Motion, NUMBERS};
+use motiform_lab::scan::{Axis, CellSummary, Motion, NUMBERS, Reasons};
 use motiform_study::{Error, Random, ScanPlan, Study, presets};
 
 /// Cells of a diagram along each axis.
@@ -53,7 +53,13 @@ pub(crate) fn beneath(of: Plane) -> Result<Option<PhaseDiagram>, Error> {
     let Ok(motions) = lines.map(|lines| lines.concat()) else { return Ok(None) };
     let summary = |cell: usize| {
         let regime = *motions.get(cell)?;
-        let motion = Motion { regime, rows: 1, share: 1.0, medians: [f64::NAN; NUMBERS.len()] };
+        let motion = Motion {
+            regime,
+            rows: 1,
+            share: 1.0,
+            medians: [f64::NAN; NUMBERS.len()],
+            reasons: Reasons::default(),
+        };
         Some(CellSummary { cell, rows: 1, motions: vec![motion] })
     };
     let cells: Option<Vec<CellSummary>> = (0..plan.cells()).map(summary).collect();

@@ -198,6 +198,7 @@ fn series(case: &Case<'_>, units: &Units) -> SeriesFigure {
         Panel {
             label: units.label(&format!("*z*_{n}"), Dimension::LENGTH),
             curves: vec![size, part("real part", BLUE, at), part("imaginary part", VERMILION, at + 1)],
+            least: 0.0,
         }
     };
     SeriesFigure {

@@ -2,7 +2,7 @@
 
 use crate::scan::{ScanFolder, Totals};
 use motiform_analysis::Regime;
-use motiform_study::{Error, Random};
+use motiform_study::{Error, Random, counted};
 use serde::Serialize;
 use std::fmt::{Display, Formatter, Result};
 use std::path::Path;
@@ -94,6 +94,9 @@ impl Display for Scanned<'_> {
         ];
         for (count, what) in special.into_iter().filter(|entry| entry.0 > 0) {
             writeln!(f, "          {count} cells {what}")?;
+        }
+        for (why, rows) in totals.reasons.told() {
+            writeln!(f, "            {} undetermined: {why}", counted(rows, "row"))?;
         }
         write!(f, "folder    {}", self.folder.display())
     }

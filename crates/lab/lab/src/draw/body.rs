@@ -1,9 +1,12 @@
 //! The body along its path: the rows that are shown, and the size of the outlines.
 
+use crate::accuracy::Accuracy;
+use motiform_dynamics::escape::norm;
 use motiform_dynamics::sample::ascending;
 use motiform_dynamics::{Model, Outcome, Outline};
 use motiform_models::ModelInfo;
 use motiform_store::table::Table;
+use motiform_study::quantity::state::SPEED;
 use motiform_study::{Dataset, Dimension, Error, Shown};
 use std::ops::Range;
 
@@ -12,6 +15,10 @@ pub(super) struct Body<'d> {
     pub(super) dataset: &'d Dataset,
     pub(super) info: &'static ModelInfo,
     pub(super) model: Box<dyn Model>,
+    /// The errors of the numbers of the run.
+    pub(super) accuracy: Accuracy,
+    /// The speed below which the centre stays while it is shown, if that is none within the errors of the run (model units).
+    pub(super) rests: Option<f64>,
     rows: Range<usize>,
     /// `true` if the last rows before a blow-up are left out.
     cut: bool,
@@ -42,6 +49,8 @@ impl<'d> Body<'d> {
             dataset,
             info,
             model,
+            accuracy: Accuracy::of(&dataset.manifest),
+            rests: None,
             rows,
             cut: false,
             units: Shown::parse(&plan.figure.units)?,
@@ -51,6 +60,7 @@ impl<'d> Body<'d> {
         if matches!(dataset.manifest.outcome.outcome, Outcome::Escaped { .. }) {
             body.leave_out_blow_up();
         }
+        body.rests = body.resting_speed();
         body.radius = match body.model.radius() {
             Some(fixed) => fixed,
             None if plan.figure.radius > 0.0 => plan.figure.radius,
@@ -70,6 +80,25 @@ impl<'d> Body<'d> {
         let end = end.max(self.rows.start + 2).min(self.rows.end);
         self.cut = end < self.rows.end;
         self.rows.end = end;
+    }
+
+    /// The largest of the speeds from which the shown shapes are known to move, if none of them moves as fast.
+    fn resting_speed(&self) -> Option<f64> {
+        let speeds = self.column(SPEED.name);
+        self.rows().try_fold(0.0, |most: f64, row| {
+            let least = self.accuracy.least_speed(self.model.as_ref(), &self.shape(row));
+            (speeds[row] <= least).then(|| most.max(least))
+        })
+    }
+
+    /// The part of its size from which differences of the velocity are known (those of the shape where it follows from that): also the
+    /// least angle (rad) that the heading is known to turn by.
+    pub(super) fn known_velocity(&self) -> f64 {
+        let size = match self.model.velocities() {
+            0 => self.rows().map(|row| norm(&self.shape(row))).fold(0.0, f64::max),
+            _ => self.column(SPEED.name)[self.rows()].iter().copied().fold(0.0, f64::max),
+        };
+        self.accuracy.part(size)
     }
 
     /// Returns `true` if the last rows before a blow-up are left out.
@@ -144,8 +173,11 @@ impl<'d> Body<'d> {
         self.rows().skip(1).map(|row| distance(self.position(row - 1), self.position(row))).sum()
     }
 
-    /// Rows at equal distances along the path, about `count` of them, the first and the last included.
+    /// Rows at equal distances along the path, about `count` of them, the first and the last included; the first alone at rest.
     pub(super) fn rows_along(&self, count: usize) -> Vec<usize> {
+        if self.rests.is_some() {
+            return vec![self.rows.start];
+        }
         let spacing = self.length() / (count.max(2) - 1) as f64;
         let mut chosen = vec![self.rows.start];
         let (mut travelled, mut next) = (0.0, spacing);
@@ -169,11 +201,11 @@ impl<'d> Body<'d> {
         radius_for(deformation)
     }
 
-    /// 1 if an undeformed outline at its true size is about `target` of the longer side of the path, otherwise a round
+    /// 1 at rest, or if an undeformed outline at its true size is about `target` of the longer side of the path, otherwise a round
     /// factor that makes it so.
     pub(super) fn readable_scale(&self, target: f64) -> f64 {
         let share = self.radius / self.extent();
-        if !share.is_finite() || (0.5 * target..=1.6 * target).contains(&share) {
+        if self.rests.is_some() || !share.is_finite() || (0.5 * target..=1.6 * target).contains(&share) {
             1.0
         } else {
             round_up(target / share / 1.3)

@@ -1,7 +1,7 @@
 //! Scans: phase diagrams, and the largest exponent along one axis.
 
 use super::{Figures, words};
-use crate::scan::{Axis, CellSummary, ScanFolder, cells};
+use crate::scan::{Axis, CellSummary, Reasons, ScanFolder, cells};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::sample::ascending;
 use motiform_figures::{Cell, Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured, PhaseDiagram};
@@ -10,7 +10,7 @@ use motiform_models::parameters::Parameters;
 use motiform_models::tensor::TensorParameters;
 use motiform_models::tensor::reduced::{Line, Reduced};
 use motiform_study::quantity::motion::{LAMBDA_1, LAMBDA_1_ERROR};
-use motiform_study::{Error, ScanPlan, Shown};
+use motiform_study::{Error, ScanPlan, Shown, counted};
 
 /// Points of an analytic line.
 const POINTS: usize = 600;
@@ -26,17 +26,23 @@ pub fn scan_figures(folder: &ScanFolder, units: &Shown) -> Result<Figures, Error
     let cells: Vec<CellSummary> = cells(folder)?.into_iter().flatten().collect();
     let mut all: Figures = Vec::new();
     if !cells.is_empty() {
-        all.push(("_diagram", Box::new(phase_diagram(plan, &cells)?)));
+        all.push(("_diagram", Box::new(phase_diagram_in(plan, &cells, units)?)));
         all.extend(exponents(plan, &cells, units)?.map(|figure| ("_exponent", Box::new(figure) as _)));
     }
     Ok(all)
 }
 
-/// The phase diagram of a scan over one or two axes, with the analytic lines if the model is the paper's reduced one.
+/// The phase diagram of a scan over one or two axes, with the analytic lines if the model is the paper's reduced one. Its axes are
+/// parameters, and stay those of the model.
 ///
 /// # Errors
 /// An unknown model.
 pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiagram, Error> {
+    phase_diagram_in(plan, cells, &Shown::default())
+}
+
+/// The phase diagram of a scan whose other figures are in these units.
+fn phase_diagram_in(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Result<PhaseDiagram, Error> {
     let info = plan.info()?;
     let axes = &plan.computation.axes;
     let cell = |cell: &CellSummary| {
@@ -45,16 +51,23 @@ pub fn phase_diagram(plan: &ScanPlan, cells: &[CellSummary]) -> Result<PhaseDiag
     };
     let label = |axis: Option<&Axis>| axis.map_or_else(String::new, |axis| symbol(info, &axis.name));
     let values = |axis: Option<&Axis>| axis.map_or_else(Vec::new, |axis| sorted(&axis.values));
-    Ok(PhaseDiagram {
+    let mut diagram = PhaseDiagram {
         title: plan.title.clone(),
-        caption: caption(plan, info, cells, &Shown::default()),
+        caption: caption(plan, info, cells, units),
         x_label: label(axes.first()),
         y_label: label(axes.get(1)),
         x: values(axes.first()),
         y: values(axes.get(1)),
         cells: cells.iter().map(cell).collect(),
         lines: boundary_lines(plan),
-    })
+    };
+    let columns = diagram.columns();
+    let named =
+        columns.iter().zip(axes).filter(|(columns, _)| **columns).map(|(_, axis)| symbol(info, &axis.name));
+    diagram.caption.extend(named.map(|symbol| {
+        format!("The values of {symbol} stand in columns of one width, whatever their steps.")
+    }));
+    Ok(diagram)
 }
 
 /// The largest Lyapunov exponent against the parameter of a scan's only axis; `None` with two axes, or if no motion
@@ -72,18 +85,10 @@ pub fn exponents(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Resul
         return Ok(None);
     }
     let mut caption = caption(plan, info, cells, units);
-    let without = cells
-        .iter()
-        .filter(|cell| !series.iter().any(|one| one.points.iter().any(|point| is_at(plan, cell, point))));
-    match without.count() {
-        0 => {}
-        1 => caption.push(
-            "One cell without an exponent is left out: its bodies blow up, or are undetermined.".to_owned(),
-        ),
-        count => caption.push(format!(
-            "{count} cells without an exponent are left out: their bodies blow up, or are undetermined."
-        )),
-    }
+    let shown = |cell: &&CellSummary| {
+        series.iter().any(|one| one.points.iter().any(|point| is_at(plan, cell, point)))
+    };
+    caption.extend(left_out(cells.iter().filter(|cell| !shown(cell))));
     caption.push(
         "Medians over the initial states that lead to the same motion; bars: medians of the half widths of the 95 % \
          confidence intervals. Exponents of fixed shapes and of periodic orbits are those of the linearised motion; the \
@@ -101,6 +106,31 @@ pub fn exponents(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Resul
         }
         .with(series),
     ))
+}
+
+/// The cells without an exponent, counted by what their bodies do; nothing where there are none.
+fn left_out<'c>(cells: impl Iterator<Item = &'c CellSummary>) -> Option<String> {
+    let mut counts = [("blow up", 0), ("are undetermined", 0), ("have none", 0)];
+    for cell in cells {
+        let only = |regimes: &[Regime]| cell.motions.iter().all(|motion| regimes.contains(&motion.regime));
+        let place = match () {
+            () if only(&[Regime::BlowUp]) => 0,
+            () if only(&[Regime::BlowUp, Regime::Undetermined]) => 1,
+            () => 2,
+        };
+        counts[place].1 += 1;
+    }
+    let (whole, told): (usize, Vec<_>) =
+        (counts.iter().map(|entry| entry.1).sum(), counts.iter().filter(|entry| entry.1 > 0).collect());
+    let why = match told[..] {
+        [] => return None,
+        [(what, _)] => (*what).to_owned(),
+        _ => told.iter().map(|(what, count)| format!("{what} ({count})")).collect::<Vec<_>>().join(" or "),
+    };
+    Some(match whole {
+        1 => format!("One cell without an exponent is left out: its bodies {why}."),
+        _ => format!("{whole} cells without an exponent are left out: their bodies {why}."),
+    })
 }
 
 /// Returns `true` if this is a point of the cell.
@@ -132,7 +162,7 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary], units: &Sho
     let c = &plan.computation;
     let (count, all) = (cells.len(), plan.cells());
     let computed =
-        if count < all { format!("{count} of {all} cells are computed") } else { format!("{all} cells") };
+        if count < all { format!("{count} of {all} cells are computed") } else { counted(all, "cell") };
     let random = format!("{}, seed {}", c.random.words(), c.seed);
     let given = if plan.varies_start().unwrap_or(false) {
         "the one with the coordinates on the axes and the others as given, or 0"
@@ -146,7 +176,17 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary], units: &Sho
         (samples, true) => format!("{samples} random initial states each, {random}"),
     };
     let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
-    vec![words::named_in(info, &c.parameters, (&varied, &c.ties), units), format!("{computed}, {states}.")]
+    let mut all = vec![
+        words::named_in(info, &c.parameters, (&varied, &c.ties), units),
+        format!("{computed}, {states}."),
+    ];
+    let mut reasons = Reasons::default();
+    cells.iter().flat_map(|cell| &cell.motions).for_each(|motion| reasons.add_all(&motion.reasons));
+    let told =
+        reasons.told().into_iter().map(|(why, rows)| format!("{why} ({})", counted(rows, "initial state")));
+    let told = told.collect::<Vec<_>>().join("; ");
+    all.extend((!told.is_empty()).then(|| format!("Undetermined: {told}.")));
+    all
 }
 
 /// Notation of a parameter in figures, or of a coordinate of the start.

@@ -3,7 +3,7 @@
 use super::diagram::symbol;
 use super::{FigureFormat, Picture, files, words};
 use crate::lifetimes::{LifeAt, Lifetimes};
-use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Interval, LineStyle, Measured};
+use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Interval, Label, LineStyle, Measured, literal};
 use motiform_models::ModelInfo;
 use motiform_study::quantity::statistic::LIFE;
 use motiform_study::{Error, ScanPlan, Shown};
@@ -49,7 +49,7 @@ pub fn figure(plan: &ScanPlan, found: &Lifetimes, units: &Shown) -> Result<Chart
     .with(laws(found, factor))
     .with([watched().map(interval).collect::<Vec<_>>()])
     .with([ErrorBarSeries {
-        label: String::new(),
+        label: "mean life, with 95 % limits".to_owned(),
         points: watched().filter_map(point).collect(),
         joined: false,
     }]))
@@ -89,5 +89,12 @@ fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo, units: &Shown) 
             c.seed,
             units.words(found.until, LIFE.dimension, " model time")
         ),
+        format!("Law: {}.", verdict(found, units)),
     ]
+}
+
+/// The law of the lives, or why there is none, in these units.
+fn verdict(found: &Lifetimes, units: &Shown) -> String {
+    let unit = Label::parse(&units.name(LIFE.dimension, "")).terminal();
+    literal(&found.laws.words_in(units.factor(LIFE.dimension), &unit))
 }

@@ -15,6 +15,7 @@ const SPACING_RADII: f64 = 3.2;
 pub(super) fn figure(body: &Body<'_>) -> PathFigure {
     let (stamps, missing) = outlines(body);
     let mut caption = words::about(body);
+    caption.extend(words::rest(body));
     caption.push(words::outlines(body));
     if missing > 0 {
         caption.push(format!("{missing} outlines are left out: the shape is no closed curve there."));
@@ -32,9 +33,10 @@ pub(super) fn figure(body: &Body<'_>) -> PathFigure {
     }
 }
 
-/// The shown path.
+/// The shown path: a point at rest.
 pub(super) fn points(body: &Body<'_>) -> Vec<PathPoint> {
     body.rows()
+        .take(body.rests.map_or(usize::MAX, |_| 1))
         .map(|row| {
             let [x, y] = body.position(row);
             PathPoint { t: body.time(row), x, y }

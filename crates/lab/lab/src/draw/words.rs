@@ -120,9 +120,19 @@ fn before_blow_up(body: &Body<'_>) -> String {
     }
 }
 
+/// A sentence on a centre that rests within the errors of the run.
+pub(super) fn rest(body: &Body<'_>) -> Option<String> {
+    body.rests.map(|least| {
+        let speed = body.units().words(least, Dimension::SPEED, "");
+        format!("The centre rests: its speed is at most {speed}, which is 0 within the errors of the run.")
+    })
+}
+
 /// R0 and the size of the drawn outlines.
 pub(super) fn outlines(body: &Body<'_>) -> String {
-    let size = if body.scale == 1.0 {
+    let size = if body.rests.is_some() && body.scale == 1.0 {
+        "drawn at true size".to_owned()
+    } else if body.scale == 1.0 {
         "drawn at true size against the path".to_owned()
     } else {
         format!("drawn at {} times true size against the path", number(body.scale))

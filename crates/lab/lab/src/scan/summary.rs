@@ -1,7 +1,7 @@
 //! The results of a scan, read part by part.
 
 use super::rows::place;
-use super::{NUMBERS, PartError, Row, ScanFolder, read_part};
+use super::{NUMBERS, PartError, Reasons, Row, ScanFolder, read_part};
 use motiform_analysis::regime::{Course, Regime};
 use motiform_dynamics::sample::median;
 use motiform_study::Error;
@@ -21,6 +21,8 @@ pub struct Totals {
     pub multistable: usize,
     /// Cells with an undetermined row.
     pub undetermined: usize,
+    /// Why rows are undetermined.
+    pub reasons: Reasons,
     /// Cells with a row that blew up.
     pub escaped: usize,
     /// Cells that are not computed yet.
@@ -54,6 +56,7 @@ impl Totals {
         self.multistable += usize::from(decided > 1);
         self.undetermined += usize::from(has(Regime::Undetermined));
         self.escaped += usize::from(has(Regime::BlowUp));
+        motions.iter().for_each(|motion| self.reasons.add_all(&motion.reasons));
         for (count, regime) in self.regimes.iter_mut().zip(Regime::ALL) {
             *count += cell.iter().filter(|row| row.regime == regime).count();
         }
@@ -116,6 +119,8 @@ pub struct Motion {
     /// Median of each number over the rows that have it, as in [`NUMBERS`]; NaN if none has. Different motions are never
     /// averaged.
     pub medians: [f64; NUMBERS.len()],
+    /// Why it is undetermined, if it is.
+    pub reasons: Reasons,
 }
 
 impl Motion {
@@ -170,7 +175,10 @@ fn motions(rows: &[Row]) -> Vec<Motion> {
             let defined = same.iter().map(|row| row.numbers[place]).filter(|number| !number.is_nan());
             median(defined).unwrap_or(f64::NAN)
         });
-        Motion { regime, rows: same.len(), share: same.len() as f64 / rows.len() as f64, medians }
+        let mut reasons = Reasons::default();
+        let undetermined = same.iter().filter(|row| row.regime == Regime::Undetermined);
+        undetermined.for_each(|row| reasons.add(&row.why, 1));
+        Motion { regime, rows: same.len(), share: same.len() as f64 / rows.len() as f64, medians, reasons }
     };
     let mut motions: Vec<Motion> = Regime::ALL.into_iter().map(of).filter(|motion| motion.rows > 0).collect();
     motions.sort_by_key(|motion| std::cmp::Reverse(motion.rows)); // stable

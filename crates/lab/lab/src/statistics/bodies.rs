@@ -1,12 +1,13 @@
 //! Many bodies of one study: other seeds, so other random starts and other noise.
 
+use crate::accuracy::Accuracy;
 use crate::ensemble::{Member, Track as Tracked, tracks};
 use crate::noisy::{has_noisy_lanes, noisy_tracks};
 use crate::pool;
 use crate::simulate::simulate;
 use crate::statistics::Result;
 use crate::statistics::kept::Kept;
-use crate::statistics::record::{Measurement, Recorder, measured, title};
+use crate::statistics::record::{Measurement, Recorder, at_rest, measured, title};
 use motiform_dynamics::{Model, Outcome, Part, StopOnly, Watch};
 use motiform_statistics::{Settings, Track};
 use motiform_store::Journal;
@@ -81,7 +82,7 @@ pub fn simulated_kept(
     if kept.is_empty() && missing > 0 {
         return Err(Error::Interrupted.into());
     }
-    let notes = notes(&early, missing, count);
+    let mut notes = notes(&early, missing, count);
     if kept.is_empty() {
         return Err(Error::Setting {
             key: "bodies",
@@ -91,6 +92,7 @@ pub fn simulated_kept(
         .into());
     }
     let statistics = measured(&plans[0], kept, settings, &Part { watch, from: SIMULATED, to: 1.0 })?;
+    notes.extend(at_rest(&statistics));
     let source = json!({ "plan": plans[0], "plan_hash": plans[0].hash(), "bodies": count });
     let title = title(&plans[0]);
     let plan = plans[0].clone();
@@ -135,7 +137,8 @@ fn one_by_one(plans: &[RunPlan], kept: &Kept<'_>, threads: usize, watch: &dyn Wa
         let dataset = simulate(plan, &StopOnly(watch))?;
         let outcome = dataset.manifest.outcome.outcome;
         let model = plan.body()?;
-        let track = crate::statistics::datasets::track(&dataset.trajectory, model.as_ref(), 0.0);
+        let accuracy = Accuracy::of(&dataset.manifest);
+        let track = crate::statistics::datasets::track(&dataset.trajectory, (model.as_ref(), accuracy), 0.0);
         let part = (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / plans.len() as f64;
         watch.progress(part);
         let body = (!matches!(outcome, Outcome::Interrupted { .. })).then_some((outcome, track));
@@ -170,7 +173,9 @@ fn in_lanes(plans: &[RunPlan], kept: &Kept<'_>, threads: usize, watch: &dyn Watc
             tracks(&plans[0], &chunk.iter().map(member).collect::<Vec<_>>(), &times, threads, &part)?
         };
         let Some(tracks) = tracks else { break };
-        let body = |track: &Tracked| Some((track.outcome, recorded(model.as_ref(), &track.states)));
+        let accuracy = Accuracy::with(c.control, None);
+        let body =
+            |track: &Tracked| Some((track.outcome, recorded((model.as_ref(), accuracy), &track.states)));
         let bodies: Vec<Body> = tracks.iter().map(body).collect();
         kept.write(number * TOGETHER, &bodies)?;
         found.extend(bodies);
@@ -184,8 +189,8 @@ fn member(plan: &RunPlan) -> Member {
     Member { parameters: c.parameters.values(), start: c.initial.values() }
 }
 
-fn recorded(model: &dyn Model, states: &[Vec<f64>]) -> Track {
-    let mut recorder = Recorder::new(model);
+fn recorded((model, accuracy): (&dyn Model, Accuracy), states: &[Vec<f64>]) -> Track {
+    let mut recorder = Recorder::new(model, accuracy);
     for state in states {
         let (coordinates, position) = state.split_at(state.len() - 2);
         recorder.push(coordinates, [position[0], position[1]]);

@@ -1,8 +1,9 @@
 //! Bodies from dataset folders.
 
+use crate::accuracy::Accuracy;
 use crate::dataset::read_dataset;
 use crate::statistics::Result;
-use crate::statistics::record::{Measurement, Recorder, measured, title};
+use crate::statistics::record::{Measurement, Recorder, at_rest, measured, title};
 use motiform_dynamics::Model;
 use motiform_statistics::{Settings, Track};
 use motiform_store::table::Table;
@@ -31,7 +32,7 @@ pub fn read(folders: &[PathBuf], transient: f64, settings: &Settings) -> Result<
         check(folder, &dataset, first.as_ref())?;
         let plan = &dataset.manifest.plan;
         let model = plan.body()?;
-        tracks.push(track(&dataset.trajectory, model.as_ref(), transient));
+        tracks.push(track(&dataset.trajectory, (model.as_ref(), Accuracy::of(&dataset.manifest)), transient));
         if !dataset.manifest.outcome.is_complete() {
             notes.push(format!(
                 "{}: {}; it counts as far as it goes",
@@ -43,6 +44,7 @@ pub fn read(folders: &[PathBuf], transient: f64, settings: &Settings) -> Result<
     }
     let Some(first) = first else { return Err(motiform_statistics::Error::NoBody.into()) };
     let statistics = measured(&first.manifest.plan, tracks, settings, &())?;
+    notes.extend(at_rest(&statistics));
     let shown: Vec<String> = folders.iter().map(|folder| folder.display().to_string()).collect();
     let source = json!({ "folders": shown, "transient": transient, "plan": first.manifest.plan });
     let title = title(&first.manifest.plan);
@@ -98,11 +100,11 @@ fn other_body(first: &Computation, c: &Computation) -> Option<String> {
 }
 
 /// The track in a table of a motion, from the time `from` on.
-pub(crate) fn track(table: &Table, model: &dyn Model, from: f64) -> Track {
+pub(crate) fn track(table: &Table, (model, accuracy): (&dyn Model, Accuracy), from: f64) -> Track {
     let column = |name: &str| table.get(name).unwrap_or(&[]);
     let (t, x, y) = (column("t"), column("x"), column("y"));
     let coordinates: Vec<&[f64]> = model.coordinates().iter().map(|c| column(c.name)).collect();
-    let mut recorder = Recorder::new(model);
+    let mut recorder = Recorder::new(model, accuracy);
     let mut state = vec![0.0; coordinates.len()];
     for row in (0..t.len()).filter(|&row| t[row] >= from) {
         for (value, column) in state.iter_mut().zip(&coordinates) {

@@ -1,5 +1,6 @@
 //! From states in a model's coordinates to the tracks of bodies.
 
+use crate::accuracy::Accuracy;
 use crate::statistics::Result;
 use motiform_dynamics::model::{drift, velocity};
 use motiform_dynamics::{Model, VectorField, Watch};
@@ -62,15 +63,18 @@ pub(crate) struct Recorder<'m> {
     /// The rate in the model's coordinates.
     rates: Vec<f64>,
     track: Track,
+    accuracy: Accuracy,
+    /// `true` once it moves beyond the errors of its numbers.
+    moves: bool,
 }
 
 impl<'m> Recorder<'m> {
-    pub(crate) fn new(model: &'m dyn Model) -> Self {
+    pub(crate) fn new(model: &'m dyn Model, accuracy: Accuracy) -> Self {
         let modes = mode_names(model).len();
         let track =
             Track { modes: vec![Vec::new(); modes], rates: vec![Vec::new(); modes + 1], ..Track::default() };
         let shape = [(); 2].map(|()| vec![0.0; model.dim()]);
-        Self { model, shape, rates: vec![0.0; model.coordinates().len()], track }
+        Self { model, shape, rates: vec![0.0; model.coordinates().len()], track, accuracy, moves: false }
     }
 
     /// A state: the model's coordinates and the position.
@@ -84,6 +88,7 @@ impl<'m> Recorder<'m> {
             2 => ([coordinates[0], coordinates[1]], [self.rates[0], self.rates[1]]),
             _ => (velocity(self.model, shape), drift(self.model, shape, rate).1),
         };
+        self.moves |= libm::hypot(velocity[0], velocity[1]) > self.accuracy.least_speed(self.model, shape);
         let track = &mut self.track;
         track.position.push(position);
         track.velocity.push(velocity);
@@ -95,9 +100,34 @@ impl<'m> Recorder<'m> {
         track.rates.iter_mut().zip(rates).for_each(|(series, pair)| series.push(pair));
     }
 
+    /// The track; a body that moves nowhere beyond the errors of its numbers is at rest, and a mode that nowhere exceeds them is 0.
     pub(crate) fn finish(self) -> Track {
-        self.track
+        let (mut track, least) = (self.track, self.accuracy.least(0.0));
+        let clear = |series: &mut Vec<[f64; 2]>| series.fill([0.0; 2]);
+        let (of_velocity, of_modes) = track.rates.split_at_mut(1);
+        if !self.moves {
+            let start = track.position.first().copied().unwrap_or_default();
+            track.position.fill(start);
+            clear(&mut track.velocity);
+            of_velocity.iter_mut().for_each(clear);
+        }
+        for (mode, rates) in track.modes.iter_mut().zip(of_modes) {
+            if mode.iter().all(|[a, b]| libm::hypot(*a, *b) < least) {
+                clear(mode);
+                clear(rates);
+            }
+        }
+        track
     }
+}
+
+/// Says that bodies rest, if they do.
+pub(crate) fn at_rest(found: &Statistics) -> Option<String> {
+    let rest = found.rms_speed.value == 0.0;
+    rest.then(|| {
+        "the bodies rest: their speeds are 0 within the errors of the runs, so that there are no figures of speeds, displacements and headings"
+            .to_owned()
+    })
 }
 
 /// The title of figures: that of the study, or the model.
@@ -123,7 +153,7 @@ pub(crate) fn measured(
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-    use super::mode_name;
+    use super::{Accuracy, Recorder, mode_name};
     use crate::statistics::datasets::track;
     use motiform_study::{RunPlan, Study};
 
@@ -137,7 +167,8 @@ mod tests {
             let text = format!("{text}[run]\ntransient = 5\nt_end = 0.05\ndt_out = {dt}");
             let plan = RunPlan::new(&Study::parse(&text, "text", "test").unwrap()).unwrap();
             let run = crate::simulate::simulate(&plan, &()).unwrap().trajectory;
-            let track = track(&run, plan.body().unwrap().as_ref(), 0.0);
+            let accuracy = Accuracy::with(plan.computation.control, None);
+            let track = track(&run, (plan.body().unwrap().as_ref(), accuracy), 0.0);
             let all = std::iter::once(&track.velocity).chain(&track.modes).zip(&track.rates);
             for (series, rates) in all {
                 let largest = rates.iter().flatten().fold(1e-12, |most: f64, rate| most.max(rate.abs()));
@@ -153,6 +184,24 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A body whose velocity and modes are errors alone rests; another one keeps all of its numbers.
+    #[test]
+    fn errors_are_no_motion() {
+        let plan = RunPlan::new(&Study::parse("preset = \"fig1\"\n", "text", "test").unwrap()).unwrap();
+        let model = plan.body().unwrap();
+        let finished = |speed: f64| {
+            let mut recorder = Recorder::new(model.as_ref(), Accuracy::with(plan.computation.control, None));
+            let state = |scale: f64| [speed * scale, 0.0, 1e-11, 0.0, 0.3, 0.0];
+            recorder.push(&state(1.0), [0.0; 2]);
+            recorder.push(&state(0.5), [1e-20, 0.0]);
+            recorder.finish()
+        };
+        let (rests, moves) = (finished(1e-25), finished(1e-3));
+        assert_eq!((rests.velocity, rests.position), (vec![[0.0; 2]; 2], vec![[0.0; 2]; 2]));
+        assert_eq!((moves.velocity[1], moves.position[1]), ([5e-4, 0.0], [1e-20, 0.0]));
+        assert_eq!((moves.modes[0][0], moves.modes[1][0]), ([0.0; 2], [0.3, 0.0]));
     }
 
     #[test]

@@ -39,6 +39,8 @@ fn threads_change_nothing_and_orbits_blow_up() {
     let pictures = draw_lifetimes(&plan, &one, &FigureFormat::default()).unwrap();
     let names: Vec<&str> = pictures.iter().map(|picture| picture.name.as_str()).collect();
     assert_eq!(names, ["mean-life.svg", "mean-life.png"]);
+    let svg = String::from_utf8(pictures[0].bytes.clone()).unwrap();
+    assert!(svg.contains("Law: too few events") && svg.contains("mean life, with 95 % limits"), "{svg}");
 }
 
 /// At (1.2, .4) straight motion attracts all; the delay covers the way to it, so that no life is counted. At (.9, .1) it is a zigzag.

@@ -5,6 +5,7 @@ mod amplitudes;
 mod analytic_diagram;
 mod basins;
 mod common;
+mod drawing;
 mod ensemble;
 mod equilibria;
 mod files;

@@ -66,9 +66,10 @@ pub struct Plan<C: Question = Computation> {
     pub figure: C::Figure,
 }
 
-/// Returns `true` for values without content, such as `()`.
-const fn is_nothing<T>(_: &T) -> bool {
-    size_of::<T>() == 0
+/// Returns `true` for values without content: `()`, and settings that are all left out.
+fn is_nothing<T: Serialize>(settings: &T) -> bool {
+    let value = serde_json::to_value(settings).unwrap_or_default();
+    value.is_null() || value.as_object().is_some_and(serde_json::Map::is_empty)
 }
 
 impl<C: Question> Plan<C> {

@@ -7,7 +7,7 @@ use crate::plan::{
 };
 use crate::random::Random;
 use crate::run_settings::largest_unit;
-use crate::{Error, Perturbation, Study, Ties};
+use crate::{Error, Perturbation, Study, Ties, UnitSettings};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, ModelName, parameters};
 use motiform_store::Kind;
@@ -65,7 +65,7 @@ pub struct ScanComputation {
 }
 
 impl Question for ScanComputation {
-    type Figure = ();
+    type Figure = UnitSettings;
     const KIND: Kind = Kind::Scan;
     /// Readers of folders of Parquet files (pandas, pyarrow, polars) skip names that begin with `_`: they
     /// open the folder as one table.
@@ -138,7 +138,8 @@ impl ScanPlan {
             budget: scan.budget,
         };
         let title = crate::titles::of_scan(study, info);
-        let plan = Self::of(&study.name, &title, computation);
+        let figure = UnitSettings { units: study.figure.units.clone() };
+        let plan = Self { figure, ..Self::of(&study.name, &title, computation) };
         plan.check_cells()?;
         Ok(plan)
     }

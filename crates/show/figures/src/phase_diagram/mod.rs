@@ -5,10 +5,11 @@ mod inset;
 mod labels;
 mod mosaic;
 mod names;
+mod spacing;
 mod strip;
 mod tiles;
 
-use super::axes::{AxisKind, Scale};
+use super::axes::Scale;
 use super::error::{FigureError, Result, check_finite};
 use super::expected::ExpectedLine;
 use super::figure::{Csv, figure};
@@ -40,7 +41,8 @@ pub struct Cell {
     pub shares: Vec<(String, f64)>,
 }
 
-/// A phase diagram. Up to 40 x 40 cells carry markers on a pale ground; finer ones are coloured, with
+/// A phase diagram. Every cell has its centre at its value: an axis is linear where the steps between its values are equal, logarithmic
+/// where their ratios are, and otherwise has columns of one width, with the values as ticks. Up to 40 x 40 cells carry markers on a pale ground; finer ones are coloured, with
 /// one marker in each wide region. Where several motions
 /// occur, stripes show their shares, and the two most frequent ones have their markers side by side.
 ///
@@ -75,7 +77,11 @@ impl PhaseDiagram {
     pub fn svg_in(&self, room: Room) -> Result<Svg> {
         check_finite("boundary line value", self.lines.iter().flat_map(|l| &l.points).flatten().copied())?;
         let strip = self.y.len() < 2;
-        let cells = Cells::new(&self.x, if strip { &[] } else { &self.y }, &self.cells)?;
+        let grid = |of: &Self| Cells::new(&of.x, if strip { &[] } else { &of.y }, &of.cells);
+        grid(self)?;
+        let spacings = self.spacings();
+        let placed = self.placed(&spacings);
+        let cells = grid(&placed)?;
         let look = Look::of(strip, cells.size(), room);
         let (w, h) = look.frame(cells.size());
         let [x, y] = cells.ranges();
@@ -86,13 +92,14 @@ impl PhaseDiagram {
             caption: &self.caption,
             legend: self.legend(&cells, look, None),
             scale,
-            kinds: [AxisKind::Linear; 2],
+            kinds: [spacings[0].kind(), spacings[1].kind()],
+            columns: [spacings[0].listed(), spacings[1].listed()],
             labels: [&self.x_label, y_label],
             room,
             grid: false,
             head: if strip { strip::HEAD } else { 0.0 },
         };
-        sheet.svg(|svg, scale| self.draw(svg, scale, &cells, look))
+        sheet.svg(|svg, scale| placed.draw(svg, scale, &cells, look))
     }
 
     /// Draws the cells into the frame of another figure, with their markers unless they have names

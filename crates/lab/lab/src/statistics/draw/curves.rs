@@ -5,7 +5,7 @@ use super::units::{in_words, with_axes};
 use super::{caption, title};
 use crate::statistics::{Measurement, Result};
 use motiform_figures::{BandCurve, BandPoint, Chart, ExpectedLine, Figure, LineStyle};
-use motiform_statistics::{Autocorrelation, Histogram, Quantity as Of};
+use motiform_statistics::{Autocorrelation, Histogram, Quantity as Of, four_digits};
 use motiform_study::quantity::state::SPEED;
 use motiform_study::quantity::statistic::{
     CORRELATION, DENSITY, FREQUENCY, LAG, PER_DEGREE, POWER, TURNING_ANGLE,
@@ -53,14 +53,21 @@ pub(super) fn autocorrelations(measurement: &Measurement, units: &Shown) -> Resu
         let points = thinned(rows.map(|(lag, rho)| point(*lag, rho)).collect(), logarithmic_x);
         BandCurve { label: symbol(&found.quantity), points }
     };
+    let curves: Vec<BandCurve> = varying.iter().take(CURVES).map(curve).collect();
+    let hidden = hidden(&curves);
     let figure = Chart {
         title: title(measurement, "autocorrelations"),
-        caption: caption(measurement, units, "bands", &[])?,
+        caption: caption(
+            measurement,
+            units,
+            "bands",
+            &hidden.iter().map(String::as_str).collect::<Vec<_>>(),
+        )?,
         zero_line: true,
         logarithmic_x,
         ..Chart::default()
     }
-    .with(varying.iter().take(CURVES).map(curve));
+    .with(curves);
     Ok(with_axes(figure, [&LAG, &CORRELATION], units))
 }
 
@@ -98,7 +105,25 @@ fn decay(found: &Autocorrelation) -> f64 {
     f64::INFINITY
 }
 
-/// The outline of a histogram; `unit` rescales the variable.
+/// The curves that lie within this of another one, as a part of the range of all, are hidden by it: less than a line is wide.
+const HIDDEN: f64 = 0.002;
+
+/// Says which curves lie beneath later ones: they are not seen.
+fn hidden(curves: &[BandCurve]) -> Vec<String> {
+    let values = || curves.iter().flat_map(|curve| &curve.points).map(|point| point.y);
+    let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
+    let same = |a: &BandCurve, b: &BandCurve| {
+        let near = |(a, b): (&BandPoint, &BandPoint)| (a.y - b.y).abs() < HIDDEN * range;
+        a.points.len() == b.points.len() && a.points.iter().zip(&b.points).all(near)
+    };
+    let above = |(place, one): (usize, &BandCurve)| {
+        let other = curves[place + 1..].iter().rev().find(|other| same(one, other))?;
+        Some(format!("The curve of {} lies beneath that of {}.", one.label, other.label))
+    };
+    curves.iter().enumerate().filter_map(above).collect()
+}
+
+/// The outline of a histogram; `unit` rescales the variable. Empty bins have no bands ([`empty`]).
 fn stairs(histogram: &Histogram, unit: f64) -> Vec<BandPoint> {
     let corner = |x: f64, [y, low, high]: [f64; 3]| BandPoint {
         x: x / unit,
@@ -108,11 +133,21 @@ fn stairs(histogram: &Histogram, unit: f64) -> Vec<BandPoint> {
     };
     let ends = |bin: &motiform_statistics::Bin| {
         // without an interval there is no band
-        let ends = if bin.lower.is_nan() { [bin.density; 2] } else { [bin.lower, bin.upper] };
+        let ends =
+            if bin.lower.is_nan() || bin.count == 0 { [bin.density; 2] } else { [bin.lower, bin.upper] };
         let values = [bin.density, ends[0], ends[1]];
         [corner(bin.from, values), corner(bin.to, values)]
     };
     histogram.bins.iter().flat_map(ends).collect()
+}
+
+/// The upper limit that empty bins of histograms have, in words; nothing where none is empty, or has a limit. Bands of all of them would
+/// fill the frame.
+fn empty<'h>(all: impl Iterator<Item = &'h Histogram>, limit: impl Fn(f64) -> String) -> Option<String> {
+    let bins = all.flat_map(|histogram| &histogram.bins);
+    let upper = bins.filter(|bin| bin.count == 0 && bin.upper.is_finite()).map(|bin| bin.upper);
+    let upper = upper.fold(0.0, f64::max);
+    (upper > 0.0).then(|| format!("Empty bins have no bands; their upper limit is at most {}.", limit(upper)))
 }
 
 /// The distribution of the speed.
@@ -123,32 +158,43 @@ pub(super) fn speeds(measurement: &Measurement, units: &Shown) -> Result<Option<
     } else {
         format!("{} samples.", speeds.samples)
     };
+    let density = Quantity { dimension: SPEED.dimension.inverse(), ..DENSITY };
+    let limit = empty([speeds].into_iter(), |upper| in_words(units, density.dimension, upper));
+    let more: Vec<&str> = [worth.as_str()].into_iter().chain(limit.as_deref()).collect();
     let figure = Chart {
         title: title(measurement, "distribution of the speed"),
-        caption: caption(measurement, units, "bands", &[&worth])?,
+        caption: caption(measurement, units, "bands", &more)?,
         zero_line: true,
         ..Chart::default()
     }
     .with([BandCurve { label: "measured".to_owned(), points: stairs(speeds, 1.0) }]);
-    let density = Quantity { dimension: SPEED.dimension.inverse(), ..DENSITY };
     Ok(with_axes(figure, [&SPEED, &density], units))
 }
 
 /// The distributions of turning angles, in degrees.
 pub(super) fn turning(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
-    let moving = measurement.statistics.turning.iter().filter(|turning| turning.angles.samples > 0);
-    let curve = |turning: &motiform_statistics::Turning| BandCurve {
+    let moving: Vec<&motiform_statistics::Turning> =
+        measurement.statistics.turning.iter().filter(|turning| turning.angles.samples > 0).collect();
+    if moving.is_empty() {
+        return Ok(None);
+    }
+    let curve = |turning: &&motiform_statistics::Turning| BandCurve {
         label: format!("*τ* = {}", in_words(units, Dimension::TIME, turning.lag)),
         points: stairs(&turning.angles, PI / 180.0),
     };
+    let curves: Vec<BandCurve> = moving.iter().map(curve).collect();
+    let limit = empty(moving.iter().map(|turning| &turning.angles), |upper| {
+        format!("{} per degree", four_digits(upper * PI / 180.0))
+    });
+    let notes: Vec<String> = limit.into_iter().chain(hidden(&curves)).collect();
     let level = PI / 180.0 / TAU;
     let figure = Chart {
         title: title(measurement, "turning angles between displacements of lag *τ*"),
-        caption: caption(measurement, units, "bands", &[])?,
+        caption: caption(measurement, units, "bands", &notes.iter().map(String::as_str).collect::<Vec<_>>())?,
         zero_line: true,
         ..Chart::default()
     }
-    .with(moving.map(curve))
+    .with(curves)
     .with([ExpectedLine {
         label: "uniform".to_owned(),
         style: LineStyle::Dotted,
@@ -190,4 +236,33 @@ pub(super) fn spectra(measurement: &Measurement, units: &Shown) -> Result<Option
     }
     .with(found.iter().map(curve).filter(|curve| !curve.points.is_empty()).take(CURVES));
     Ok(with_axes(figure, [&FREQUENCY, &POWER], units))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motiform_statistics::Bin;
+
+    #[test]
+    fn curves_on_each_other_are_told() {
+        let curve = |label: &str, shift: f64| BandCurve {
+            label: label.to_owned(),
+            points: (0..9).map(f64::from).map(|x| BandPoint { x, y: x + shift, low: x, high: x }).collect(),
+        };
+        let told = hidden(&[curve("velocity", 0.0), curve("heading", 0.01), curve("speed", 0.5)]);
+        assert_eq!(told, ["The curve of velocity lies beneath that of heading."]);
+    }
+
+    #[test]
+    fn empty_bins_have_a_limit_instead_of_a_band() {
+        let bin =
+            |count: usize, density: f64| Bin { from: 0.0, to: 1.0, count, density, lower: 0.0, upper: 0.3 };
+        let histogram = |bins: Vec<Bin>| Histogram { bins, samples: 9, independent: 9.0 };
+        let found = histogram(vec![bin(0, 0.0), bin(9, 1.0)]);
+        let points = stairs(&found, 1.0);
+        assert_eq!((points[0].high, points[2].high), (0.0, 0.3));
+        let told = |found| empty([found].into_iter(), |upper| upper.to_string());
+        assert!(told(&found).is_some_and(|told| told.ends_with("at most 0.3.")));
+        assert_eq!(told(&histogram(vec![bin(9, 1.0)])), None);
+    }
 }

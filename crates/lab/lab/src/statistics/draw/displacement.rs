@@ -1,6 +1,6 @@
 //! Displacements: mean square, its exponent, first-passage times.
 
-use super::units::{in_words, with_axes};
+use super::units::with_axes;
 use super::{caption, title};
 use crate::statistics::summary::value_in;
 use crate::statistics::{Measurement, Result};
@@ -115,12 +115,9 @@ fn diffusive(measurement: &Measurement, (first, last): (f64, f64), units: &Shown
     let coefficient = found.displacements.known()?;
     let points = logarithmic(((lag / BEFORE).clamp(first, last), last));
     let points = points.into_iter().map(|t| [t, intercept + slope * t]).filter(|[t, y]| *y > 0.5 * slope * t);
-    let label = format!(
-        "diffusive: 4*D*(*τ* {} {}), *D* = {}",
-        if intercept < 0.0 { "−" } else { "+" },
-        in_words(units, Dimension::TIME, (intercept / slope).abs()),
-        value_in(units, Dimension::DIFFUSION, &coefficient)
-    );
+    // where the line meets the axis has no error of its own, and is no result
+    let label =
+        format!("diffusive: slope 4*D*, *D* = {}", value_in(units, Dimension::DIFFUSION, &coefficient));
     Some(ExpectedLine { label, style: LineStyle::Dotted, points: points.collect() })
 }
 

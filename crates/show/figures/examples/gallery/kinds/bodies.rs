@@ -55,9 +55,9 @@ pub(super) fn series() -> SeriesFigure {
     SeriesFigure {
         title: "Zigzag motion".into(),
         panels: vec![
-            Panel { label: "speed |***v***|".into(), curves: vec![speed] },
-            Panel { label: "turning rate".into(), curves: vec![turning] },
-            Panel { label: "size".into(), curves: vec![first, second] },
+            Panel { label: "speed |***v***|".into(), curves: vec![speed], least: 0.0 },
+            Panel { label: "turning rate".into(), curves: vec![turning], least: 0.0 },
+            Panel { label: "size".into(), curves: vec![first, second], least: 0.0 },
         ],
         notes: vec!["The turning rate is undefined where the body is at rest.".into()],
         caption: words(),
