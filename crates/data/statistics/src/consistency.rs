@@ -1,5 +1,6 @@
 //! A persistent random walk held against what is known without it.
 
+use crate::slow::Beyond;
 use crate::{Answer, Measured, Walk, four_digits};
 
 /// Difference of two values, in their half widths together, from which on they are not one number.
@@ -70,6 +71,26 @@ impl Walk {
             diffusion: reach(self.diffusion, seen.diffusion.known()),
             persistence: reach(self.persistence, seen.time.known()),
             ..self
+        }
+    }
+
+    /// The walk with the part of its coefficient that slower quantities of the same bodies may add beyond the window; no numbers where the
+    /// slow part is why the coefficient of the displacements is not known: a persistent random walk has one time.
+    #[must_use]
+    pub(crate) fn beside(self, slow: Option<&Beyond>, displacements: &Answer) -> Self {
+        let Some(slow) = slow else { return self };
+        match displacements.reason() {
+            Some(reason) if [slow.reason(), slow.bound()].iter().any(|other| other == reason) => {
+                Self { curve: self.curve, deviation: self.deviation, ..Self::unknown(reason) }
+            }
+            Some(_) => self,
+            None => {
+                let wider = |answer: Answer| match answer.known() {
+                    Some(found) => answer.at_least(found.half_width() + slow.part * found.value),
+                    None => answer,
+                };
+                Self { persistence: wider(self.persistence), diffusion: wider(self.diffusion), ..self }
+            }
         }
     }
 

@@ -7,6 +7,7 @@ use crate::oscillation::oscillation;
 use crate::plateau::{Curves, Window};
 use crate::quantity::STEADY;
 use crate::resolution::too_far_apart;
+use crate::slow::{Beyond, Slow, beyond};
 use crate::{Answer, Measured, Oscillation, Quantity, Result, Series, Track, Tracks};
 
 /// Most lags.
@@ -53,7 +54,7 @@ pub(crate) struct Products {
 /// # Errors    none for samples that [`Tracks`] accepts
 /// # Checked by  tests/all/correlation.rs: Ornstein-Uhlenbeck, chiral active Brownian, circle, direct sums; tests/all/coverage.rs
 pub fn autocorrelation(tracks: &Tracks, quantity: &Quantity) -> Result<Autocorrelation> {
-    remembering(tracks, quantity, remembered(tracks)?.memory)
+    remembering(tracks, quantity, &remembered(tracks)?)
 }
 
 /// The memory that the quantities of a body have together: they are of one body, whose slow changes are in all of them, be it by a small
@@ -64,13 +65,15 @@ pub(crate) struct Remembered {
     /// A quantity that keeps a part of its correlation over the second half of the lags, and that part: the velocity may have a slow part
     /// as well, which a fast one hides. One that oscillates has no such part.
     pub(crate) kept: Option<(Quantity, f64)>,
+    /// The quantities that are not forgotten within the lags and do not oscillate about 0: they bound what is beyond a window.
+    pub(crate) slow: Vec<Slow>,
 }
 
 /// See [`Remembered`].
 ///
 /// # Errors    none for samples that [`Tracks`] accepts
 pub(crate) fn remembered(tracks: &Tracks) -> Result<Remembered> {
-    let (mut longest, mut kept) = (0, None);
+    let (mut longest, mut kept, mut slow) = (0, None, Vec::new());
     for quantity in tracks.quantities() {
         let products = Products::of(tracks, &quantity)?;
         if products.steady(tracks, &quantity) {
@@ -79,14 +82,24 @@ pub(crate) fn remembered(tracks: &Tracks) -> Result<Remembered> {
         let curves = products.curves();
         match curves.least() {
             Some(least) => longest = longest.max(least),
-            None => kept = kept.or_else(|| Some((quantity, curves.kept()?))),
+            None => {
+                let mean = curves.kept();
+                kept = kept.or_else(|| Some((quantity.clone(), mean?)));
+                if mean.is_some() || oscillation(&curves, curves.longest(), None).is_none() {
+                    slow.push(Slow { quantity, curves });
+                }
+            }
         }
     }
-    Ok(Remembered { memory: longest / 2, kept })
+    Ok(Remembered { memory: longest / 2, kept, slow })
 }
 
-/// [`autocorrelation`], its window at least so many samples.
-pub(crate) fn remembering(tracks: &Tracks, quantity: &Quantity, memory: usize) -> Result<Autocorrelation> {
+/// [`autocorrelation`] beside what the other quantities of the bodies remember.
+pub(crate) fn remembering(
+    tracks: &Tracks,
+    quantity: &Quantity,
+    remembered: &Remembered,
+) -> Result<Autocorrelation> {
     let products = Products::of(tracks, quantity)?;
     let variance = leave_out(products.groups, &|left| products.sums[0].mean(left), true);
     let quantity = quantity.clone();
@@ -99,7 +112,7 @@ pub(crate) fn remembering(tracks: &Tracks, quantity: &Quantity, memory: usize) -
     let curves = products.curves();
     let lags = (0..products.sums.len()).map(|lag| lag as f64 * tracks.dt()).collect();
     let correlation = (0..products.sums.len()).map(|lag| products.ratio(lag)).collect();
-    let window = curves.window(memory);
+    let window = curves.window(remembered.memory);
     let last = window.as_ref().map_or(curves.longest(), |window| window.length);
     let folded = too_far_apart(tracks, &quantity);
     let (fine, coarser) = (curves.integral(last), curves.coarser(last)[0]);
@@ -108,7 +121,10 @@ pub(crate) fn remembering(tracks: &Tracks, quantity: &Quantity, memory: usize) -
     let time = match (&unresolved, window) {
         (_, Err(reason)) => Answer::unknown(folded.clone().unwrap_or(reason)),
         (Some(reason), _) => Answer::unknown(reason),
-        (None, Ok(window)) => products.time(&curves, window).unless(coarse(fine.value.abs())),
+        (None, Ok(window)) => {
+            let slow = beyond(tracks, (&quantity, fine.value), window.length, remembered)?;
+            products.time(&curves, window, slow).unless(coarse(fine.value.abs()))
+        }
     };
     let oscillation = oscillation(&curves, last, unresolved);
     Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation })
@@ -186,7 +202,7 @@ impl Products {
     }
 
     /// The integral of rho under a window.
-    fn time(&self, curves: &Curves, Window { length: window, room }: Window) -> Answer {
+    fn time(&self, curves: &Curves, Window { length: window, room }: Window, slow: Option<Beyond>) -> Answer {
         let times = |integrals: Vec<Integral>, length: usize| -> Vec<f64> {
             let pairs = integrals.into_iter().zip(&curves.values);
             pairs.map(|(found, curve)| self.unbiased(length) * found.value / curve[0]).collect()
@@ -197,6 +213,7 @@ impl Products {
             others: vec![times(curves.integrals(longer), longer)],
             coarser: Some(times(curves.coarser(window), window)),
             room,
+            slow,
         };
         estimate.answer()
     }

@@ -1,13 +1,14 @@
 //! The diffusion coefficient, from velocities and from displacements.
 
 use crate::consistency::APART;
-use crate::correlation::{Products, remembered};
+use crate::correlation::{Products, Remembered, remembered};
 use crate::displacement::square_sums;
 use crate::estimate::{Estimate, too_coarse};
 use crate::jackknife::Sums;
 use crate::lag_window::Integral;
 use crate::plateau::{Window, difference};
 use crate::resolution::too_far_apart;
+use crate::slow::{Beyond, beyond};
 use crate::{Answer, Measured, Quantity, Result, Tracks, with_error};
 use serde::Serialize;
 
@@ -49,18 +50,18 @@ pub struct Diffusion {
 ///   (why the shortest lags that are diffusive are the best)
 /// # Checked by  tests/all/diffusion.rs: Ornstein-Uhlenbeck, active Brownian (chiral and not), circle, line; coverage in crate measure
 pub fn diffusion(tracks: &Tracks) -> Result<Diffusion> {
-    remembering(tracks, remembered(tracks)?.memory)
+    Ok(remembering(tracks, &remembered(tracks)?)?.0)
 }
 
-/// [`diffusion`], its window at least so many samples.
-pub(crate) fn remembering(tracks: &Tracks, memory: usize) -> Result<Diffusion> {
+/// [`diffusion`] beside what the other quantities of the bodies remember, with the part that may lie beyond its window.
+pub(crate) fn remembering(tracks: &Tracks, remembered: &Remembered) -> Result<(Diffusion, Option<Beyond>)> {
     let curves = Products::of(tracks, &Quantity::Velocity)?.curves();
     if curves.values[0][0] <= 0.0 {
-        return Ok(Diffusion::unknown("nothing moved"));
+        return Ok((Diffusion::unknown("nothing moved"), None));
     }
-    let Window { length: window, room } = match curves.window(memory) {
+    let Window { length: window, room } = match curves.window(remembered.memory) {
         Ok(window) => window,
-        Err(reason) => return Ok(Diffusion::unknown(reason)),
+        Err(reason) => return Ok((Diffusion::unknown(reason), None)),
     };
     let longer = (2 * window).min(curves.longest());
     let halves =
@@ -71,28 +72,31 @@ pub(crate) fn remembering(tracks: &Tracks, memory: usize) -> Result<Diffusion> {
         folded.or_else(|| too_coarse(&all[0], &coarser[0], (size, tracks.dt())))
     };
     let (unresolved, by_value) = (coarse(curves.size(window)), coarse(all[0].value.abs()));
+    let slow = beyond(tracks, (&Quantity::Velocity, all[0].value), window, remembered)?;
     let velocities = Estimate {
         values: halves(all),
         others: vec![halves(curves.integrals(longer))],
         coarser: Some(halves(coarser)),
         room,
+        slow: slow.clone(),
     };
     let line = Line::of(tracks, window);
     let others = vec![Line::of(tracks, longer).quarters()];
-    let displacements = Estimate { values: line.quarters(), others, coarser: None, room };
+    let displacements = Estimate { values: line.quarters(), others, coarser: None, room, slow: slow.clone() };
     let green_kubo = match unresolved {
         Some(reason) => Answer::Unknown { reason },
         None => velocities.answer().unless(by_value),
     };
     let both = green_kubo.known().is_some();
-    Ok(Diffusion {
+    let found = Diffusion {
         green_kubo,
         difference: both.then(|| difference(&velocities.values, &displacements.values)),
         displacements: displacements.answer(),
         lags: Some([line.lag(0), line.lag(line.lags.len() - 1)]),
         line: Some(line.fit(None)),
         doubt: None,
-    })
+    };
+    Ok((found, slow))
 }
 
 impl Diffusion {

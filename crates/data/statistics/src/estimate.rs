@@ -3,6 +3,7 @@
 use crate::jackknife::jackknife;
 use crate::lag_window::Integral;
 use crate::plateau::difference;
+use crate::slow::Beyond;
 use crate::{Answer, Measured, four_digits};
 
 /// Its own variances that are taken from the square of a change: what chance alone gives on average.
@@ -35,12 +36,17 @@ pub(crate) struct Estimate {
     /// The logarithm of how many times larger it could be until it is unknown, since the lags do not reach it; infinite where that does
     /// not depend on it.
     pub(crate) room: f64,
+    /// What may lie beyond the window, by slower quantities of the same bodies.
+    pub(crate) slow: Option<Beyond>,
 }
 
 impl Estimate {
     /// The value with its interval, on logarithms:
     ///
     /// half^2 = jackknife^2 + t^2 sum max(0, c^2 - se(c)^2) + max(0, d^2 - se(d)^2),   t about 2,
+    ///
+    /// and to both sides the part that may lie beyond the window ([`Beyond`]); where that is seen and larger than half, or a factor of e, the value
+    /// is unknown.
     ///
     /// c the changes to `others`, d that to `coarser`, twice the sampling interval (which is 15 times the
     /// error where the correlation is smooth or has a cusp at lag 0). Unknown where a value is not above 0:
@@ -65,7 +71,14 @@ impl Estimate {
         let window: f64 = self.others.iter().map(|other| beyond_chance(&values, &logarithms(other))).sum();
         let sampling =
             self.coarser.as_ref().map_or(0.0, |coarser| beyond_chance(&values, &logarithms(coarser)));
-        let half = (measured.half_width().powi(2) + 4.0 * window + sampling).sqrt();
+        let within = (measured.half_width().powi(2) + 4.0 * window + sampling).sqrt();
+        let slow = self.slow.as_ref().map_or(0.0, |slow| slow.part);
+        match &self.slow {
+            Some(slow) if slow.is_seen && slow.part > within => return Answer::unknown(slow.reason()),
+            Some(slow) if slow.part > UNRESOLVED => return Answer::unknown(slow.bound()),
+            _ => {}
+        }
+        let half = within + slow;
         let up = half * farther(self.room * NORMAL / half);
         let interval = measured.interval.map(|_| [values[0] - half, values[0] + up].map(libm::exp));
         Answer::Known(Measured { value: self.values[0], interval })

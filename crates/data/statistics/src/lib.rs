@@ -30,6 +30,7 @@ mod power;
 mod quantity;
 mod residence;
 mod resolution;
+mod slow;
 mod stationary;
 mod statistics;
 mod survival;

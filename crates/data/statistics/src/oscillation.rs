@@ -95,7 +95,7 @@ fn measured(curves: &Curves, last: usize, best: &Damped, misfit: f64) -> [Answer
             found.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect()
         };
         let others = vec![values(&coarse), values(&late)];
-        Estimate { values: values(&fine), others, coarser: None, room: f64::INFINITY }.answer()
+        Estimate { values: values(&fine), others, coarser: None, room: f64::INFINITY, slow: None }.answer()
     };
     let resolution = PHASE / (TAU * last as f64 * curves.dt);
     let frequency = of(&|found| found.omega / (TAU * curves.dt)).at_least(resolution);

@@ -2,7 +2,7 @@
 
 use crate::blocks::dependent;
 use crate::carried::carried;
-use crate::correlation::{self, Remembered, remembered};
+use crate::correlation::{self, remembered};
 use crate::diffusion;
 use crate::jackknife::Sums;
 use crate::resolution::too_far_apart;
@@ -91,11 +91,11 @@ pub fn statistics_watched(tracks: &Tracks, settings: &Settings, watch: &dyn Watc
     let displacement = mean_square(tracks);
     let radii = discs(settings, &displacement)?;
     let quantities = tracks.quantities();
-    let Remembered { memory, kept } = remembered(tracks)?;
+    let remembered = remembered(tracks)?;
     let at = |done: usize| watch.progress(done as f64 / (quantities.len() + STEPS_BESIDE) as f64);
     at(1);
     let of = |(number, quantity): (usize, &Quantity)| {
-        let found = correlation::remembering(tracks, quantity, memory)?;
+        let found = correlation::remembering(tracks, quantity, &remembered)?;
         at(number + 2);
         Ok(found)
     };
@@ -111,8 +111,8 @@ pub fn statistics_watched(tracks: &Tracks, settings: &Settings, watch: &dyn Watc
     let rms_speed = square.map(|x| x.max(0.0).sqrt());
     let exponents = [true, false].map(|first| local_exponent(&displacement, first));
     let carried = carried(tracks);
-    let diffusion = diffusion::remembering(tracks, memory)?.held_against(&exponents[1]);
-    let diffusion = diffusion.beside(kept).doubted(carried.as_deref());
+    let (diffusion, slow) = diffusion::remembering(tracks, &remembered)?;
+    let diffusion = diffusion.held_against(&exponents[1]).beside(remembered.kept).doubted(carried.as_deref());
     at(quantities.len() + 2);
     let autocorrelations: Vec<_> =
         autocorrelations.into_iter().map(|found| found.carried(carried.as_deref())).collect();
@@ -127,7 +127,10 @@ pub fn statistics_watched(tracks: &Tracks, settings: &Settings, watch: &dyn Watc
         no_intervals: None,
         mean_speed,
         rms_speed,
-        walk: persistent_walk(&displacement).held_against(&seen).carried(carried.is_some()),
+        walk: persistent_walk(&displacement)
+            .held_against(&seen)
+            .beside(slow.as_ref(), &diffusion.displacements)
+            .carried(carried.is_some()),
         diffusion,
         exponents,
         speeds: speeds(tracks),

@@ -4,6 +4,7 @@
 mod accuracy;
 pub mod analyse;
 pub mod answers;
+mod captured;
 pub mod clock;
 pub mod dataset;
 pub mod draw;

@@ -15,4 +15,5 @@ mod passage;
 mod power;
 mod records;
 mod resolution;
+mod slow;
 mod stationary;

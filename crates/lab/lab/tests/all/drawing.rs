@@ -4,7 +4,7 @@
 
 use crate::common;
 
-use common::{column, headings, preset, run};
+use common::{column, preset, run};
 use motiform_figures::{Drawn, Style};
 use motiform_lab::draw;
 use motiform_study::{Dataset, Study};

@@ -22,6 +22,7 @@ mod plan;
 mod presets;
 mod questions;
 mod random;
+mod saddle;
 #[path = "../../../../samples.rs"]
 mod samples;
 mod scan;
