@@ -46,8 +46,8 @@ pub use isotropy::{Isotropy, mean_over_rotations};
 pub use lagged::lagged_sums;
 pub use legs::{CornerKind, Ends, Leg, Legs, PathSample, legs};
 pub use lifetime::{
-    Critical, ExponentialLife, Goodness, LifeCount, LifeLaws, MeanLife, PowerLawLife, compare_life_laws,
-    mean_life,
+    Critical, ExponentialLife, Goodness, LifeCount, LifeLaws, MeanLife, Memory, PowerLawLife,
+    compare_life_laws, mean_life, memory,
 };
 pub use lyapunov::{Lyapunov, LyapunovSettings, SoFar, lyapunov, lyapunov_followed};
 pub use periodic::PeriodicOrbit;

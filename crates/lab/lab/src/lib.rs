@@ -3,6 +3,7 @@
 
 pub mod analyse;
 pub mod answers;
+mod captured;
 pub mod clock;
 pub mod dataset;
 pub mod draw;

@@ -1,13 +1,14 @@
 //! Transient chaos: the exponent of the chaotic saddle, and the rate at which orbits leave it.
 
 use crate::analyse;
+use crate::captured::{LAST_LOOKS, captured, is_regular, is_slow, way};
 use crate::pool::spread;
 use motiform_analysis::{
-    Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, escape_rate, lyapunov, survival,
+    Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, classify, escape_rate, lyapunov, survival,
 };
-use motiform_dynamics::Outcome;
 use motiform_dynamics::distributions::student_quantile;
-use motiform_dynamics::{StopOnly, Watch};
+use motiform_dynamics::escape::norm;
+use motiform_dynamics::{Model, Outcome, StopOnly, Watch};
 use motiform_study::{Error, Plan, Random};
 use serde::Serialize;
 
@@ -17,10 +18,10 @@ const WAY_OUT: f64 = 0.25;
 /// The properties of a chaotic saddle from many runs with random starts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Saddle {
-    /// Largest exponent on the saddle (inverse model time), with its 95 % error from the spread over the runs.
+    /// Largest exponent of the chaos (inverse model time), with its 95 % error from the spread over the runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exponent: Option<Estimate>,
-    /// The reason why there is none.
+    /// The reason why there is no exponent of a chaotic saddle: none of the runs left the chaos, or none was chaotic.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub missing: String,
     /// Escape rate kappa (inverse model time) of the exponential tail, with its 95 % error.
@@ -30,6 +31,10 @@ pub struct Saddle {
     pub runs: usize,
     /// Runs that escaped.
     pub escaped: usize,
+    /// Runs that came to rest at a stable steady motion: they have left, too.
+    pub captured: usize,
+    /// Runs that moved regularly at the end, not steadily, since an unknown time: they do not count.
+    pub regular: usize,
     /// Maximum observation time of each.
     pub t_end: f64,
     /// The share that remains, over time.
@@ -37,16 +42,37 @@ pub struct Saddle {
     pub survival: Vec<SurvivalStep>,
 }
 
+impl Saddle {
+    /// Returns `true` if the exponent is that of a chaotic saddle: it is above its error, and runs leave.
+    #[must_use]
+    pub fn is_one(&self) -> bool {
+        self.exponent.is_some() && self.missing.is_empty()
+    }
+}
+
+/// The end of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum End {
+    BlewUp,
+    /// Close to a stable steady motion, since this time; it takes the other to come there from far away.
+    Captured(f64, f64),
+    Regular,
+    Stayed,
+}
+
 /// The chaotic saddle of a plan's parameters: `samples` runs of `t_end` at most (default: ten looks of the model) from
-/// random starts, growth counted from `transient` (default: half a look) to a quarter of a look before the escape.
+/// random starts, growth counted from `transient` (default: half a look) to a quarter of a look before a blow-up, and to the way into a
+/// stable steady motion before a capture. Runs that move regularly at the end do not count. Both ends are those of
+/// [`crate::lifetimes::lifetimes`].
 ///
-/// lambda_1 = sum of growth / sum of time over all stretches; its error is that of a ratio of sums over independent runs.
+/// lambda_1 = sum of growth / sum of time over all stretches; its error is that of a ratio of sums over independent runs. Where it is not
+/// above its error, or no run leaves, there is no chaotic saddle, and `missing` says what there is.
 /// `None` if the watch stopped it.
 ///
 /// # Errors
 /// Input that only the numerics can reject.
 ///
-/// # Not     if a nonchaotic attractor attracts some of the runs: their stretches count as well (see `escaped`)
+/// # Checked by  tests/all/saddle.rs: Lorenz's equations below and above the chaos
 pub fn saddle(
     plan: &Plan,
     samples: usize,
@@ -65,40 +91,100 @@ pub fn saddle(
         escape_norm: c.escape_norm,
         max_steps: c.max_steps,
     };
+    let bounds = (c.escape_norm, c.max_steps);
+    let of = (info, &c.parameters.values()[..]);
+    let last = analyse::settings_of(of, settings.method, c.control, bounds, LAST_LOOKS * look);
     let one = |sample: usize| {
         let start = Random::SMALL.shape(info, model.as_ref(), c.seed, sample as u64 + 1);
         let found = lyapunov(model.as_ref(), &start, &settings, &StopOnly(watch))?;
-        Ok((!matches!(found.outcome, Outcome::Interrupted { .. })).then_some(found))
+        let end = match found.outcome {
+            Outcome::Interrupted { .. } => return Ok(None),
+            Outcome::Escaped { .. } => Some(End::BlewUp),
+            Outcome::Completed { .. } => since(model.as_ref(), &found, info.size),
+            _ => Some(End::Stayed),
+        };
+        if let Some(end) = end {
+            return Ok(Some((found, end)));
+        }
+        let verdict = classify(model.as_ref(), &found.shape, &last, &StopOnly(watch))?;
+        let end = verdict.map(|verdict| if is_regular(&verdict) { End::Regular } else { End::Stayed });
+        Ok(end.map(|end| (found, end)))
     };
     let runs = spread(samples, threads, watch, |jobs| jobs.each(one))?;
     runs.map(|runs| summarise(&runs, &settings, WAY_OUT * look)).transpose()
 }
 
-fn summarise(runs: &[Lyapunov], settings: &LyapunovSettings, way_out: f64) -> Result<Saddle, Error> {
-    let stay = |run: &Lyapunov| match run.outcome {
-        Outcome::Escaped { t, .. } => Stay { time: t, escaped: true },
-        other => Stay { time: other.t(), escaped: false },
+/// The capture of a completed run, since the last interval after which the shape changed fast.
+fn since(model: &dyn Model, run: &Lyapunov, size: f64) -> Option<End> {
+    let rate = captured(model, &run.shape, size)?;
+    let is_fast = |speed: &f64| !is_slow(*speed, norm(&run.shape), size);
+    let last = run.reduced_speeds.iter().rposition(is_fast);
+    Some(End::Captured(last.map_or(run.transient, |place| run.history[place].0), way(rate)))
+}
+
+fn summarise(runs: &[(Lyapunov, End)], settings: &LyapunovSettings, way_out: f64) -> Result<Saddle, Error> {
+    let count = |is: fn(&End) -> bool| runs.iter().filter(|(_, end)| is(end)).count();
+    let counted = || runs.iter().filter(|(_, end)| *end != End::Regular);
+    let stay = |(run, end): &(Lyapunov, End)| match end {
+        End::Captured(since, _) => Stay { time: *since, escaped: true },
+        end => Stay { time: run.outcome.t(), escaped: *end == End::BlewUp },
     };
-    let stays: Vec<Stay> = runs.iter().map(stay).collect();
-    let stretches: Vec<(f64, f64)> = runs
-        .iter()
-        .zip(&stays)
-        .map(|(run, stay)| {
-            stretch(run, if stay.escaped { stay.time - way_out } else { f64::INFINITY }, settings)
-        })
-        .collect();
+    let stays: Vec<Stay> = counted().map(stay).collect();
+    let until = |(run, end): &(Lyapunov, End)| match end {
+        End::BlewUp => run.outcome.t() - way_out,
+        End::Captured(since, way) => since - way,
+        _ => f64::INFINITY,
+    };
+    let stretches: Vec<(f64, f64)> = counted().map(|run| stretch(&run.0, until(run), settings)).collect();
     let exponent = ratio(&stretches);
-    let missing =
-        if exponent.is_some() { "" } else { "too few runs stayed long enough; give a shorter transient" };
+    let chaotic = exponent.filter(|found| found.value > found.error);
+    let left = stays.iter().any(|stay| stay.escaped);
+    let delays = runs.iter().map(|(_, end)| if let End::Captured(_, way) = end { 2.0 * way } else { 0.0 });
+    let delay = delays.fold(settings.transient, f64::max);
+    let rate = chaotic.and_then(|_| escape_rate(&stays, delay).ok()).map(|found| found.rate);
     Ok(Saddle {
-        exponent,
-        missing: missing.to_owned(),
-        rate: escape_rate(&stays, settings.transient).ok().map(|found| found.rate),
+        exponent: chaotic,
+        missing: missing(exponent, left, &runs.iter().map(|run| &run.0).collect::<Vec<_>>()),
+        rate,
         runs: runs.len(),
-        escaped: stays.iter().filter(|stay| stay.escaped).count(),
+        escaped: count(|end| *end == End::BlewUp),
+        captured: count(|end| matches!(end, End::Captured(..))),
+        regular: count(|end| *end == End::Regular),
         t_end: settings.transient + settings.span,
-        survival: survival(&stays)?,
+        survival: if stays.is_empty() { Vec::new() } else { survival(&stays)? },
     })
+}
+
+/// The reason why the exponent is that of no chaotic saddle; nothing where it is.
+fn missing(exponent: Option<Estimate>, left: bool, runs: &[&Lyapunov]) -> String {
+    let with = |found: Estimate| format!("{:.5} +- {:.1e}", found.value, found.error);
+    match exponent {
+        Some(found) if found.value > found.error && left => String::new(),
+        Some(found) if found.value > found.error => {
+            "no chaotic saddle is seen: no run left, so that the exponent is that of a chaotic \
+                                                     attractor, or of a saddle whose lives are longer"
+                .to_owned()
+        }
+        Some(found) => {
+            format!(
+                "no chaotic saddle: the largest exponent {} of the runs before they left is not above its error",
+                with(found)
+            )
+        }
+        None => {
+            let all: Vec<(f64, f64)> = runs
+                .iter()
+                .filter_map(|run| Some((run.exponents.first()?.value * run.time, run.time)))
+                .collect();
+            let ends = ratio(&all).map_or(String::new(), |found| {
+                format!(
+                    "; the largest exponent of the runs that lasted is {}, that of what they end in",
+                    with(found)
+                )
+            });
+            format!("no chaotic saddle is seen: fewer than eight runs were chaotic after the transient{ends}")
+        }
+    }
 }
 
 /// Growth and duration of a run's chaotic stretch.

@@ -58,4 +58,4 @@ Two laws of the mean life tau are compared by likelihood: tau = C |p - pc|^-gamm
 tau = C exp(-k p) (no crisis). 'Cannot be told apart' is an answer: give more --samples, or values closer to the suspected crisis.
 
 Default of --transient: one look of the model, or if orbits are captured, twice the time that the approach to their steady motion takes.
-Exit code 1: there are too few events to compare laws, or neither law holds. See docs/lifetimes.md.";
+Exit code 1: there are too few events to compare laws, neither law holds, or the lives are not exponential. See docs/lifetimes.md.";

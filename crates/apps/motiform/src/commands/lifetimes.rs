@@ -58,7 +58,10 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
         files.notes().iter().for_each(|note| warn(note));
     }
     say(&answer, options.json)?;
-    let answered = !matches!(found.laws, LifeLaws::TooFew { .. } | LifeLaws::Neither { .. });
+    let answered = !matches!(
+        found.laws,
+        LifeLaws::TooFew { .. } | LifeLaws::Neither { .. } | LifeLaws::NotExponential(_)
+    );
     Ok(if answered { End::Done } else { End::NotAsAsked })
 }
 

@@ -64,5 +64,5 @@ fn saddle(options: &LyapunovOptions, plan: &Plan, samples: usize) -> anyhow::Res
     watch.finish();
     let Some(found) = found? else { return Ok(End::Interrupted) };
     say(&found, options.motion.json)?;
-    Ok(if found.exponent.is_some() { End::Done } else { End::NotAsAsked })
+    Ok(if found.is_one() { End::Done } else { End::NotAsAsked })
 }

@@ -1,7 +1,7 @@
 //! The law that mean lives follow.
 
 use super::laws::spread;
-use super::{ExponentialLife, LifeCount, PowerLawLife};
+use super::{ExponentialLife, LifeCount, Memory, PowerLawLife};
 use crate::{Result, checks};
 use serde::Serialize;
 
@@ -13,6 +13,9 @@ const DECISIVE: f64 = 6.0;
 
 /// A law under which the counts have a smaller probability does not hold.
 const IMPROBABLE: f64 = 1e-3;
+
+/// The distribution of the test that lives are exponential is known down to this probability.
+const SMALLEST: f64 = 1e-12;
 
 /// Fewest events, values that were watched, and values with events.
 const LEAST: (usize, usize, usize) = (20, 4, 3);
@@ -55,6 +58,8 @@ pub enum LifeLaws {
         /// The other one.
         power: PowerLawLife,
     },
+    /// The lives at one value are not exponential: their ends have no rate, and no law of a mean life tells of a crisis.
+    NotExponential(Memory),
     /// There are too few events or values for a comparison.
     TooFew {
         /// Events over all values.
@@ -110,6 +115,19 @@ fn decide(exponential: ExponentialLife, power: PowerLawLife) -> LifeLaws {
 }
 
 impl LifeLaws {
+    /// The answer, or none where the lives themselves are not exponential, with a probability below 1e-3: both laws are those of a set that
+    /// loses its orbits at a constant rate.
+    #[must_use]
+    pub fn held_against(self, memory: Option<Memory>) -> Self {
+        match (self, memory) {
+            (Self::TooFew { events, values, with_events, needed }, _) => {
+                Self::TooFew { events, values, with_events, needed }
+            }
+            (_, Some(memory)) if memory.probability < IMPROBABLE => Self::NotExponential(memory),
+            (laws, _) => laws,
+        }
+    }
+
     /// Both fits, the exponential law first; `None` if there are too few events.
     #[must_use]
     pub fn fits(&self) -> Option<(&ExponentialLife, &PowerLawLife)> {
@@ -118,7 +136,7 @@ impl LifeLaws {
             | Self::Exponential { exponential, power, .. }
             | Self::CannotBeToldApart { exponential, power, .. }
             | Self::Neither { exponential, power } => Some((exponential, power)),
-            Self::TooFew { .. } => None,
+            Self::TooFew { .. } | Self::NotExponential(_) => None,
         }
     }
 
@@ -135,7 +153,11 @@ impl LifeLaws {
             |time: f64| format!("{:.3e}{}{unit}", factor * time, if unit.is_empty() { "" } else { " " });
         match self {
             Self::PowerLaw { power, advantage, .. } => {
-                format!("a power law, so a crisis: {} (AIC better by {advantage:.1})", power.words(&time))
+                format!(
+                    "a power law, so a crisis if the motion before is chaotic, which is not asked here (`lyapunov --saddle` does): {} \
+                     (AIC better by {advantage:.1})",
+                    power.words(&time)
+                )
             }
             Self::Exponential { exponential, advantage, .. } => format!(
                 "an exponential law, so no crisis within the range or near it: {} (AIC better by {advantage:.1})",
@@ -153,6 +175,12 @@ impl LifeLaws {
                 power.goodness.probability(),
                 exponential.words(&time),
                 power.words(&time)
+            ),
+            Self::NotExponential(Memory { probability, events, place }) => format!(
+                "none: the lives are not exponential (p = {:.0e}, {events} ends of lives), but end {} often as time goes on, \
+                 so that they have no rate and there is no law of a crisis, and the limits of the mean lives do not hold",
+                probability.max(SMALLEST),
+                if *place < 0.5 { "less and less" } else { "more and more" }
             ),
             Self::TooFew { events, values, with_events, needed } => format!(
                 "too few events to compare laws: {events} at {with_events} of {values} values; it needs {}, at {} of at least {} values",

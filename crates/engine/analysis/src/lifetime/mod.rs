@@ -2,9 +2,11 @@
 
 mod answer;
 mod laws;
+mod memory;
 
 pub use answer::{LifeLaws, compare_life_laws};
 pub use laws::{Critical, ExponentialLife, Goodness, PowerLawLife};
+pub use memory::{Memory, memory};
 
 use crate::{Result, Stay, checks, escape_limits};
 use serde::Serialize;

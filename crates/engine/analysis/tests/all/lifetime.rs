@@ -1,6 +1,6 @@
 //! Mean lives and their laws against lives drawn from known laws.
 
-use motiform_analysis::{Error, LifeCount, LifeLaws, Stay, compare_life_laws, mean_life};
+use motiform_analysis::{Error, LifeCount, LifeLaws, Stay, compare_life_laws, mean_life, memory};
 use motiform_dynamics::Normal;
 
 /// A number from the exponential law of mean 1: half a chi-square with two degrees of freedom.
@@ -134,4 +134,48 @@ fn a_law_that_is_neither_is_refused() {
     assert!(matches!(found, LifeLaws::Neither { .. }), "{}", found.words());
     let bad = LifeCount { parameter: f64::NAN, events: 1, watched: 1.0 };
     assert!(compare_life_laws(&[bad]).is_err());
+}
+
+/// Lives after a delay of 1 as functions of a uniform number, watched until 20: the number of 200 data sets in which they are not
+/// exponential at 5 %.
+fn refused(life: impl Fn(f64, f64) -> f64) -> usize {
+    let of = |seed: u64| {
+        let mut normal = Normal::new(seed, 7);
+        let mut set = |mean: f64| {
+            let stay = |u: f64| {
+                let time = 1.0 + life(u, mean);
+                Stay { time: time.min(20.0), escaped: time < 20.0 }
+            };
+            let uniform = |x: f64| 0.5 * libm::erfc(x / std::f64::consts::SQRT_2);
+            ((0..20).map(|_| stay(uniform(normal.next()))).collect::<Vec<_>>(), 1.0)
+        };
+        let sets = [2.0, 5.0, 10.0, 30.0].map(&mut set);
+        memory(&sets).expect("sound").expect("enough").probability
+    };
+    (0..200).filter(|&seed| of(seed) < 0.05).count()
+}
+
+#[test]
+fn lives_with_a_memory_are_told_from_exponential_ones() {
+    let exponential = refused(|u, mean| -mean * u.ln());
+    let looks = refused(|u, mean| 0.1 * ((-10.0 * mean * u.ln()).floor() + 0.5));
+    let passage = refused(|u, mean| mean * (1.0 + 0.05 * u));
+    let power = refused(|u, mean| 0.1 * mean / u);
+    println!("{exponential} {looks} {passage} {power} of 200");
+    assert!((1..=22).contains(&exponential) && looks <= 22, "{exponential} {looks}"); // 10, and three standard deviations
+    assert!(passage == 200 && power >= 180, "{passage} {power}");
+    let few = vec![Stay { time: 2.0, escaped: true }; 5];
+    assert_eq!(memory(&[(few, 1.0)]).expect("sound"), None);
+}
+
+#[test]
+fn no_crisis_of_lives_that_are_not_exponential() {
+    let values = [1.199, 1.2005, 1.201, 1.202, 1.204, 1.208, 1.216];
+    let tau = |p: f64| if p <= 1.2 { 1e15 } else { 3.0 / (p - 1.2) };
+    let laws = compare_life_laws(&counts(1, &values, 64, 1e5, tau)).expect("an answer");
+    let alike: Vec<Stay> =
+        (0..40).map(|k| Stay { time: 10.0 + 0.01 * f64::from(k), escaped: true }).collect();
+    let found = laws.clone().held_against(memory(&[(alike, 1.0)]).expect("sound"));
+    assert!(found.words().starts_with("none: the lives are not exponential (p = ") && found.fits().is_none());
+    assert_eq!(laws.clone().held_against(None), laws);
 }

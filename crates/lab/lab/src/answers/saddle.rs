@@ -5,15 +5,12 @@ use std::fmt::{Display, Formatter, Result};
 
 impl Display for Saddle {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        match self.exponent {
-            Some(exponent) => {
-                writeln!(
-                    f,
-                    "lambda_1 of the chaotic saddle   {:.5} +- {:.1e}",
-                    exponent.value, exponent.error
-                )?;
-            }
-            None => writeln!(f, "no exponent: {}", self.missing)?,
+        if let Some(exponent) = self.exponent {
+            let of = if self.is_one() { "of the chaotic saddle" } else { "of the chaos        " };
+            writeln!(f, "lambda_1 {of}   {:.5} +- {:.1e}", exponent.value, exponent.error)?;
+        }
+        if !self.missing.is_empty() {
+            writeln!(f, "{}", self.missing)?;
         }
         match self.rate {
             Some(rate) => writeln!(
@@ -23,8 +20,16 @@ impl Display for Saddle {
                 rate.error,
                 1.0 / rate.value
             )?,
-            None => writeln!(f, "escape rate                      none: fewer than ten escapes")?,
+            None if self.exponent.is_some() => {
+                writeln!(f, "escape rate                      none: fewer than ten escapes")?;
+            }
+            None => {}
         }
-        write!(f, "{} of {} runs escaped within {:.0} model time", self.escaped, self.runs, self.t_end)
+        write!(f, "{} of {} runs escaped within {:.0} model time", self.escaped, self.runs, self.t_end)?;
+        let others = [
+            (self.captured, "came to rest at a stable steady motion"),
+            (self.regular, "moved regularly at the end and do not count"),
+        ];
+        others.iter().filter(|other| other.0 > 0).try_for_each(|(count, what)| write!(f, ", {count} {what}"))
     }
 }

@@ -1,14 +1,12 @@
 //! Orbits followed look by look until they blow up, are captured, or time is over.
 
 use crate::analyse::settings_of;
+use crate::captured::{LAST_LOOKS, captured, is_regular};
 use crate::pool::Jobs;
-use motiform_analysis::equilibrium::REACHED;
-use motiform_analysis::regime::{Attractor, Settings};
-use motiform_analysis::symmetry::reduced_speed;
-use motiform_analysis::{RelativeEquilibrium, classify};
+use motiform_analysis::classify;
+use motiform_analysis::regime::Settings;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::Propagation;
-use motiform_dynamics::escape::norm;
 use motiform_dynamics::simd::has_lanes;
 use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly, Watch};
 use motiform_kernels::{Kernel, Start, propagate_bodies};
@@ -16,12 +14,6 @@ use motiform_study::{Error, ScanPlan};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-
-/// A steady motion is sought, which takes time, only where the shape changes by less than this share of its size per model time.
-const SLOW: f64 = 1e-2;
-
-/// Looks for which the motion at the end may be examined: a transient that lasts for longer is not taken for a regular motion.
-const LAST_LOOKS: f64 = 4.0;
 
 /// The reason why an orbit was not followed any further.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,11 +35,6 @@ pub(super) enum End {
 pub(super) struct Followed {
     pub(super) end: End,
     pub(super) time: f64,
-}
-
-/// The time in which this rate (inverse model time) brings an orbit from far away to where its capture is noticed.
-pub(super) fn way(rate: f64) -> f64 {
-    -libm::log(REACHED) / rate
 }
 
 /// Follows the orbits of a plan.
@@ -193,7 +180,7 @@ impl<'p> Follower<'p> {
         way.looks += 1;
         way.shape.copy_from_slice(shape);
         let time = way.looks as f64 * self.look;
-        if let Some(rate) = self.captured(model, shape) {
+        if let Some(rate) = captured(model, shape, self.size) {
             // at some moment of this look
             return Ok(Some(Some(Followed { end: End::Captured { rate }, time: time - 0.5 * self.look })));
         }
@@ -203,20 +190,7 @@ impl<'p> Follower<'p> {
         let Some(verdict) = classify(model, shape, &self.settings, &StopOnly(self.watch))? else {
             return Ok(Some(None));
         };
-        let regular =
-            matches!(verdict.attractor, Attractor::Periodic | Attractor::Torus | Attractor::Heteroclinic);
-        let end = if regular { End::Regular } else { End::Lasting };
+        let end = if is_regular(&verdict) { End::Regular } else { End::Lasting };
         Ok(Some(Some(Followed { end, time })))
-    }
-
-    /// The slowest rate (inverse model time) of the stable steady motion that a shape has come close to.
-    fn captured(&self, model: &dyn Model, shape: &[f64]) -> Option<f64> {
-        let rate = model.rates(shape);
-        let size = norm(shape).max(0.1 * self.size);
-        if reduced_speed(model, shape, &rate) > SLOW * size {
-            return None;
-        }
-        let steady = RelativeEquilibrium::reached(model, shape, 0.1 * self.size)?;
-        steady.is_stable().then(|| -steady.growth())
     }
 }

@@ -4,9 +4,10 @@ mod follow;
 #[cfg(test)]
 mod tests;
 
+use crate::captured::way;
 use crate::pool::{Keeping, complete};
 use follow::{End, Followed, Follower};
-use motiform_analysis::{LifeCount, LifeLaws, MeanLife, Stay, compare_life_laws, mean_life};
+use motiform_analysis::{LifeCount, LifeLaws, MeanLife, Stay, compare_life_laws, mean_life, memory};
 use motiform_dynamics::Watch;
 use motiform_store::Kind;
 use motiform_study::plan::check;
@@ -187,6 +188,9 @@ impl Lives {
         let count =
             |at: &LifeAt| LifeCount { parameter: at.value, events: at.life.events, watched: at.life.watched };
         let laws = compare_life_laws(&values.iter().map(count).collect::<Vec<_>>())?;
+        let sets = self.orbits.chunks(plan.computation.samples).zip(&values);
+        let sets: Vec<_> = sets.map(|(all, at)| (stays(all.iter().flatten()), at.delay)).collect();
+        let laws = laws.held_against(memory(&sets)?);
         Ok(Lifetimes { parameter: axis.name.clone(), until: looks * look, values, laws })
     }
 }
@@ -222,11 +226,8 @@ fn summarise(value: f64, all: &[Followed], delay: Option<f64>, look: f64) -> Res
     let rate =
         |followed: &Followed| if let End::Captured { rate } = followed.end { rate } else { f64::INFINITY };
     let slowest = all.iter().map(rate).fold(f64::INFINITY, f64::min);
-    let delay = delay.unwrap_or_else(|| look.max(2.0 * follow::way(slowest)));
-    let ended = |end: &End| matches!(end, End::BlewUp | End::Captured { .. });
-    let counted = all.iter().filter(|followed| followed.end != End::Regular);
-    let stays: Vec<Stay> =
-        counted.map(|followed| Stay { time: followed.time, escaped: ended(&followed.end) }).collect();
+    let delay = delay.unwrap_or_else(|| look.max(2.0 * way(slowest)));
+    let stays = stays(all.iter());
     Ok(LifeAt {
         value,
         starts: all.len(),
@@ -238,6 +239,13 @@ fn summarise(value: f64, all: &[Followed], delay: Option<f64>, look: f64) -> Res
         delay,
         life: mean_life(&stays, delay)?,
     })
+}
+
+/// The lives of the orbits that count.
+fn stays<'f>(all: impl Iterator<Item = &'f Followed>) -> Vec<Stay> {
+    let ended = |end: &End| matches!(end, End::BlewUp | End::Captured { .. });
+    let counted = all.filter(|followed| followed.end != End::Regular);
+    counted.map(|followed| Stay { time: followed.time, escaped: ended(&followed.end) }).collect()
 }
 
 impl Lifetimes {

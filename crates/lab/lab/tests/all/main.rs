@@ -21,6 +21,7 @@ mod plan;
 mod presets;
 mod questions;
 mod random;
+mod saddle;
 mod scan;
 mod scan_lanes;
 mod settings;

@@ -86,5 +86,5 @@ fn lasting(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
 /// Model time in which the runs were there.
 fn watched(found: &Saddle) -> f64 {
     let escaped: f64 = found.survival.iter().map(|step| step.time * step.escaped as f64).sum();
-    escaped + (found.runs - found.escaped) as f64 * found.t_end
+    escaped + (found.runs - found.escaped - found.captured - found.regular) as f64 * found.t_end
 }
