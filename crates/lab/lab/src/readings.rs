@@ -59,7 +59,7 @@ pub fn dimension(model: &dyn Model, column: &str) -> Dimension {
 pub(crate) struct Readings<'m> {
     model: &'m dyn Model,
     atol: f64,
-    turning: Turning,
+    turns: bool,
     named: Vec<f64>,
     seen: Vec<f64>,
     boundary: Vec<f64>,

@@ -72,7 +72,7 @@ fn a_slow_part_is_in_the_interval_or_the_reason() {
     }
 }
 
-/// A slow shape that the velocity has no part of leaves it known, and a shape that is forgotten changes no interval.
+/// A slow shape that the velocity has no part of leaves it known.
 #[test]
 fn a_slow_shape_beside_the_velocity_leaves_it_known() {
     let (with, _) = counts(0.03, 0.0, (24, 500));
