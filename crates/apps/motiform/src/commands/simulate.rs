@@ -299,7 +299,7 @@ impl Display for Simulated<'_> {
             .state
             .0
             .iter()
-            .map(|(name, value)| format!("{name} = {}", six_decimals(value)))
+            .map(|(name, value)| format!("{name} = {}", six_decimals(*value)))
             .collect();
         write!(f, "\nstate     {}", state.join("  "))?;
         let [x, y] = manifest.position.map(six_decimals);

@@ -140,7 +140,7 @@ fn a_law_that_is_neither_is_refused() {
 /// exponential at 5 %.
 fn refused(life: impl Fn(f64, f64) -> f64) -> usize {
     let of = |seed: u64| {
-        let mut normal = motiform_dynamics::Normal::new(seed, 7);
+        let mut normal = Normal::new(seed, 7);
         let mut set = |mean: f64| {
             let stay = |u: f64| {
                 let time = 1.0 + life(u, mean);
