@@ -21,7 +21,7 @@ const COUNT: usize = 3;
 const LOOKS: (f64, f64) = (2.0, 40.0);
 const POINTS: f64 = 200.0;
 
-/// What the evidence of a noisy body is about.
+/// The subject of the evidence of a noisy body.
 pub(crate) const WITHOUT_NOISE: &str = "the equations without noise";
 
 /// A motion: the plan whose start is the state of the body, without noise.

@@ -36,7 +36,7 @@ pub(crate) struct Estimate {
     /// The logarithm of how many times larger it could be until it is unknown, since the lags do not reach it; infinite where that does
     /// not depend on it.
     pub(crate) room: f64,
-    /// What may lie beyond the window, by slower quantities of the same bodies.
+    /// The part that may lie beyond the window, by slower quantities of the same bodies.
     pub(crate) slow: Option<Beyond>,
 }
 
@@ -45,8 +45,8 @@ impl Estimate {
     ///
     /// half^2 = jackknife^2 + t^2 sum max(0, c^2 - se(c)^2) + max(0, d^2 - se(d)^2),   t about 2,
     ///
-    /// and to both sides the part that may lie beyond the window ([`Beyond`]); where that is seen and larger than half, or a factor of e, the value
-    /// is unknown.
+    /// and to both sides the part that may lie beyond the window ([`Beyond`]); where that is seen and larger than half, or a
+    /// factor of e, the value is unknown.
     ///
     /// c the changes to `others`, d that to `coarser`, twice the sampling interval (which is 15 times the
     /// error where the correlation is smooth or has a cusp at lag 0). Unknown where a value is not above 0:

@@ -51,8 +51,8 @@ fn two_digits(value: f64, error: f64) -> [String; 2] {
     }
 }
 
-/// A value and its error: the error to so many digits (1 or 2), the value to the same place. An error that is 0 or not finite limits nothing:
-/// both to four digits.
+/// A value and its error: the error to so many digits (1 or 2), the value to the same place. An error that is 0 or not finite limits
+/// nothing: both to four digits.
 #[must_use]
 pub fn value_and_error(value: f64, error: f64, digits: u8) -> [String; 2] {
     let more = usize::from(digits.saturating_sub(1));

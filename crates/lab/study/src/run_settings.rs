@@ -45,8 +45,8 @@ settings! {
         /// etdrk4, hochbruck4, krogstad4 (adaptive). By default that of the model: krogstad4 for cell, which is stiff,
         /// otherwise dop853.
         pub stepper: String,
-        /// Relative tolerance of adaptive steppers, 1e-14 to 1e-4: sets the accuracy of the run. By default that of the model: 1e-6 for cell,
-        /// otherwise 1e-9.
+        /// Relative tolerance of adaptive steppers, 1e-14 to 1e-4: sets the accuracy of the run. By default that of the model: 1e-6 for
+        /// cell, otherwise 1e-9.
         pub rtol: f64,
         /// Absolute tolerance of adaptive steppers. By default a tenth of `rtol` for cell, otherwise a thousandth; for
         /// equations given as text in their unit where that is below 1.

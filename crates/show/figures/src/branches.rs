@@ -74,7 +74,8 @@ pub struct BranchMark {
     pub at: Point,
 }
 
-/// Branches against a parameter, with the names of their motions beside them: thick where stable, thin where neutral, thin and dashed where unstable, with markers at special points.
+/// Branches against a parameter, with the names of their motions beside them: thick where stable, thin where neutral, thin and dashed where
+/// unstable, with markers at special points.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BranchDiagram {
     /// Range of the parameter; what lies outside is cut off.

@@ -56,7 +56,7 @@ fn counts(rate: f64, share: f64, (bodies, samples): (u64, usize)) -> ([[usize; 2
     (counts, width / counts[0][0].max(1) as f64)
 }
 
-/// The lags are long against the fast part, and 1 to 4 times of the slow one: its part of the integral is in the interval, or nothing is known.
+/// The lags are long against the fast part, and 1 to 4 times of the slow one: its part is in the interval, or nothing is known.
 /// Of 100 data sets 93 hold it, or say why not.
 #[test]
 fn a_slow_part_is_in_the_interval_or_the_reason() {

@@ -93,11 +93,14 @@ pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
     sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// The largest of these sizes; 1 where no terms balance. Equations that do not act on each other may have sizes of their own: a shape has
-/// left every bound only where it is beyond them all.
+/// The largest of these sizes, also along each coordinate alone; 1 where no terms balance. Equations that do not act on each other may have
+/// sizes of their own, and at the size of one the rates of another exceed it by so much that its terms do not show. A shape has left every
+/// bound only where it is beyond all sizes.
 #[must_use]
 pub fn largest_balance(body: &dyn Equivariant) -> f64 {
-    balances(body, &rays(body)).last().copied().unwrap_or(1.0)
+    let axis = |i: usize| (0..body.dim()).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
+    let directions: Vec<Vec<f64>> = rays(body).into_iter().chain((0..body.dim()).map(axis)).collect();
+    balances(body, &directions).last().copied().unwrap_or(1.0)
 }
 
 /// The size of changes of a shape at which terms of its equations balance, if that is far smaller than the shape: of each equation the

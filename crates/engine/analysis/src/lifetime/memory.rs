@@ -6,14 +6,14 @@ use crate::{Stay, checks};
 /// Fewest ends of lives that are tested.
 const LEAST: usize = 8;
 
-/// How lives differ from exponential ones.
+/// The difference of lives from exponential ones.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Memory {
     /// The probability of lives as far from exponential ones, or farther, if they are.
     pub probability: f64,
     /// Ends of lives that are tested.
     pub events: usize,
-    /// Mean of the ends' places on the scale of the time on test, 0 to 1: below 1/2 lives end less and less often, above more and more often.
+    /// Mean place of the ends on the scale of the time on test, 0 to 1: below 1/2 lives end less and less often, above more and more often.
     pub place: f64,
 }
 

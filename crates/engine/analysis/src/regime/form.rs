@@ -24,8 +24,8 @@ motiform_dynamics::named! {
         MirrorZigzag = "mirror-zigzag",
         /// No symmetry, and no net rotation either.
         AsymmetricZigzag = "asymmetric-zigzag",
-        /// The heading turns through full circles in a period, and the body is not turned after it: in a field, or at parameters where the net
-        /// rotation is a whole number of turns. In general the body drifts.
+        /// The heading turns through full circles in a period, and the body is not turned after it: in a field, or at parameters where the
+        /// net rotation is a whole number of turns. In general the body drifts.
         DriftingCircular = "drifting-circular",
         /// The heading swings left and right, by more than the net rotation of a period.
         RotatingZigzag = "rotating-zigzag",

@@ -55,9 +55,9 @@ fn moments(
         .collect()
 }
 
-/// Returns `true` if the orbit is an equilibrium within its errors: those of the steps, which swing, too, and that of its own place. A spiral
-/// into an equilibrium nearly comes back to its section; where it shrinks slowly, the residual of a turn is small against the shape, and
-/// not against the spiral.
+/// Returns `true` if the orbit is an equilibrium within its errors: those of the steps, which swing, too, and that of its own place. A
+/// spiral into an equilibrium nearly comes back to its section; where it shrinks slowly, the residual of a turn is small against the shape,
+/// and not against the spiral.
 pub(super) fn is_a_point(
     body: &dyn Equivariant,
     orbit: &PeriodicOrbit,

@@ -12,6 +12,12 @@ use motiform_dynamics::{Equivariant, Request, Sink, Watch};
 /// Speeds below this part of the size of the shape are round-off, where the velocity is an unknown.
 const STILL: f64 = 1e-12;
 
+/// The sense of a turn between two samples is clear up to this angle (rad).
+pub(super) const CLEAR_TURN: f64 = std::f64::consts::FRAC_PI_2;
+
+/// Factors by which a path has more samples where the sense of its turns is not clear.
+const FINER: [usize; 2] = [8, 64];
+
 /// Samples of a path, equally spaced in time; the path starts at the origin.
 #[derive(Clone, Debug)]
 pub(super) struct Path {
@@ -45,6 +51,22 @@ impl Path {
         path.times.truncate(defined);
         path.velocities.truncate(defined);
         path.integrate();
+        Ok(path)
+    }
+
+    /// The path with as many samples as tell the sense in which the heading turns between them, from `steps` on: beside a stop it turns by
+    /// half a turn at once.
+    pub(super) fn turning_clearly<E>(
+        steps: usize,
+        follow: impl Fn(usize) -> Result<Self, E>,
+    ) -> Result<Self, E> {
+        let mut path = follow(steps)?;
+        for finer in FINER {
+            if path.largest_turn().is_none_or(|turn| turn <= CLEAR_TURN) {
+                break;
+            }
+            path = follow(finer * steps)?;
+        }
         Ok(path)
     }
 
@@ -148,8 +170,8 @@ impl Path {
         self.velocities.iter().all(|v| (x * v[1] - y * v[0]).abs() <= most)
     }
 
-    /// The largest angle (rad) by which the heading turns between two samples; `None` where the body stops on the way. Beside a stop it turns
-    /// by half a turn at once, and samples do not tell to which side.
+    /// The largest angle (rad) by which the heading turns between two samples; `None` where the body stops on the way. Beside a stop it
+    /// turns by half a turn at once, and samples do not tell to which side.
     pub(super) fn largest_turn(&self) -> Option<f64> {
         let heading = self.heading()?;
         Some(heading.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max))

@@ -44,15 +44,16 @@ pub fn repeating(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> crate::Result<Repeating> {
-    let mut path: Option<Path> = None;
     let span = orbit.time / nodes.len() as f64;
-    for node in nodes {
-        let part = Path::follow(body, node, span, SAMPLES.div_ceil(nodes.len()), settings, watch)?;
-        path = Some(path.map_or_else(|| part.clone(), |path| path.joined(&part)));
-    }
-    let Some(path) = path else {
-        return Err(crate::Error::Shape { what: "the list of nodes", expected: 1, got: 0 });
+    let follow = |samples: usize| -> crate::Result<Path> {
+        let part =
+            |node: &Vec<f64>| Path::follow(body, node, span, samples.div_ceil(nodes.len()), settings, watch);
+        let [first, others @ ..] = nodes else {
+            return Err(crate::Error::Shape { what: "the list of nodes", expected: 1, got: 0 });
+        };
+        others.iter().try_fold(part(first)?, |path, node| Ok(path.joined(&part(node)?)))
     };
+    let path = Path::turning_clearly(SAMPLES, follow)?;
     let symmetry = common_symmetry(body, nodes);
     let no_turn = NO_TURN.max(settings.accuracy());
     let form = Form::of(&symmetry, orbit, &path, no_turn);

@@ -4,7 +4,7 @@ use super::course::Direction;
 use super::form::Form;
 use super::heteroclinic::Cycle;
 use super::moments::symmetry_of;
-use super::motion::Path;
+use super::motion::{CLEAR_TURN, Path};
 use super::period::Period;
 use super::recurrence::Recurrence;
 use super::settings::Settings;
@@ -150,7 +150,9 @@ pub(super) fn periodic(
     time: f64,
     watch: &dyn Watch,
 ) -> Result<Verdict> {
-    let path = Path::follow(body, &orbit.shape, orbit.period(), SAMPLES, settings, watch)?;
+    let path = Path::turning_clearly(SAMPLES, |samples| {
+        Path::follow(body, &orbit.shape, orbit.period(), samples, settings, watch)
+    })?;
     let no_turn = NO_TURN.max(settings.accuracy());
     let symmetry = symmetry_of(body, orbit, settings, watch)?;
     let form = Form::of(&symmetry, orbit, &path, no_turn);
@@ -206,8 +208,8 @@ fn sense_margin(form: Form, path: &Path) -> f64 {
         Form::AsymmetricZigzag | Form::DriftingCircular => path.largest_turn(),
         _ => None,
     };
-    let unclear = step.filter(|&step| step > std::f64::consts::FRAC_PI_2);
-    unclear.map_or(f64::MAX, |step| std::f64::consts::FRAC_PI_2 / step)
+    let unclear = step.filter(|&step| step > CLEAR_TURN);
+    unclear.map_or(f64::MAX, |step| CLEAR_TURN / step)
 }
 
 /// The reason why a motion that stays on a periodic orbit has no name.

@@ -8,7 +8,8 @@ use crate::samples::draws;
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_continuation::{
-    Branch, Connection, ConnectionKind, End, Family, Joins, PeriodLaw, Point, Settings, Special, switch,
+    Branch, Connection, ConnectionKind, End, Family, Joins, PeriodLaw, Point, Settings, Special, stated,
+    switch,
 };
 use motiform_dynamics::{Equivariant, Request, Scalar, VectorField, drive::drive};
 use motiform_models::tensor::{Tensor, TensorParameters};
@@ -433,6 +434,6 @@ fn the_law_of_a_connection_is_as_good_as_its_error() {
         near(found.parameter, 13.926_557_407, 1e-8 + found.error);
         let PeriodLaw::Logarithmic { rate } = found.law else { unreachable!("{found}") };
         assert!((rate - 8.0 / 3.0).abs() <= found.law_error && found.law_error < 0.3 * rate, "{found}");
-        assert!(found.to_string().contains(&format!("+- {:.0e}", found.law_error)), "{found}");
+        assert!(found.to_string().contains(&stated(rate, found.law_error)), "{found}");
     }
 }

@@ -11,8 +11,8 @@ const TOLD: usize = 3;
 /// Instead of numbers that differ.
 const DIFFERENT: &str = "…";
 
-/// How many rows are undetermined for which reason, in memory that does not grow with the rows. Reasons that differ by their numbers alone
-/// are one, with an ellipsis where they differ.
+/// The numbers of rows that are undetermined for each reason, in memory that does not grow with the rows. Reasons that differ by their
+/// numbers alone are one, with an ellipsis where they differ.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reasons {
     /// By the words without numbers: the text, and the rows.

@@ -125,7 +125,7 @@ impl<'m> Recorder<'m> {
 pub(crate) fn at_rest(found: &Statistics) -> Option<String> {
     let rest = found.rms_speed.value == 0.0;
     rest.then(|| {
-        "the bodies rest: their speeds are 0 within the errors of the runs, so that there are no figures of speeds, displacements and headings"
+        "the bodies rest: their speeds are 0 within the errors of the runs, so there are no figures of speeds, displacements and headings"
             .to_owned()
     })
 }

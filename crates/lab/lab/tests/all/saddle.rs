@@ -1,4 +1,4 @@
-//! What is no chaotic saddle: Lorenz's equations below the chaos, and where it lasts.
+//! No chaotic saddle: Lorenz's equations below the chaos, and where it lasts.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

@@ -42,9 +42,9 @@ pub struct Cell {
 }
 
 /// A phase diagram. Every cell has its centre at its value: an axis is linear where the steps between its values are equal, logarithmic
-/// where their ratios are, and otherwise has columns of one width, with the values as ticks. Up to 40 x 40 cells carry markers on a pale ground; finer ones are coloured, with
-/// one marker in each wide region. Where several motions
-/// occur, stripes show their shares, and the two most frequent ones have their markers side by side.
+/// where their ratios are, and otherwise has columns of one width, with the values as ticks. Up to 40 x 40 cells carry markers on a pale
+/// ground; finer ones are coloured, with one marker in each wide region. Where several motions occur, stripes show their shares, and the
+/// two most frequent ones have their markers side by side.
 ///
 /// With at most one value of `y` the diagram is a strip: over each `x` stands a bar of the shares, the markers above.
 ///
