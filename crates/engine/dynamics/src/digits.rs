@@ -55,12 +55,12 @@ fn two_digits(value: f64, error: f64) -> [String; 2] {
 /// nothing: both to four digits.
 #[must_use]
 pub fn value_and_error(value: f64, error: f64, digits: u8) -> [String; 2] {
-    let more = usize::from(digits.saturating_sub(1));
+    let more = usize::from(digits.saturating_sub(1)); // digits after the first
     let rounded: f64 = format!("{error:.more$e}").parse().unwrap_or(error);
     if !(rounded > 0.0 && rounded.is_finite() && value.is_finite()) {
         return [value, error].map(four_digits);
     }
-    let last = order(rounded) - more as i32;
+    let last = order(rounded) + 1 - i32::from(digits);
     if !PLAIN.contains(&value.abs().max(rounded)) {
         return [power_of_ten(value, last), format!("{error:.more$e}")];
     }
