@@ -171,7 +171,8 @@ fn a_branch_of_rosslers_equations_ends_at_its_saddle_focus() {
     // of four turns, stable between two period doublings
     let shape = settled(&Rossler(2.6), &[1.0, 1.0, 0.1], 4000.0);
     let guess = PeriodicGuess { shape: &shape, time: 23.0, angle: 0.0, mirrored: false };
-    let (points, found) = connection(&family, 2.6, &guess, &Settings::over(1.0, 8.0));
+    let settings = Settings { largest_step: draws(0.05, 0.02), ..Settings::over(1.0, 8.0) };
+    let (points, found) = connection(&family, 2.6, &guess, &settings);
     is_shilnikov(&points, &found, 4.82);
 }
 
