@@ -194,6 +194,7 @@ impl Verdict {
         );
         (self.regime, self.attractor, self.form, self.margin) =
             (Regime::Undetermined, Attractor::Unknown, None, None);
+        self.course = None;
         self
     }
 

@@ -93,7 +93,12 @@ fn the_sense_of_turning_beside_a_cusp_is_not_guessed() {
         let verdict = seen(info, &[0.5, 0.2, 0.7, 0.1], &ORDINARY);
         match turns {
             Some(rate) => near(verdict.turning_rate.unwrap(), rate, 1e-6),
-            None => assert_eq!(verdict.regime, Regime::Undetermined, "{b}: {}", verdict.why),
+            None => assert_eq!(
+                (verdict.regime, verdict.course),
+                (Regime::Undetermined, None),
+                "{b}: {}",
+                verdict.why
+            ),
         }
     }
 }
