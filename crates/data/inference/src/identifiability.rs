@@ -8,6 +8,7 @@
 use crate::Fit;
 use crate::filter::NOISES;
 use crate::names::paper;
+use motiform_dynamics::digits::with_error;
 use nalgebra::{DMatrix, SymmetricEigen};
 use serde::{Deserialize, Serialize};
 
@@ -197,10 +198,10 @@ fn text(fit: &Fit, own: &[usize], factors: &[f64], value: Option<f64>, error: f6
         };
         words += &format!("{sign}{size}{name}");
     }
-    let error = digits((error / unit).abs());
+    let error = (error / unit).abs();
     match value {
-        Some(value) => format!("{words} = {} ± {error}", digits(value / unit)),
-        None => format!("{words} (standard error {error})"),
+        Some(value) => format!("{words} = {}", with_error(value / unit, error)),
+        None => format!("{words} (standard error {})", digits(error)),
     }
 }
 

@@ -5,6 +5,7 @@ use crate::fit::{WithMemory, problem, refit};
 use crate::observation::{LEAST_FRAMES, Track};
 use crate::{Error, Fit, MOST_MODES, Result, Settings, Term, observation, refit_with, subsets, with_stage};
 use motiform_dynamics::Watch;
+use motiform_dynamics::digits::with_error;
 use serde::{Deserialize, Serialize};
 
 /// Parts of each track, of which one at a time is left out of the fits.
@@ -92,7 +93,9 @@ impl Rung {
     pub fn in_words(&self) -> String {
         match (self.behind, self.error) {
             (Some(0.0), _) => "predicts best".to_owned(),
-            (Some(behind), Some(error)) => format!("log-likelihood {behind:.1} ± {error:.1} below the best"),
+            (Some(behind), Some(error)) => {
+                format!("log-likelihood {} below the best", with_error(behind, error))
+            }
             _ => "its filter diverges on frames that its fit did not see".to_owned(),
         }
     }

@@ -16,6 +16,7 @@ use crate::filter::Frame;
 use crate::identifiability::unbounded;
 use crate::{Fit, PValue, Result, StageVelocity, Track, observation, stage_velocities};
 use motiform_dynamics::Complex;
+use motiform_dynamics::digits::with_error;
 use motiform_dynamics::sample::ascending;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -152,7 +153,7 @@ impl std::fmt::Display for Warning {
             Self::Carried { velocity, p_value, unit, remedy } => {
                 let unit = if unit.is_empty() { "in the units of the record" } else { unit };
                 let size = velocity.map_or_else(String::new, |[[x, y], [dx, dy]]| {
-                    format!(" of ({x:.2e} +- {dx:.0e}, {y:.2e} +- {dy:.0e}) {unit}")
+                    format!(" of ({}, {}) {unit}", with_error(x, dx), with_error(y, dy))
                 });
                 let p = match p_value {
                     Some(p) => PValue(*p).to_string(),

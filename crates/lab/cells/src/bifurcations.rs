@@ -4,6 +4,7 @@ use crate::Fitted;
 use crate::regime::natural_study;
 use motiform_diagrams::{SpecialEntry, follow};
 use motiform_dynamics::Watch;
+use motiform_dynamics::digits::with_error;
 use motiform_inference::{Fit, paper};
 use motiform_study::branches::{Along, BranchSettings};
 use motiform_study::{BranchPlan, Error};
@@ -41,7 +42,8 @@ impl NearBifurcation {
         let breaks = breaks.as_ref().map_or_else(String::new, |what| format!(" (breaks {what})"));
         let off = (at - value).abs();
         format!(
-            "{parameter} = {value:.4} ± {error:.4}: {kind}{breaks} at {at:.4}, {off:.4} away ({:.1} standard errors)",
+            "{parameter} = {}: {kind}{breaks} at {at:.4}, {off:.4} away ({:.1} standard errors)",
+            with_error(*value, *error),
             off / error.max(f64::MIN_POSITIVE)
         )
     }

@@ -15,7 +15,7 @@ const KNOWN: f64 = 10.0;
 const ROUNDING: f64 = 1e-12;
 
 /// Errors of the numbers of a run: a part of their size, and one that is there at 0, too.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Accuracy {
     relative: f64,
     absolute: f64,

@@ -30,5 +30,4 @@ pub mod scan;
 pub mod section;
 pub mod simulate;
 pub mod statistics;
-mod varying;
 pub mod verify;

@@ -58,7 +58,7 @@ impl BranchDiagram {
     }
 }
 
-/// The first of some points with a clear place beside it that is its own.
+/// The first of some points beside which a name fits, nearer to its curve than to those of other motions, and the place of the name.
 fn first_clear(
     mut points: impl Iterator<Item = Point>,
     size: [f64; 2],
@@ -115,7 +115,7 @@ mod tests {
     use super::super::branches::{BranchPart, Stability};
     use super::*;
 
-    /// Two motions, and a third one as a short curve: each long curve has its name beside it, a second time besides the legend.
+    /// Each motion has its name at its curve, in addition to the legend.
     #[test]
     fn long_curves_have_their_names() {
         let part = |regime: &str, points: Vec<Point>| BranchPart {

@@ -67,7 +67,7 @@ export class PresetBar {
 /** A word that may be a symbol, with its index and its power; and an arrow. */
 const WORD = /(->|\b[A-Za-z]+\d*(?:_[A-Za-z0-9]+)?(?:\^-?\d+)?)/;
 
-/** Text with symbols as they are set: those of parameters in place of their names, indices and powers. */
+/** The text with typeset symbols: names of parameters become their symbols, and indices and powers are set. */
 function prose(text: string, parameters: Parameter[]): (Node | string)[] {
   return text.split(WORD).map((part, i) => (i % 2 ? worded(part, parameters) : part));
 }

@@ -318,7 +318,8 @@ fn place(placement: &Placement) -> String {
                 .iter()
                 .map(|c| {
                     let Estimate { value, error, interval: [low, high], .. } = c.estimate;
-                    format!("{} = {value:.4} ± {error:.4} (95 %: {low:.4} to {high:.4})", c.name)
+                    let [low, high] = [low, high].map(|end| to_error(end, error));
+                    format!("{} = {} (95 %: {low} to {high})", c.name, with_error(value, error))
                 })
                 .collect();
             format!(" {}; {distance:.3} off the slice ({deviation:.1} standard errors)", at.join(", "))

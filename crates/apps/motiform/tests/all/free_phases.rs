@@ -114,7 +114,7 @@ fn an_orbit_around_a_centre_is_not_stable() {
     assert!(branch.expect(2).stderr.contains("undetermined"), "no branch along a parameter");
 }
 
-/// A variable that acts on nothing, of another size: a circle of size 1e8 beside it is the motion that it is alone.
+/// A decoupled variable of size 1 does not change the verdict on a circle of another size.
 #[test]
 fn a_silent_variable_of_another_size_sets_no_bounds() {
     let folder = Folder::new();

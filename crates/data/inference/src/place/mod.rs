@@ -16,6 +16,7 @@ mod among;
 mod scaled;
 
 pub use among::place_among;
+use motiform_dynamics::digits::with_error;
 use motiform_dynamics::distributions::NORMAL_95;
 
 use crate::{Estimate, Fit, MOST_MODES, Term, identifiability};
@@ -135,7 +136,7 @@ fn obstacles(fit: &Fit, plane: Plane) -> Vec<String> {
         };
         let (value, error) = (c.estimate.value, c.estimate.error.max(c.estimate.robust));
         if value.abs() < CERTAIN * error {
-            reasons.push(format!("{symbol} = {value:.3} ± {error:.3}, which sets a unit, may be 0"));
+            reasons.push(format!("{symbol} = {}, which sets a unit, may be 0", with_error(value, error)));
         } else if sign != 0.0 && value * sign < 0.0 {
             let side = if sign < 0.0 { "below" } else { "above" };
             reasons.push(format!("{symbol} = {value:.3}: it must be {side} 0 for this plane"));

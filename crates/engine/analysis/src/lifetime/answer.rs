@@ -3,6 +3,7 @@
 use super::laws::spread;
 use super::{ExponentialLife, LifeCount, Memory, PowerLawLife};
 use crate::{Result, checks};
+use motiform_dynamics::digits::value_and_error;
 use serde::Serialize;
 
 /// A difference of Akaike's criteria that decides: e^3, about 20, in likelihood, beyond the price of parameters.
@@ -193,7 +194,8 @@ impl LifeLaws {
 impl ExponentialLife {
     fn words(&self, time: &dyn Fn(f64) -> String) -> String {
         let Self { k, at, life, .. } = self;
-        format!("tau = {} exp(-k (p - {at:.5})), k = {:.4} +- {:.2}", time(life.value), k.value, k.error)
+        let rate = value_and_error(k.value, k.error, 2).join(" +- ");
+        format!("tau = {} exp(-k (p - {at:.5})), k = {rate}", time(life.value))
     }
 }
 
@@ -202,8 +204,10 @@ impl PowerLawLife {
         let Self { critical, exponent, coefficient, above, .. } = self;
         let end = |end: Option<f64>| end.map_or("no limit".to_owned(), |end| format!("{end:.5}"));
         let side = if *above { "p - pc" } else { "pc - p" };
-        let error =
-            if exponent.error.is_finite() { format!("{:.2}", exponent.error) } else { "unknown".to_owned() };
+        let gamma = match exponent.error.is_finite() {
+            true => value_and_error(exponent.value, exponent.error, 2).join(" +- "),
+            false => format!("{:.3} +- unknown", exponent.value),
+        };
         let coefficient = time(*coefficient);
         if critical.at_end {
             let nearest = end(if *above { critical.upper } else { critical.lower });
@@ -214,11 +218,10 @@ impl PowerLawLife {
             );
         }
         format!(
-            "tau = {coefficient} ({side})^-gamma, pc = {:.5} ({} to {}), gamma = {:.3} +- {error}",
+            "tau = {coefficient} ({side})^-gamma, pc = {:.5} ({} to {}), gamma = {gamma}",
             critical.value,
             end(critical.lower),
             end(critical.upper),
-            exponent.value,
         )
     }
 }

@@ -6,11 +6,13 @@
 //! torus those of a smooth function, smoothly weighted, converge faster than any power of the time; those of
 //! returns need not, for the number of extremes per turn may change along the torus.
 
+use super::chaos::stated;
 use super::look::Look;
 use super::returns;
 use super::settings::Settings;
 use super::verdict::Verdict;
 use super::words::lasting;
+use crate::Estimate;
 use crate::gauge::Gauge;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Equivariant, Request, Sink, Watch};
@@ -83,7 +85,8 @@ impl Change {
     pub(super) fn judges(&self, mut torus: Verdict) -> Result<Verdict, String> {
         let Self { value, error, time } = *self;
         let most = value.abs() + error;
-        let said = format!("changes by {value:.1e} +- {error:.1e} of itself in a time of {}", lasting(time));
+        let change = stated(Estimate { value, error });
+        let said = format!("changes by {change} of itself in a time of {}", lasting(time));
         if value.abs() > error.max(NONE) || most > CHANGE {
             return Err(format!("the returns lie on a closed curve whose size {said}: no torus was shown"));
         }

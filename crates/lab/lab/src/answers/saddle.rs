@@ -1,5 +1,6 @@
 //! The chaotic saddle.
 
+use super::estimate;
 use crate::saddle::Saddle;
 use std::fmt::{Display, Formatter, Result};
 
@@ -7,7 +8,7 @@ impl Display for Saddle {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         if let Some(exponent) = self.exponent {
             let of = if self.is_one() { "of the chaotic saddle" } else { "of the chaos        " };
-            writeln!(f, "lambda_1 {of}   {:.5} +- {:.1e}", exponent.value, exponent.error)?;
+            writeln!(f, "lambda_1 {of}   {}", estimate(&exponent, 0, 5))?;
         }
         if !self.missing.is_empty() {
             writeln!(f, "{}", self.missing)?;
@@ -15,9 +16,8 @@ impl Display for Saddle {
         match self.rate {
             Some(rate) => writeln!(
                 f,
-                "escape rate                      {:.3e} +- {:.1e} (mean lifetime {:.0})",
-                rate.value,
-                rate.error,
+                "escape rate                      {} (mean lifetime {:.0})",
+                estimate(&rate, 0, 5),
                 1.0 / rate.value
             )?,
             None if self.exponent.is_some() => {

@@ -1,5 +1,6 @@
 //! The samples of a motion since its last change.
 
+use crate::accuracy::Accuracy;
 use crate::readings::{pace, turns};
 use motiform_dynamics::Model;
 use motiform_study::plan::Computation;
@@ -15,6 +16,8 @@ pub struct Record {
     atol: f64,
     /// The heading has a derivative.
     turns: bool,
+    /// The errors of its numbers.
+    accuracy: Accuracy,
     /// Complete rows: time, state, quantities computed from it.
     numbers: Vec<f64>,
 }
@@ -45,7 +48,13 @@ impl Record {
     pub fn new(model: &dyn Model, computation: &Computation, most: usize) -> Self {
         let (state, read) = (model.dim() + 2, 2 + model.observables().len());
         let (atol, turns) = (computation.control.absolute_tolerance(), turns(model, computation));
-        Self { most: most.max(1), state, read, atol, turns, numbers: Vec::new() }
+        let accuracy = Accuracy::with(computation.control, None);
+        Self { most: most.max(1), state, read, atol, turns, accuracy, numbers: Vec::new() }
+    }
+
+    /// The errors of its numbers.
+    pub(super) fn accuracy(&self) -> Accuracy {
+        self.accuracy
     }
 
     fn width(&self) -> usize {

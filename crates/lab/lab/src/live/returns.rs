@@ -2,7 +2,6 @@
 
 use super::Record;
 use crate::recorder::Centre;
-use crate::varying::varies;
 use motiform_dynamics::Model;
 use motiform_dynamics::model::velocity;
 use motiform_store::table::Table;
@@ -10,11 +9,11 @@ use motiform_study::quantity::state::{RISING, T, X, Y};
 use motiform_study::study::ReturnMapSettings;
 
 /// The maxima of the speed, in order: each is the vertex of the parabola through three samples, so its error is of order
-/// `dt^4`. None if the speed does not vary.
+/// `dt^4`. None if the speed does not vary beyond its errors.
 #[must_use]
 pub fn maxima_of_speed(record: &Record) -> Vec<f64> {
     let speeds: Vec<f64> = record.rows().map(|row| row.read[0]).collect();
-    if !varies(speeds.iter().copied(), 0.0) {
+    if !record.accuracy().varies(speeds.iter().copied()) {
         return Vec::new();
     }
     let vertex = |three: &[f64]| {

@@ -1,14 +1,13 @@
 //! Power spectra of a recorded motion.
 
-use super::{Record, Row};
-use crate::varying::varies;
+use super::Record;
 use motiform_analysis::welch;
 use motiform_dynamics::Model;
 
 /// Fewest samples that a spectrum is made of, and the longest segment.
 const SAMPLES: (usize, usize) = (256, 2048);
 
-/// Power spectra of the speed and of the model's observables, except steady ones.
+/// Power spectra of the speed and of the model's observables, except those that do not vary beyond their errors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     /// Cycles per model time, without the frequency 0; empty if the record is too short.
@@ -35,16 +34,12 @@ pub fn spectra(record: &Record, model: &dyn Model, dt: f64) -> Spectra {
     // The turning rate, which is undefined at rest, lies between.
     let columns = std::iter::once(0).chain(2..);
     let mut all = Spectra::default();
-    let sizes = |row: Row<'_>| {
-        columns.clone().take(row.read.len() - 1).map(|column| row.read[column]).fold(0.0, f64::max)
-    };
-    let largest = record.rows().map(sizes).fold(0.0, f64::max);
-    for ((name, symbol), column) in names.zip(columns.clone()) {
+    for ((name, symbol), column) in names.zip(columns) {
         let values: Vec<f64> = record.rows().map(|row| row.read[column]).collect();
         let Ok(spectrum) = welch(&values, dt, segment) else { continue };
         all.segments = spectrum.segments;
         all.frequencies = spectrum.frequencies[1..].to_vec();
-        if varies(values, largest) {
+        if record.accuracy().varies(values) {
             all.curves.push((name, symbol, spectrum.power[1..].to_vec()));
         }
     }
