@@ -4,6 +4,7 @@ mod beside;
 mod book;
 mod browser;
 mod build_cost;
+mod checks;
 mod dist;
 mod emulated;
 mod explorer;
@@ -56,15 +57,6 @@ const BEFORE: &[(&str, &[&str])] = &[
     ("build of the tests", &["test", "--release", "--workspace", "--no-run"]),
 ];
 
-/// Lints and documentation are checked with all features enabled, so that optional parts are tested too.
-const CHECKS: &[(&str, &[&str])] = &[
-    (
-        "lints",
-        &["clippy", "--release", "--workspace", "--all-targets", "--all-features", "--", "-D", "warnings"],
-    ),
-    ("documentation", &["doc", "--release", "--workspace", "--no-deps", "--document-private-items"]),
-];
-
 const TESTS: &[&str] = &["test", "--release", "--workspace", "--no-fail-fast"];
 
 fn main() -> ExitCode {
@@ -81,7 +73,7 @@ fn run() -> Result<()> {
     match std::env::args().nth(1).as_deref() {
         Some("test") => with_parts(everything()),
         Some("quick") => cargo("tests", TESTS),
-        Some("checks") => with_parts(all(CHECKS)),
+        Some("checks") => with_parts(checks::run()),
         // Steps of `test`, begun by it.
         Some("beside-tests") => with_parts(explorer::build().and_then(|()| python::test())),
         Some("firefox-part") => with_parts(explorer::test_part_in_firefox()),

@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use subjects::{Subject, subjects};
 
 /// Subjects in every push. All of them with `MOTIFORM_INVARIANCES=1`, those whose name begins with its value otherwise.
-const SAMPLE: usize = 4;
+const SAMPLE: usize = 5;
 
 /// Motions that are asked for at a time. (The threads wait for the program.)
 const WORKERS: usize = 8;

@@ -15,7 +15,7 @@ const LOOKED_AT: [f64; 5] = [-0.83, -0.31, 0.07, 0.42, 0.91];
 const STARTS: usize = 150;
 
 /// Longest step of the oracle, and the shorter ones with which it looks again where it disagrees.
-const STEPS: [f64; 2] = [2e-3, 2e-4];
+const STEPS: [f64; 3] = [2e-3, 5e-4, 2e-4];
 
 /// Largest difference of the same point: in the parameter, 1e-6 of the range, and in the state, whose error near a pitchfork is the root of
 /// that.
@@ -89,13 +89,14 @@ pub(super) fn compare(seed: u64, text: &Text) -> Tally {
             if known.iter().any(|curve| curve.at(p).iter().any(|other| apart(other, &place) < 2e-3)) {
                 continue;
             }
-            let mut tally = Tally::default();
-            let mine = oracle(text, &found, p, STEPS[0]);
             let its = program(text, &found, p);
-            tally.compare(&mine, &its);
-            if !tally.complaints.is_empty() {
-                tally = Tally::default();
-                tally.compare(&oracle(text, &found, p, STEPS[1]), &its);
+            let mine = oracle(text, &found, p, STEPS[0]);
+            let mut tally = Tally::of(&mine, &its);
+            for step in &STEPS[1..] {
+                if tally.complaints.is_empty() {
+                    break;
+                }
+                tally = Tally::of(&oracle(text, &found, p, *step), &its);
             }
             let head = format!("text {seed} ({}, {} modes) from {p}", text.symmetry, text.modes.len());
             for complaint in &mut tally.complaints {
@@ -115,6 +116,12 @@ pub(super) fn compare(seed: u64, text: &Text) -> Tally {
 }
 
 impl Tally {
+    fn of(mine: &Seen, its: &Seen) -> Self {
+        let mut tally = Self::default();
+        tally.compare(mine, its);
+        tally
+    }
+
     fn compare(&mut self, mine: &Seen, its: &Seen) {
         self.branches += 1;
         self.points += mine.events.len();
