@@ -119,16 +119,16 @@ impl RegimeMark {
         let Some(hand) = self.hand else { return self.glyph.draw(svg, at, radius, self.colour) };
         self.glyph.draw(svg, at, WITHIN * radius, self.colour);
         let dark = self.colour.mix(BLACK, 0.35);
-        let turn = if hand == Hand::Clockwise { 1.0 } else { -1.0 }; // y points down
+        let side = if hand == Hand::Clockwise { 1.0 } else { -1.0 }; // mirror images
         let place = |angle: f64, radius: f64| {
             let (sin, cos) = angle.sin_cos();
-            [at[0] + radius * cos, at[1] + radius * sin]
+            [at[0] + side * radius * cos, at[1] + radius * sin] // y points down
         };
-        let [from, to] = [-0.5 * PI, 0.8 * PI].map(|angle| turn * (angle + 0.25 * PI) - 0.25 * PI);
+        let (from, to) = (-0.5 * PI, 0.8 * PI);
         let arc: Vec<Point> =
             (0..=18).map(|k| place(from + (to - from) * f64::from(k) / 18.0, AROUND * radius)).collect();
         svg.polyline(&arc, false, &Paint::stroke(dark, (0.24 * radius).clamp(0.7, 1.6)));
-        let tip = place(to + turn * 0.55, AROUND * radius);
+        let tip = place(to + 0.55, AROUND * radius);
         let head = [tip, place(to, (AROUND + 0.5) * radius), place(to, (AROUND - 0.5) * radius)];
         svg.polyline(&head, true, &Paint::fill(dark));
     }

@@ -62,7 +62,8 @@ export function plain(value: number, digits = 6): string {
 
 /** A number that was given, or follows from given ones, without the digits of round-off: 0.475 for 0.47500000000000003. */
 export function given(value: number): string {
-  return plain(value, 12);
+  const short = Number(value.toPrecision(12));
+  return String(Math.abs(short - value) <= 4 * Number.EPSILON * Math.abs(value) ? short : value);
 }
 
 /** A name of tables and options as people write it: `pulsating straight` for `pulsating-straight`. */

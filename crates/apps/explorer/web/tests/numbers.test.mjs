@@ -43,6 +43,7 @@ test("given numbers are those that were typed, names are words", () => {
   const values = Array.from({ length: 9 }, (_, k) => 0.1 + (0.6 - 0.1) * (k / 8));
   assert.deepEqual(values.map(given), ["0.1", "0.1625", "0.225", "0.2875", "0.35", "0.4125", "0.475", "0.5375", "0.6"]);
   assert.equal(given(0.47500000000000003), "0.475");
+  assert.equal(given(0.4982946571290721), "0.4982946571290721", "all digits of what is no round number");
   const names = ["pulsating-straight", "quasi-periodic", "quasi-periodic, clockwise", "blow-up"];
   assert.deepEqual(names.map(inWords), ["pulsating straight", "quasi-periodic", "quasi-periodic, clockwise", "blow-up"]);
 });

@@ -16,7 +16,7 @@ const MOST: usize = 10;
 /// Motions of a region that have paths.
 const MOTIONS: usize = 2;
 
-/// Looks of the model before a path: the way onto the motion.
+/// Looks of the model before a path: the way onto the motion; onto a straight one, of which any bend is seen, [`LONGEST`].
 const SETTLED: f64 = 3.0;
 
 /// Most looks of a path: of a body that turns too slowly to close its circle in them a part is shown.
@@ -66,7 +66,7 @@ fn path(folder: &AtlasFolder, cell: usize, found: &Found) -> Result<Option<Vec<[
     let look = scan.look_of(cell)?;
     let Some(t_end) = time(found, look).map(|time| time.min(LONGEST * look)) else { return Ok(None) };
     let computation = motiform_study::plan::Computation {
-        transient: SETTLED * look,
+        transient: if found.regime == Regime::Straight { LONGEST } else { SETTLED } * look,
         t_end,
         dt_out: t_end / ROWS,
         ..plan.start(&scan, (cell, found.sample))?
