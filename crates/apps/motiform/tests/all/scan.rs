@@ -254,7 +254,7 @@ fn maps_tell_the_senses_of_turning_apart() {
     let axes = "--axis omega=-0.2,0.1,0.2 --axis kappa2=1.1:1.5:9";
     let done = folder.run(&format!("scan chiral {axes} --out map")).expect(0);
     assert!(
-        done.stdout.contains("omega = -0.2, 0.1, 0.2") && done.stdout.contains("18 rows (66.7 %)"),
+        done.stdout.contains("omega = -0.2, 0.1, 0.2") && done.stdout.contains("27 rows (100.0 %)"),
         "{}",
         done.stdout
     );
