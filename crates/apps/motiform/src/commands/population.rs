@@ -63,7 +63,11 @@ fn shares(text: &mut String, names: &[NameShare]) -> Result {
     for NameShare { name, share } in names {
         let name = in_words(name);
         let [value, low, high] = [share.value, share.lower, share.upper].map(|part| 100.0 * part);
-        writeln!(text, "  {name:<16} {value:>5.1} % ({low:.1} to {high:.1}), {}", counted(share.count, "cell"))?;
+        writeln!(
+            text,
+            "  {name:<16} {value:>5.1} % ({low:.1} to {high:.1}), {}",
+            counted(share.count, "cell")
+        )?;
     }
     Ok(())
 }
