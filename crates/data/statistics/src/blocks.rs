@@ -4,7 +4,7 @@ use crate::correlation::Products;
 use crate::oscillation::oscillation;
 use crate::{
     Answer, Autocorrelation, Errors, Histogram, MeanTime, Measured, Quantity, Result, Statistics, Tracks,
-    four_digits,
+    in_unit,
 };
 
 /// The reason why there are no intervals over blocks, if there is one: the speed or the size of a mode is not forgotten within a block, so
@@ -25,7 +25,7 @@ pub(crate) fn dependent(tracks: &Tracks) -> Result<Option<String>> {
             continue;
         }
         if is_kept(tracks, &quantity)? {
-            let block = four_digits(samples as f64 * tracks.dt());
+            let block = in_unit(samples as f64 * tracks.dt(), tracks.unit());
             let what = if quantity.is_number() {
                 "speed".to_owned()
             } else {

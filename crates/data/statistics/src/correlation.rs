@@ -36,6 +36,7 @@ pub(crate) struct Products {
     sums: Vec<Sums>,
     groups: usize,
     dt: f64,
+    unit: String,
     /// Time of all units together.
     total: f64,
     is_number: bool,
@@ -116,7 +117,9 @@ pub(crate) fn remembering(
     let last = window.as_ref().map_or(curves.longest(), |window| window.length);
     let folded = too_far_apart(tracks, &quantity);
     let (fine, coarser) = (curves.integral(last), curves.coarser(last)[0]);
-    let coarse = |size| folded.clone().or_else(|| too_coarse(&fine, &coarser, (size, tracks.dt())));
+    let coarse = |size| {
+        folded.clone().or_else(|| too_coarse(&fine, &coarser, (size, tracks.dt()), [tracks.unit(); 2]))
+    };
     let unresolved = coarse(curves.size(last));
     let time = match (&unresolved, window) {
         (_, Err(reason)) => Answer::unknown(folded.clone().unwrap_or(reason)),
@@ -177,7 +180,14 @@ impl Products {
             }
         }
         let total = tracks.dt() * sums[0].count();
-        Ok(Self { sums, groups: tracks.groups(), dt: tracks.dt(), total, is_number })
+        Ok(Self {
+            sums,
+            groups: tracks.groups(),
+            dt: tracks.dt(),
+            unit: tracks.unit().to_owned(),
+            total,
+            is_number,
+        })
     }
 
     /// Returns `true` if it does not vary ([`Quantity::is_steady`]).
@@ -193,7 +203,7 @@ impl Products {
         let defined = |curve: &Vec<f64>| curve.iter().take_while(|c| c.is_finite()).count();
         let common = values.iter().map(defined).min().unwrap_or(0).max(2);
         values.iter_mut().for_each(|curve| curve.resize(common, f64::NAN));
-        Curves { dt: self.dt, values }
+        Curves { dt: self.dt, unit: self.unit.clone(), values }
     }
 
     /// rho at a lag.
@@ -215,7 +225,7 @@ impl Products {
             room,
             slow,
         };
-        estimate.answer()
+        estimate.answer(&self.unit)
     }
 
     /// The mean of a number is that of the samples, so each C lacks the variance of the mean, 2 T C(0)/(time

@@ -69,7 +69,7 @@ pub(crate) fn remembering(tracks: &Tracks, remembered: &Remembered) -> Result<(D
     let (all, coarser) = (curves.integrals(window), curves.coarser(window));
     let coarse = |size| {
         let folded = too_far_apart(tracks, &Quantity::Velocity);
-        folded.or_else(|| too_coarse(&all[0], &coarser[0], (size, tracks.dt())))
+        folded.or_else(|| too_coarse(&all[0], &coarser[0], (size, tracks.dt()), [tracks.unit(), ""]))
     };
     let (unresolved, by_value) = (coarse(curves.size(window)), coarse(all[0].value.abs()));
     let slow = beyond(tracks, (&Quantity::Velocity, all[0].value), window, remembered)?;
@@ -85,13 +85,13 @@ pub(crate) fn remembering(tracks: &Tracks, remembered: &Remembered) -> Result<(D
     let displacements = Estimate { values: line.quarters(), others, coarser: None, room, slow: slow.clone() };
     let green_kubo = match unresolved {
         Some(reason) => Answer::Unknown { reason },
-        None => velocities.answer().unless(by_value),
+        None => velocities.answer("").unless(by_value),
     };
     let both = green_kubo.known().is_some();
     let found = Diffusion {
         green_kubo,
         difference: both.then(|| difference(&velocities.values, &displacements.values)),
-        displacements: displacements.answer(),
+        displacements: displacements.answer(""),
         lags: Some([line.lag(0), line.lag(line.lags.len() - 1)]),
         line: Some(line.fit(None)),
         doubt: None,

@@ -4,7 +4,7 @@ use crate::jackknife::jackknife;
 use crate::lag_window::Integral;
 use crate::plateau::difference;
 use crate::slow::Beyond;
-use crate::{Answer, Measured, four_digits};
+use crate::{Answer, Measured, in_unit};
 
 /// Its own variances that are taken from the square of a change: what chance alone gives on average.
 const CHANCE: f64 = 1.0;
@@ -56,7 +56,7 @@ impl Estimate {
     /// that of a normal variable of which only what is below the limit is seen.
     ///
     /// Source: Johnson, Kotz, Balakrishnan (1994), Continuous Univariate Distributions 1, 13.10 (truncated normal).
-    pub(crate) fn answer(&self) -> Answer {
+    pub(crate) fn answer(&self, unit: &str) -> Answer {
         let logarithms = |values: &[f64]| values.iter().map(|&x| libm::log(x)).collect::<Vec<f64>>();
         let values = logarithms(&self.values);
         let measured = jackknife(values[0], &values[1..]);
@@ -65,7 +65,7 @@ impl Estimate {
             let bound = jackknife(self.values[0], &self.values[1..]).upper().max(0.0) + changed;
             return Answer::unknown(format!(
                 "not resolved: it is 0 within its error (below {}); a longer record, or more bodies, lower that bound",
-                four_digits(bound)
+                in_unit(bound, unit)
             ));
         }
         let window: f64 = self.others.iter().map(|other| beyond_chance(&values, &logarithms(other))).sum();
@@ -114,10 +114,15 @@ fn beyond_chance(one: &[f64], other: &[f64]) -> f64 {
 /// for an exponential is a large part of it, so that a correlation of another form would need another one; or
 /// every other sample gives another value. It is a part of `size`: the integral, or where positive and negative
 /// parts cancel, that without cancellation.
-pub(crate) fn too_coarse(found: &Integral, coarser: &Integral, (size, dt): (f64, f64)) -> Option<String> {
+pub(crate) fn too_coarse(
+    found: &Integral,
+    coarser: &Integral,
+    (size, dt): (f64, f64),
+    [unit, of_integral]: [&str; 2],
+) -> Option<String> {
     let changed = (coarser.value - found.value).abs() > CHANGED * size;
     (found.correction > CORRECTED * size || changed).then(|| {
-        let (dt, about) = (four_digits(dt), four_digits(found.value));
+        let (dt, about) = (in_unit(dt, unit), in_unit(found.value, of_integral));
         format!("sampled too coarsely: intervals of {dt} do not resolve the correlation (about {about}); record more often")
     })
 }

@@ -50,6 +50,11 @@ pub use exponent::local_exponent;
 pub use gapped::GappedVectors;
 pub use jackknife::jackknife;
 pub use motiform_dynamics::digits::{four_digits, to_error, with_error};
+
+/// A number with four digits and its unit; in model units without one.
+pub(crate) fn in_unit(x: f64, unit: &str) -> String {
+    format!("{} {unit}", four_digits(x)).trim_end().to_owned()
+}
 pub use oscillation::Oscillation;
 pub use passage::{Passage, first_passages, radii};
 pub use persistence::{Walk, furth, persistent_walk};

@@ -3,7 +3,7 @@
 use crate::damped::{Damped, deviation, fit};
 use crate::estimate::Estimate;
 use crate::plateau::Curves;
-use crate::{Answer, four_digits};
+use crate::{Answer, in_unit};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -95,7 +95,7 @@ fn measured(curves: &Curves, last: usize, best: &Damped, misfit: f64) -> [Answer
             found.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect()
         };
         let others = vec![values(&coarse), values(&late)];
-        Estimate { values: values(&fine), others, coarser: None, room: f64::INFINITY, slow: None }.answer()
+        Estimate { values: values(&fine), others, coarser: None, room: f64::INFINITY, slow: None }.answer("")
     };
     let resolution = PHASE / (TAU * last as f64 * curves.dt);
     let frequency = of(&|found| found.omega / (TAU * curves.dt)).at_least(resolution);
@@ -104,7 +104,7 @@ fn measured(curves: &Curves, last: usize, best: &Damped, misfit: f64) -> [Answer
         let half = decay.known().map_or(0.0, |found| found.half_width());
         return [frequency, decay.at_least(libm::hypot(half, 2.0 * misfit * curves.dt / best.lambda))];
     }
-    let lags = four_digits(last as f64 * curves.dt);
+    let lags = in_unit(last as f64 * curves.dt, &curves.unit);
     let reason = match best.lambda * (last as f64) < UNDIMINISHED {
         true => format!("not reached: the oscillation goes on undiminished up to the longest lag {lags}"),
         false => format!("not reached: the oscillation goes on at the longest lag {lags}; record longer"),

@@ -2,7 +2,7 @@
 
 use crate::jackknife::jackknife;
 use crate::lag_window::{Integral, integral, size};
-use crate::{Measured, four_digits};
+use crate::{Measured, in_unit};
 
 /// The shortest window is so many times the integral of |rho|: half of it is 5 decay times of an exponential, 3 of a damped cosine.
 const LENGTH: f64 = 10.0;
@@ -34,6 +34,8 @@ pub(crate) struct Window {
 pub(crate) struct Curves {
     /// Time between lags.
     pub(crate) dt: f64,
+    /// The unit of times in sentences.
+    pub(crate) unit: String,
     /// Of all groups, then without group 0, 1, ...
     pub(crate) values: Vec<Vec<f64>>,
 }
@@ -136,7 +138,7 @@ impl Curves {
     /// The reason why there is no window. What comes back to its start repeats itself: no length of the record is enough.
     fn not_reached(&self) -> String {
         let lag = self.longest();
-        let longest = four_digits(lag as f64 * self.dt);
+        let longest = in_unit(lag as f64 * self.dt, &self.unit);
         let rho = |lag: usize| self.values[0][lag] / self.values[0][0];
         let lost = (0..=lag / 2).any(|lag| rho(lag) < LOST);
         if lost && (lag / 2..=lag).any(|lag| rho(lag) > REPEATED) {

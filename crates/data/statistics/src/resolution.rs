@@ -1,6 +1,6 @@
 //! Samples held against the rates of change of what is sampled.
 
-use crate::{Quantity, Track, Tracks, four_digits};
+use crate::{Quantity, Track, Tracks, in_unit};
 
 /// Largest mean square of the change between samples that the rates do not explain, as a part of the variance: that of an oscillation
 /// with four samples a period.
@@ -38,9 +38,10 @@ pub(crate) fn too_far_apart(tracks: &Tracks, quantity: &Quantity) -> Option<Stri
         let resolved = if is_known { (found.zz / found.ff).sqrt() } else { dt };
         let enough = round_down(0.5 * resolved.min(dt));
         format!(
-            "sampled too coarsely: within {} {} changes otherwise than its rate says; record at least every {enough} (dt_out)",
-            four_digits(dt),
-            quantity.name()
+            "sampled too coarsely: within {} {} changes otherwise than its rate says; record at least every {} (dt_out)",
+            in_unit(dt, tracks.unit()),
+            quantity.name(),
+            in_unit(enough, tracks.unit())
         )
     })
 }

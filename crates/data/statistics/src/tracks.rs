@@ -61,6 +61,8 @@ pub enum Errors {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tracks {
     dt: f64,
+    /// The unit of times in sentences; empty in model units.
+    unit: String,
     names: Vec<String>,
     bodies: Vec<Track>,
     /// Blocks, where units are not bodies.
@@ -105,6 +107,17 @@ impl Tracks {
         Self { noise: Some(is_noisy), ..self }
     }
 
+    /// The same with this unit of times, which sentences have: `s`, `frames`.
+    #[must_use]
+    pub fn with_times_in(self, unit: &str) -> Self {
+        Self { unit: unit.to_owned(), ..self }
+    }
+
+    /// The unit of times.
+    pub(crate) fn unit(&self) -> &str {
+        &self.unit
+    }
+
     /// Returns `true` if it is known that there is noise.
     pub(crate) fn is_noisy(&self) -> bool {
         self.noise == Some(true)
@@ -117,7 +130,7 @@ impl Tracks {
 
     fn in_units(dt: f64, names: Vec<String>, bodies: Vec<Track>) -> Result<Self> {
         let (blocks, errors) = units(&bodies)?;
-        Ok(Self { dt, names, bodies, blocks, pieces: None, errors, noise: None })
+        Ok(Self { dt, unit: String::new(), names, bodies, blocks, pieces: None, errors, noise: None })
     }
 
     /// The same for few short records, such as an observed cell: with fewer than 8 bodies, windows are
@@ -144,7 +157,7 @@ impl Tracks {
             samples: bodies.iter().map(length).min().unwrap_or(0),
         };
         let blocks = Some(bodies.iter().flat_map(cut).collect());
-        Ok(Self { dt, names, bodies, blocks, pieces: Some(pieces), errors, noise: None })
+        Ok(Self { dt, unit: String::new(), names, bodies, blocks, pieces: Some(pieces), errors, noise: None })
     }
 
     /// Blocks of starting times of each body, where there are some.

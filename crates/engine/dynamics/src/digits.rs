@@ -15,12 +15,21 @@ const MOST: i32 = 15;
 /// A number with four digits at most, for sentences.
 #[must_use]
 pub fn four_digits(x: f64) -> String {
-    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    if rounded == 0.0 || (1e-4..1e6).contains(&rounded.abs()) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
+    at_most(x, 4)
+}
+
+/// A number that was given, or follows from given ones, without the digits of round-off: 0.475 for 0.47500000000000003.
+#[must_use]
+pub fn given(x: f64) -> String {
+    at_most(x, 10)
+}
+
+fn at_most(x: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{x:.*e}", digits - 1).parse().unwrap_or(x);
+    if rounded == 0.0 {
+        return "0".to_owned();
     }
+    if (1e-4..1e6).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
 /// A number with six decimals, or with six digits after the first one where those would show less than four of it.
@@ -126,6 +135,16 @@ mod tests {
         assert_eq!(value_and_error(-6541.3, 123.0, 1), ["-6500", "100"]);
         assert_eq!(value_and_error(0.783_512_345_6, 2.2e-9, 1), ["0.783512346", "2e-9"]);
         assert_eq!(value_and_error(3.0, f64::INFINITY, 1), ["3", "inf"]);
+    }
+
+    /// Values of evenly spaced axes carry the round-off of their computation.
+    #[test]
+    fn given_numbers_are_those_that_were_typed() {
+        let steps = (0..=8).map(|k| 0.1 + (0.6 - 0.1) * (f64::from(k) / 8.0));
+        let typed = ["0.1", "0.1625", "0.225", "0.2875", "0.35", "0.4125", "0.475", "0.5375", "0.6"];
+        assert_eq!(steps.map(given).collect::<Vec<_>>(), typed);
+        let said = [0.1 + 0.2, 0.475_000_000_000_000_03, -0.0, 1e7, 0.783_547_485, 2e-5].map(given);
+        assert_eq!(said, ["0.3", "0.475", "0", "1e7", "0.783547485", "2e-5"]);
     }
 
     #[test]

@@ -24,6 +24,7 @@ pub mod integration;
 mod interpolant;
 pub mod model;
 mod named;
+pub use named::in_words;
 pub mod noise;
 mod noise_steps;
 mod noisy_orbit;

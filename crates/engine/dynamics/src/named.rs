@@ -1,5 +1,16 @@
 //! Enums whose variants have names: declared once, with their documentation.
 
+/// Words that are no names of tables and options with spaces for hyphens.
+const WRITTEN: [&str; 7] =
+    ["quasi-periodic", "blow-up", "Hopf", "zero-Hopf", "double Hopf", "Bogdanov-Takens", "Bautin"];
+
+/// A name of tables and options as people write it: `pulsating straight` for `pulsating-straight`, `zero-Hopf` for `zero-hopf`.
+#[must_use]
+pub fn in_words(name: &str) -> String {
+    let known = WRITTEN.into_iter().find(|known| known.to_lowercase().replace(' ', "-") == name);
+    known.map_or_else(|| name.replace('-', " "), str::to_owned)
+}
+
 /// Declares an enum with a text for each variant, `Variant = "text"`, and the method that gives it: `enum Motion by name { ... }`.
 /// It has all variants in their order (`ALL`), is found by a text, and displayed as it.
 ///

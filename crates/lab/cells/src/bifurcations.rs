@@ -5,6 +5,7 @@ use crate::regime::natural_study;
 use motiform_diagrams::{SpecialEntry, follow};
 use motiform_dynamics::Watch;
 use motiform_dynamics::digits::with_error;
+use motiform_dynamics::in_words;
 use motiform_inference::{Fit, paper};
 use motiform_study::branches::{Along, BranchSettings};
 use motiform_study::{BranchPlan, Error};
@@ -40,7 +41,7 @@ impl NearBifurcation {
     pub fn sentence(&self) -> String {
         let Self { parameter, value, error, at, kind, breaks } = self;
         let breaks = breaks.as_ref().map_or_else(String::new, |what| format!(" (breaks {what})"));
-        let off = (at - value).abs();
+        let (off, kind) = ((at - value).abs(), in_words(kind));
         format!(
             "{parameter} = {}: {kind}{breaks} at {at:.4}, {off:.4} away ({:.1} standard errors)",
             with_error(*value, *error),

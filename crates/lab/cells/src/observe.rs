@@ -110,7 +110,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
         };
         return bare(format!("{count}; at least {LEAST_FRAMES} are needed to name a motion{others}"));
     }
-    let Some(measures) = Measures::of(&cell.path()) else {
+    let Some(measures) = Measures::of(&cell.path(), cell.units.times()) else {
         return bare(measures::without(&cell.path(), cell.modes.frames.len(), &cell.units.time));
     };
     let repeats = Repeats::of(&measures);
@@ -156,7 +156,7 @@ fn resampled(
 /// The verdict, if the path without the velocity that all cells have in common leads to the same one.
 fn beside_drift(cell: &CellTrack, motion: Motion) -> Motion {
     let Some(velocity) = cell.drift.filter(|_| motion.regime.is_some()) else { return motion };
-    let still = Measures::of(&cell.path_without(velocity));
+    let still = Measures::of(&cell.path_without(velocity), cell.units.times());
     let other = still.and_then(|m| decide(&m, cell, Repeats::of(&m).as_ref()).0);
     if other == motion.regime {
         return motion;

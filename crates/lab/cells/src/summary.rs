@@ -211,7 +211,7 @@ impl Fitted {
 
 fn counts(found: &FittedRegime) -> String {
     let counts: Vec<String> =
-        found.counts.iter().map(|(regime, count)| format!("{regime} {count}")).collect();
+        found.counts.iter().map(|(regime, count)| format!("{} {count}", regime.words())).collect();
     let driven = found.driven.as_ref().map_or_else(String::new, |driven| format!("; {}", driven.in_words()));
     format!("{}{driven}", counts.join(", "))
 }

@@ -39,6 +39,28 @@ impl Units {
         Self { length: Unit::typeset(&self.length), time: Unit::typeset(&self.time), ..self }
     }
 
+    /// The unit of times after a number: `s`, `frames`.
+    #[must_use]
+    pub fn times(&self) -> &str {
+        if self.time == "frame" { "frames" } else { &self.time }
+    }
+
+    /// The unit of lengths after a number: `um`, `pixels`.
+    #[must_use]
+    pub fn lengths(&self) -> &str {
+        if self.length == "pixel" { "pixels" } else { &self.length }
+    }
+
+    /// The unit of a dimension after a number.
+    #[must_use]
+    pub fn behind(&self, dimension: Dimension) -> String {
+        match dimension {
+            Dimension::TIME => self.times().to_owned(),
+            Dimension::LENGTH => self.lengths().to_owned(),
+            other => self.unit(other),
+        }
+    }
+
     /// The unit of a dimension; empty where there is none.
     #[must_use]
     pub fn unit(&self, dimension: Dimension) -> String {

@@ -3,7 +3,7 @@
 use crate::scan::NUMBERS;
 use motiform_analysis::regime::{Attractor, Course, Regime};
 use motiform_dynamics::steppers::Method;
-use motiform_figures::regime_mark;
+use motiform_figures::{REGIMES, RegimeMark, regime_mark};
 use motiform_models::{MODELS, ModelInfo};
 use motiform_study::presets::{PRESETS, find};
 use motiform_study::study::RunSettings;
@@ -21,7 +21,8 @@ pub fn registry() -> Result<Value, Error> {
         "presets": PRESETS.iter().map(|preset| self::preset(preset.model, preset.name)).collect::<Result<Vec<_>, _>>()?,
         "steppers": Method::names(),
         "run_settings": RunSettings::keys().iter().map(Key::name).collect::<Vec<_>>(),
-        "regimes": Regime::ALL.map(regime),
+        "regimes": Regime::ALL.map(|of| regime(of, regime_mark(of.name()))),
+        "turning": turning().collect::<Vec<_>>(),
         "attractors": Attractor::ALL.map(Attractor::name),
         "courses": Course::ALL.map(Course::name),
         "numbers": NUMBERS.map(|of| json!({ "name": of.name, "meaning": of.described(), "unit": of.dimension.words() })),
@@ -70,14 +71,36 @@ pub fn entry(info: &'static ModelInfo) -> Result<Value, Error> {
     }))
 }
 
-fn regime(regime: Regime) -> Value {
-    let mark = regime_mark(regime.name());
+/// The regimes by the sense in which their bodies turn, of models that tell left from right.
+fn turning() -> impl Iterator<Item = Value> {
+    let own =
+        |mark: &RegimeMark| Regime::ALL.into_iter().find(|of| regime_mark(of.name()).glyph == mark.glyph);
+    let turning = REGIMES.into_iter().filter(|mark| mark.hand.is_some());
+    turning.filter_map(move |mark| Some(regime(own(&mark)?, mark)))
+}
+
+fn regime(of: Regime, mark: RegimeMark) -> Value {
     json!({
-        "name": regime.name(),
-        "meaning": regime.meaning(),
+        "name": mark.name,
+        "words": mark.words,
+        "meaning": of.meaning(),
         "colour": mark.colour.to_string(),
         "area": mark.area.to_string(),
         "tint": mark.tint().to_string(),
         "glyph": format!("{:?}", mark.glyph),
+        "hand": mark.hand.map(|hand| format!("{hand:?}")),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn legends_have_the_words_of_sentences() {
+        for of in Regime::ALL {
+            assert_eq!(regime_mark(of.name()).words, of.words());
+        }
+        assert_eq!(turning().count(), REGIMES.len() - Regime::ALL.len());
+    }
 }

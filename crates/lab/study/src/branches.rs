@@ -147,6 +147,16 @@ impl Along {
     }
 }
 
+impl Along {
+    /// It for people: `kappa2 = 0.3 to 1.6`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let [from, to] = [self.from, self.to].map(motiform_dynamics::digits::given);
+        format!("{} = {from} to {to}", self.name)
+    }
+}
+
+/// As it is typed.
 impl std::fmt::Display for Along {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}={}:{}", self.name, self.from, self.to)

@@ -2,7 +2,8 @@
 
 #[allow(unused_imports, reason = "for links of the documentation")]
 use motiform_dynamics::Noise;
-use motiform_dynamics::StepControl;
+use motiform_dynamics::digits::given;
+use motiform_dynamics::{Model, StepControl};
 use serde::{Deserialize, Serialize};
 
 /// Additive white noise: `du = f(u) dt + eta dW` for every named coordinate u ([`Noise::on`]), beside that of the model itself.
@@ -16,22 +17,31 @@ pub struct NoiseSettings {
     pub step: f64,
 }
 
-/// `amplitude 0.001 on the shape and 0 on the velocity, steps of 0.0625`.
-impl std::fmt::Display for NoiseSettings {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { velocity, shape, step } = self;
-        if self.largest() == 0.0 {
-            return write!(f, "as in the equations, steps of {step}");
-        }
-        write!(f, "amplitude {shape:?} on the shape, {velocity:?} on the velocity, steps of {step}")
-    }
-}
-
 impl NoiseSettings {
     /// The larger amplitude.
     #[must_use]
     pub fn largest(&self) -> f64 {
         self.velocity.max(self.shape)
+    }
+
+    /// What it acts on in a body, with its amplitude there: the velocity where that is an unknown, the shape where there is one.
+    #[must_use]
+    pub fn parts(&self, body: &dyn Model) -> Vec<(&'static str, f64)> {
+        let velocities = body.velocities();
+        let shape = (body.dim() > velocities).then_some(("shape", self.shape));
+        shape.into_iter().chain((velocities > 0).then_some(("velocity", self.velocity))).collect()
+    }
+
+    /// `amplitude 0.001 on the shape, 0 on the velocity, steps of 0.0625`.
+    #[must_use]
+    pub fn words(&self, body: &dyn Model) -> String {
+        let steps = given(self.step);
+        if self.largest() == 0.0 {
+            return format!("as in the equations, steps of {steps}");
+        }
+        let on = |(what, amplitude): (&str, f64)| format!("{} on the {what}", given(amplitude));
+        let parts: Vec<String> = self.parts(body).into_iter().map(on).collect();
+        format!("amplitude {}, steps of {steps}", parts.join(", "))
     }
 }
 

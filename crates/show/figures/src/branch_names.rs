@@ -28,7 +28,7 @@ impl BranchDiagram {
         let mut curves: Vec<(&str, Vec<Point>)> = Vec::new();
         for part in &self.parts {
             let places: Vec<Point> = part.points.iter().filter_map(|point| plane.at(*point)).collect();
-            let name = regime_mark(&part.regime).name;
+            let name = regime_mark(&part.regime).words;
             curves.extend(clip(&places, plane.scale.frame).into_iter().map(|piece| (name, piece)));
         }
         let lines: Vec<Vec<Point>> = curves.iter().map(|curve| curve.1.clone()).collect();

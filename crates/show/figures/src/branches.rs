@@ -130,7 +130,7 @@ impl Marks for BranchDiagram {
         let has = |regime: &str| self.parts.iter().any(|part| regime_mark(&part.regime).name == regime);
         let regimes = REGIMES.iter().filter(|mark| has(mark.name));
         let mut entries: Vec<Entry> = regimes
-            .map(|mark| Entry::new(Mark::Line(paint(mark.colour, Stability::Stable)), mark.name))
+            .map(|mark| Entry::new(Mark::Line(paint(mark.colour, Stability::Stable)), mark.words))
             .collect();
         for stability in Stability::ALL.into_iter().rev() {
             if self.parts.iter().any(|part| part.stability == stability) {

@@ -1,6 +1,6 @@
 //! Curves of bifurcations in a plane of two parameters, over the regimes if these are known.
 
-use super::axes::{AxisKind, Scale};
+use super::axes::Scale;
 use super::callouts::{Around, Callouts, taken};
 use super::clip::clip;
 use super::error::{FigureError, Result, check_finite};
@@ -12,7 +12,7 @@ use super::legend::{Entry, Mark, packed};
 use super::line_style::LineStyle;
 use super::paint::Paint;
 use super::palette::{INK, WHITE};
-use super::phase_diagram::{MapInset, Names, PhaseDiagram};
+use super::phase_diagram::{MapInset, Names, PhaseDiagram, Spacing};
 use super::room::Room;
 use super::svg::Svg;
 
@@ -79,7 +79,8 @@ struct Words {
     ends: Vec<Point>,
 }
 
-/// Curves of bifurcations in a plane of two parameters, with their points of codimension two.
+/// Curves of bifurcations in a plane of two parameters, with their points of codimension two. Over regimes the axes are those of
+/// their diagram: logarithmic, or columns, where that has them.
 ///
 /// # Units   those of the labels; texts are markup (see [`super::Label`])
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -121,10 +122,40 @@ impl CurveMap {
         let paths = self.insets.iter().flat_map(|inset| &inset.paths).flatten().flatten();
         check_finite("coordinate of a path", paths.copied())?;
         check_finite("end of a range", self.x.into_iter().chain(self.y))?;
+        let even = [Spacing::Even, Spacing::Even];
+        let spacings = self.under.as_ref().map_or(even, PhaseDiagram::spacings);
+        self.placed(&spacings).drawn(&spacings, room)
+    }
+
+    /// The map with places along its axes instead of values; what has none is left out.
+    fn placed(&self, spacings: &[Spacing; 2]) -> Self {
+        let place = |[x, y]: Point| Some([spacings[0].place(x)?, spacings[1].place(y)?]);
+        let ends =
+            |range: [f64; 2], side: usize| range.map(|end| spacings[side].place(end).unwrap_or(f64::NAN));
+        let moved = |path: &Vec<Point>| path.iter().copied().filter_map(place).collect();
+        let curve = |curve: &MapCurve| MapCurve { points: moved(&curve.points), ..curve.clone() };
+        let mark = |mark: &MapMark| Some(MapMark { at: place(mark.at)?, ..mark.clone() });
+        let end = |end: &MapEnd| Some(MapEnd { at: place(end.at)?, ..end.clone() });
+        let inset = |inset: &MapInset| Some(MapInset { cell: place(inset.cell)?, ..inset.clone() });
+        Self {
+            x: ends(self.x, 0),
+            y: ends(self.y, 1),
+            under: self.under.as_ref().map(|under| under.placed(spacings).into_owned()),
+            insets: self.insets.iter().filter_map(inset).collect(),
+            curves: self.curves.iter().map(curve).collect(),
+            ends: self.ends.iter().filter_map(end).collect(),
+            marks: self.marks.iter().filter_map(mark).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// Draws it, at places along axes of these kinds.
+    fn drawn(&self, spacings: &[Spacing; 2], room: Room) -> Result<Svg> {
         let beneath = self.under.as_ref().map(PhaseDiagram::ranges).transpose()?;
         let range = |own: [f64; 2], side: usize| {
             let cells = beneath.iter().flat_map(|ranges| [ranges[side].min, ranges[side].max]);
-            Range::of(own.into_iter().chain(cells)).ok_or(FigureError::Empty { what: "range" })
+            Range::of(own.into_iter().filter(|end| end.is_finite()).chain(cells))
+                .ok_or(FigureError::Empty { what: "range" })
         };
         let (x, y) = (range(self.x, 0)?, range(self.y, 1)?);
         let frame = Rect { x: 0.0, y: 0.0, w: WIDTH, h: HEIGHT };
@@ -134,8 +165,8 @@ impl CurveMap {
             caption: &self.caption,
             legend: Vec::new(),
             scale,
-            kinds: [AxisKind::Linear; 2],
-            columns: [None; 2],
+            kinds: spacings.each_ref().map(Spacing::kind),
+            columns: spacings.each_ref().map(Spacing::listed),
             labels: [&self.x_label, &self.y_label],
             room,
             grid: self.under.is_none(),
@@ -268,5 +299,37 @@ impl MapCurve {
         let paint = self.style.paint();
         let paint = if self.bounds { paint } else { paint.opacity(PALE) };
         self.pieces(scale).iter().for_each(|piece| svg.polyline(piece, false, &paint));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::phase_diagram::Cell;
+    use super::*;
+
+    /// Over a diagram whose axes are logarithmic, or columns, curves and points lie at the values of the cells.
+    #[test]
+    fn axes_are_those_of_the_cells_beneath() {
+        let (x, y) = (vec![0.01, 0.1, 1.0, 10.0], vec![0.1, 0.4, 0.8]);
+        let places = x.iter().flat_map(|x| y.iter().map(|y| (*x, *y)));
+        let cells = places.map(|(x, y)| Cell { x, y, shares: vec![("straight".to_owned(), 1.0)] }).collect();
+        let style = CurveStyle::Line(LineStyle::Solid);
+        let map = CurveMap {
+            x: [0.0, 10.0],
+            y: [0.1, 0.8],
+            under: Some(PhaseDiagram { x, y, cells, ..PhaseDiagram::default() }),
+            curves: vec![MapCurve {
+                label: String::new(),
+                style,
+                bounds: true,
+                points: vec![[0.1, 0.4], [0.0, 0.4], [1.0, 0.6]],
+            }],
+            marks: vec![MapMark { label: "cusp".to_owned(), at: [10.0, 0.8] }],
+            ..CurveMap::default()
+        };
+        let found = map.placed(&map.under.as_ref().map(PhaseDiagram::spacings).expect("a diagram"));
+        assert_eq!(found.curves[0].points, [[-1.0, 1.0], [0.0, 1.5]]); // 0 has no logarithm
+        assert_eq!(found.marks[0].at, [1.0, 2.0]);
+        assert!(map.svg().is_ok() && map.csv().contains("0.1,0.4"));
     }
 }

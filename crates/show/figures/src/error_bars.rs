@@ -106,7 +106,7 @@ type Place = (Point, [Option<f64>; 2]);
 impl ErrorBarSeries {
     /// Marker and colour: those of its regime, or the next of the usual ones.
     fn look(&self, number: usize) -> (Glyph, Colour) {
-        let regime = REGIMES.into_iter().find(|mark| mark.name == self.label);
+        let regime = REGIMES.into_iter().find(|mark| mark.words == self.label);
         let next = number % CATEGORIES.len();
         regime.map_or((glyph::SERIES[next], CATEGORIES[next]), |mark| (mark.glyph, mark.colour))
     }

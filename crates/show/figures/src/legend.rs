@@ -5,7 +5,7 @@ use super::glyph::Glyph;
 use super::marks::RegimeMark;
 use super::paint::Paint;
 use super::palette::{BLACK, Colour, GREY, INK, WHITE};
-use super::stripes::{draw_bands, draw_hatch};
+use super::stripes::{draw_bands, draw_falling, draw_hatch};
 use super::svg::{Anchor, Svg};
 use super::text::Label;
 
@@ -239,6 +239,9 @@ fn draw_swatch(svg: &mut Svg, rect: Rect, mark: &RegimeMark, ground: Colour) {
     svg.rect(rect, &Paint::fill(ground));
     if mark.is_undetermined() {
         draw_hatch(svg, rect);
+    }
+    if mark.is_clockwise() {
+        draw_falling(svg, rect);
     }
     svg.rect(rect, &Paint::stroke(GREY, 0.8));
 }

@@ -3,7 +3,7 @@
 use super::clip::clip;
 use super::geometry::{Point, Rect};
 use super::paint::Paint;
-use super::palette::{Colour, GREY};
+use super::palette::{Colour, GREY, WHITE};
 use super::svg::Svg;
 
 /// Distance of hatch lines along x, in pixels.
@@ -37,15 +37,26 @@ fn band(from: f64, to: f64) -> [Point; 6] {
 
 /// Rising grey lines over a rectangle; those of neighbours continue each other.
 pub(super) fn draw_hatch(svg: &mut Svg, rect: Rect) {
-    let first = ((rect.x + rect.y) / HATCH).ceil() as i64;
-    let last = ((rect.right() + rect.bottom()) / HATCH).floor() as i64;
+    draw_lines(svg, rect, 1.0, &Paint::stroke(GREY, 0.8));
+}
+
+/// Falling white lines, as areas of clockwise motions have.
+pub(super) fn draw_falling(svg: &mut Svg, rect: Rect) {
+    draw_lines(svg, rect, -1.0, &Paint::stroke(WHITE, 1.0));
+}
+
+/// Lines on which `sign x + y` is a multiple of their distance.
+fn draw_lines(svg: &mut Svg, rect: Rect, sign: f64, paint: &Paint) {
+    let ends = [rect.x, rect.right()].map(|x| sign * x);
+    let first = ((ends[0].min(ends[1]) + rect.y) / HATCH).ceil() as i64;
+    let last = ((ends[0].max(ends[1]) + rect.bottom()) / HATCH).floor() as i64;
     let line = |k: i64| {
         let sum = k as f64 * HATCH;
-        let ends = [[rect.x, sum - rect.x], [rect.right(), sum - rect.right()]];
+        let ends = [rect.x, rect.right()].map(|x| [x, sum - sign * x]);
         clip(&ends, rect).into_iter().next().map(|piece| [piece[0], piece[1]])
     };
     let lines: Vec<_> = (first..=last).filter_map(line).collect();
-    svg.lines(&lines, &Paint::stroke(GREY, 0.8));
+    svg.lines(&lines, paint);
 }
 
 #[cfg(test)]

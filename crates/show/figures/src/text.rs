@@ -87,6 +87,54 @@ pub fn literal(text: &str) -> String {
     out
 }
 
+/// Letters of formulas in sentences of results.
+const SPELLED: [(&str, &str); 6] =
+    [("lambda", "*λ*"), ("tau", "*τ*"), ("gamma", "*γ*"), ("k", "*k*"), ("p", "*p*"), ("pc", "*p*_c")];
+
+/// A sentence of results, as terminals show it, as markup: `lambda_1 = 2.2e-4 +- 3.2e-4` has its letter, its powers of ten and its sign.
+#[must_use]
+pub fn sentence(text: &str) -> String {
+    let mut out = powers(&literal(text))
+        .replace("+-", "±")
+        .replace("lambda\\_", "lambda_")
+        .replace("\\^-gamma", "^{-gamma}");
+    for (word, letter) in SPELLED {
+        let mut rest = std::mem::take(&mut out);
+        while let Some(at) = rest.find(word) {
+            let after = rest.split_off(at + word.len());
+            let within = rest[..at].ends_with(|c: char| c.is_alphanumeric())
+                || after.starts_with(|c: char| c.is_alphanumeric());
+            if !within {
+                rest.replace_range(at.., letter);
+            }
+            out += &rest;
+            rest = after;
+        }
+        out += &rest;
+    }
+    out
+}
+
+/// The text with powers of ten where it has `1.5e-7`.
+pub(crate) fn powers(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut characters = text.char_indices().peekable();
+    while let Some((at, c)) = characters.next() {
+        let digit_before = text[..at].ends_with(|c: char| c.is_ascii_digit());
+        let power = &text[at + c.len_utf8()..];
+        let sign = usize::from(power.starts_with('-'));
+        let length = sign + power[sign..].bytes().take_while(u8::is_ascii_digit).count();
+        let ends = !power[length..].starts_with(|c: char| c.is_alphanumeric());
+        if c == 'e' && digit_before && length > sign && ends {
+            out += &format!("×10^{{{}}}", &power[..length]);
+            characters.nth(length - 1);
+        } else {
+            out.push(c);
+        }
+    }
+    out
+}
+
 impl Label {
     /// Reads the markup. Never fails: a mark without partner is dropped, control characters become spaces.
     #[must_use]
@@ -277,6 +325,15 @@ mod tests {
     fn hyphens_stay_where_they_are_no_minus() {
         assert_eq!(plain("1e-3, 7-12, 2026-11-21, a-b"), "1e-3, 7-12, 2026-11-21, a-b");
         assert_eq!(plain("10^{-3} (-2) -.5"), "10\u{2212}3 (\u{2212}2) \u{2212}.5");
+    }
+
+    #[test]
+    fn sentences_of_results_are_typeset() {
+        let text = "lambda_1 = -2.2e-4 +- 3.2e-4, tau = 1.075e5 (pc - p)^-gamma, a constant, file_1e.toml";
+        assert_eq!(
+            Label::parse(&sentence(text)).terminal(),
+            "λ_1 = −2.2×10^-4 ± 3.2×10^-4, τ = 1.075×10^5 (p_c - p)^{-γ}, a constant, file_1e.toml"
+        );
     }
 
     #[test]

@@ -19,7 +19,7 @@ use crate::task::{Task as _, thread::Thread};
 pub(crate) use map_state::FARTHEST;
 use map_state::MapState;
 use motiform_lab::draw::{exponents, phase_diagram, sheet};
-use motiform_lab::scan::{CellSummary, Row, rows_to_csv};
+use motiform_lab::scan::{CellSummary, Row, motion_mark, rows_to_csv};
 use motiform_study::{Shown, Study};
 use pool::{Cells, Pool};
 use serde_json::json;
@@ -119,7 +119,7 @@ impl Map {
             epoch,
             cell: [i, j],
             parameters,
-            regime: row.map(|row| row.regime.name()),
+            regime: row.map(|row| motion_mark(row.regime, row.course).name),
             why: row.map_or_else(String::new, |row| row.why.clone()),
             numbers: row.map(numbers),
         })

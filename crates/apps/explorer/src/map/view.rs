@@ -6,9 +6,9 @@ use crate::answers::Answers;
 use crate::frames::{self, Cell};
 use crate::protocol::{Dashes, Grid, Line, MapStart};
 use motiform_analysis::regime::Regime;
-use motiform_figures::{ExpectedLine, LineStyle};
+use motiform_figures::{ExpectedLine, LineStyle, REGIMES};
 use motiform_lab::draw::boundary_lines;
-use motiform_lab::scan::Row;
+use motiform_lab::scan::{Row, motion_mark};
 use motiform_study::ScanPlan;
 
 /// The work for a window.
@@ -101,16 +101,20 @@ fn number(columns: usize, cell: &Cell) -> usize {
 /// A cell with what its row says.
 pub(super) fn told(cell: Cell, row: &Row) -> Cell {
     let exponent = ["lambda_1", "lambda_1_error"].map(|name| row.number(name).unwrap_or(f64::NAN) as f32);
-    Cell { regime: code(row.regime), exponent, ..cell }
+    Cell { regime: code(row), exponent, ..cell }
 }
 
-/// Place in the list of regimes.
-fn code(regime: Regime) -> u8 {
-    Regime::ALL
-        .iter()
-        .position(|&known| known == regime)
-        .and_then(|k| u8::try_from(k).ok())
-        .unwrap_or(u8::MAX)
+/// Place in the list of regimes, and after these in that of regimes by sense.
+fn code(row: &Row) -> u8 {
+    let mark = motion_mark(row.regime, row.course);
+    let place = match mark.hand {
+        None => Regime::ALL.iter().position(|&known| known == row.regime),
+        Some(_) => {
+            let mut turning = REGIMES.iter().filter(|known| known.hand.is_some());
+            turning.position(|known| known.name == mark.name).map(|place| place + Regime::ALL.len())
+        }
+    };
+    place.and_then(|place| u8::try_from(place).ok()).unwrap_or(u8::MAX)
 }
 
 fn line(line: &ExpectedLine) -> Line {

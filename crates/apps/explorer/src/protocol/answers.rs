@@ -70,10 +70,13 @@ messages! {
         section: SectionKind,
     }
     #[derive(Serialize, Deserialize)]
-    Regime { name: String, colour: String, area: String, tint: String, glyph: String, meaning: String, }
-    /// Models, presets and regimes, in the order of lists and legends.
+    Regime {
+        name: String, words: String, colour: String, area: String, tint: String, glyph: String, hand: Option<String>,
+        meaning: String,
+    }
+    /// Models, presets and regimes, in the order of lists and legends; then the regimes by the sense in which bodies turn.
     #[derive(Serialize, Deserialize)]
-    Registry { models: Vec<Model>, presets: Vec<Preset>, regimes: Vec<Regime>, }
+    Registry { models: Vec<Model>, presets: Vec<Preset>, regimes: Vec<Regime>, turning: Vec<Regime>, }
     /// A tracked cell, and the model that was fitted to it: time from the first frame, x, y, R0, then the parts of z2, z3, .. of each
     /// frame.
     #[derive(Serialize)]

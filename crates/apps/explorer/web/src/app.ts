@@ -64,7 +64,7 @@ export class App implements Hearer {
   });
   private readonly swarm = new SwarmPanel({
     send: (wish) => this.send(wish),
-    regimes: () => this.session?.registry.regimes ?? [],
+    regimes: () => this.regimes(),
     noise: () => this.session?.noise ?? 0,
     changed: () => this.body?.touch(),
   });
@@ -98,7 +98,7 @@ export class App implements Hearer {
       this.undo.note("", place && { ...place, ...before });
       this.keeper.changed();
     });
-    const known = { regimes: () => this.session?.registry.regimes ?? [], model: () => this.known().model, parameters: () => this.session?.parameters ?? {} };
+    const known = { regimes: () => this.regimes(), model: () => this.known().model, parameters: () => this.session?.parameters ?? {} };
     this.branches = new BranchPanel({
       send,
       ...known,
@@ -138,6 +138,12 @@ export class App implements Hearer {
       this.openAddress(new URL(event.newURL).hash);
     });
     expose({ frames: () => this.frames, revision: () => this.revision(), frame: () => (this.later.due ? null : this.body.last()), beside: () => this.compare.shown(), map: this.map, branches: this.branches, body: this.body });
+  }
+
+  /** All regimes, those by sense last, as the bytes of cells count them. */
+  private regimes(): Regime[] {
+    const { regimes = [], turning = [] } = this.session?.registry ?? {};
+    return [...regimes, ...turning];
   }
 
   private known(): Session {
@@ -294,7 +300,7 @@ export class App implements Hearer {
   }
 
   named({ regime, why }: Named): void {
-    this.name(this.known().registry.regimes.find((one) => one.name === regime) ?? null, typeset(why));
+    this.name(this.regimes().find((one) => one.name === regime) ?? null, typeset(why));
   }
 
   private name(regime: Regime | null, why: string): void {

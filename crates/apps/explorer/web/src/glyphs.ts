@@ -41,6 +41,14 @@ const SHAPES: Record<string, Shape> = {
 
 const shapeOf = (regime: Regime): Shape => SHAPES[regime.glyph] ?? SHAPES.Question;
 
+/** Size of a shape within the arrow of its sense. */
+const WITHIN = 0.62;
+
+/** The arrow about the shape of a motion by its sense: anticlockwise, its mirror image clockwise; y points down. */
+const ARROW: Shape = { path: "M.94 .94A1.33 1.33 0 1 0 -1.25 .45M-1.85 .22L-1.25 .62L-.72 .1", filled: false };
+
+const mirrored = (regime: Regime): number => (regime.hand === "Clockwise" ? -1 : 1);
+
 /** Black or white, whichever stands out from the colour (relative luminance, WCAG 2). */
 export function inkOn(colour: string): string {
   const channel = (at: number): number => {
@@ -57,9 +65,13 @@ export function swatch(regime: Regime | null, size: number): SVGSVGElement {
   const area = regime?.area ?? "none";
   svg.append(element("rect", { x: "-1.9", y: "-1.9", width: "3.8", height: "3.8", rx: "0.7", fill: area, class: "swatch-edge" }));
   if (regime) {
-    const { path, filled } = shapeOf(regime);
     const ink = inkOn(area);
-    svg.append(element("path", { d: path, transform: "scale(.82)", fill: filled ? ink : "none", stroke: filled ? "none" : ink, "stroke-width": "0.5", "stroke-linecap": "round" }));
+    const draw = (shape: Shape, x: number, y: number): void =>
+      svg.append(element("path", { d: shape.path, transform: `scale(${x} ${y})`, fill: shape.filled ? ink : "none", stroke: shape.filled ? "none" : ink, "stroke-width": "0.5", "stroke-linecap": "round" }));
+    if (regime.hand === "Clockwise") svg.append(element("path", { d: "M-1.9 -.4L.4 1.9M-.4 -1.9L1.9 .4", stroke: "#ffffff", "stroke-width": "0.35" }));
+    const size = regime.hand ? 0.82 * WITHIN : 0.82;
+    draw(shapeOf(regime), size, size);
+    if (regime.hand) draw(ARROW, 0.82 * mirrored(regime), 0.82);
   }
   return svg as SVGSVGElement;
 }
@@ -96,22 +108,22 @@ export function drawMarker(g: CanvasRenderingContext2D, glyph: string, [x, y]: [
   g.restore();
 }
 
-/** Draws the shape upon an area of the regime's colour. */
+/** Draws the shape upon an area of the regime's colour, within an arrow where the motion has a sense. */
 export function drawGlyph(g: CanvasRenderingContext2D, regime: Regime, x: number, y: number, radius: number): void {
-  const { path, filled } = shapeOf(regime);
-  const ink = inkOn(regime.area);
   g.save();
   g.translate(x, y);
-  g.scale(radius, radius);
-  const shape = new Path2D(path);
   g.globalAlpha = 0.8;
-  if (filled) {
-    g.fillStyle = ink;
-    g.fill(shape);
-  } else {
-    g.strokeStyle = ink;
+  g.fillStyle = g.strokeStyle = inkOn(regime.area);
+  const draw = ({ path, filled }: Shape, [across, upwards]: [number, number]): void => {
+    g.save();
+    g.scale(across * radius, upwards * radius);
     g.lineWidth = 0.45;
-    g.stroke(shape);
-  }
+    const shape = new Path2D(path);
+    if (filled) g.fill(shape);
+    else g.stroke(shape);
+    g.restore();
+  };
+  draw(shapeOf(regime), regime.hand ? [WITHIN, WITHIN] : [1, 1]);
+  if (regime.hand) draw(ARROW, [mirrored(regime), 1]);
   g.restore();
 }

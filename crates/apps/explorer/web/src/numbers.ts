@@ -60,6 +60,17 @@ export function plain(value: number, digits = 6): string {
   return String(Number(value.toPrecision(digits)));
 }
 
+/** A number that was given, or follows from given ones, without the digits of round-off: 0.475 for 0.47500000000000003. */
+export function given(value: number): string {
+  const short = Number(value.toPrecision(12));
+  return String(Math.abs(short - value) <= 4 * Number.EPSILON * Math.abs(value) ? short : value);
+}
+
+/** A name of tables and options as people write it: `pulsating straight` for `pulsating-straight`. */
+export function inWords(name: string): string {
+  return ["quasi-periodic", "blow-up"].some((known) => name.startsWith(known)) ? name : name.replaceAll("-", " ");
+}
+
 /** A fixed number of decimals, a true minus, no minus zero. */
 export function fixed(value: number, decimals: number): string {
   const text = value.toFixed(decimals);

@@ -3,7 +3,7 @@
 import { byId, make } from "./dom";
 import { equations } from "./equations";
 import { readNumber } from "./fields";
-import { decimalsOf, fitting, roundStep } from "./numbers";
+import { decimalsOf, fitting, given, roundStep } from "./numbers";
 import type { Model, Parameter, Preset, Values } from "./protocol";
 import { spoken, symbol, symbolWidth } from "./symbols";
 
@@ -90,7 +90,7 @@ export class ParameterPanel {
   /** As much of a value as its field holds; all of it where one points. */
   private write(number: HTMLInputElement, value: number): void {
     number.value = fitting(value, FIELD);
-    number.title = String(value);
+    number.title = given(value);
   }
 
   /** Marks the axes of the map. */
@@ -141,14 +141,14 @@ export class ParameterPanel {
     };
     slider.addEventListener("input", () => choose(snapped(slider.valueAsNumber, step)));
     const typed = (): void => {
-      if ([fitting(this.values[name], FIELD), String(this.values[name])].includes(number.value)) return;
+      if ([fitting(this.values[name], FIELD), given(this.values[name])].includes(number.value)) return;
       const read = readNumber(number.value);
       if ("value" in read) choose(read.value);
       else Object.assign(refusal, { hidden: false, textContent: read.why });
     };
     number.addEventListener("change", typed);
     number.addEventListener("keydown", (event) => event.key === "Enter" && typed());
-    number.addEventListener("focus", () => (number.value = String(this.values[name])));
+    number.addEventListener("focus", () => (number.value = given(this.values[name])));
     number.addEventListener("blur", () => this.write(number, this.values[name]));
     reset.addEventListener("click", () => choose(this.base[name]));
     return { parameter, element, slider, number, reset, mark, refusal };

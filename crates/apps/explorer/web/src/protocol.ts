@@ -76,18 +76,21 @@ export interface Preset {
 
 export interface Regime {
   name: string;
+  words: string;
   colour: string;
   area: string;
   tint: string;
   glyph: string;
+  hand: string | null;
   meaning: string;
 }
 
-/** Models, presets and regimes, in the order of lists and legends. */
+/** Models, presets and regimes, in the order of lists and legends; then the regimes by the sense in which bodies turn. */
 export interface Registry {
   models: Model[];
   presets: Preset[];
   regimes: Regime[];
+  turning: Regime[];
 }
 
 /** A tracked cell, and the model that was fitted to it: time from the first frame, x, y, R0, then the parts of z2, z3, .. of each frame. */

@@ -108,7 +108,7 @@ export class SwarmPanel {
     if (this.view.named) {
       const shares = this.view.shares();
       const left = this.view.count - shares.reduce((sum, [, count]) => sum + count, 0);
-      const parts = shares.map(([regime, count]) => make("span", {}, swatch(regime, 13), `${count} ${regime.name}`));
+      const parts = shares.map(([regime, count]) => make("span", {}, swatch(regime, 13), `${count} ${regime.words}`));
       return note.replaceChildren(...parts, ...(left ? [make("span", {}, `${left} not classified yet`)] : []));
     }
     if (this.start === "noises" && this.host.noise() === 0) return note.replaceChildren("without noise all bodies are the same: raise the noise");

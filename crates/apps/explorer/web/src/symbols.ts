@@ -76,7 +76,9 @@ export function symbol(markup: string): HTMLElement {
 
 /** A parameter in a list: as short as its symbol; its name and meaning are told where one points. */
 export function symbolOption({ name, symbol: markup, meaning }: Parameter): HTMLOptionElement {
-  return make("option", { value: name, title: `${name}: ${meaning}` }, spoken(markup));
+  const lowered = (text: string): string => text.replace(/\d/g, (digit) => String.fromCharCode(0x2080 + Number(digit)));
+  const text = parse(markup).map((run) => (run.script === "sub" ? lowered(run.text) : run.text)).join("");
+  return make("option", { value: name, title: `${name}: ${meaning}` }, text);
 }
 
 function wrapped(tag: string, child: Node): HTMLElement {

@@ -122,7 +122,7 @@ export class Twin implements Beside {
       const parameter = model.parameters.find((one) => one.name === name);
       return parameter ? [make("span", {}, symbol(parameter.symbol), ` = ${pretty(values[name])}`)] : [];
     });
-    byId("twin-label").replaceChildren(...(this.regime ? [swatch(this.regime, 14)] : []), make("b", {}, this.regime?.name ?? "classifying\u2026"), ...shown);
+    byId("twin-label").replaceChildren(...(this.regime ? [swatch(this.regime, 14)] : []), make("b", {}, this.regime?.words ?? "classifying\u2026"), ...shown);
   }
 
   private take(frame: Frame): void {

@@ -7,7 +7,7 @@ import { transformWithOxc } from "vite";
 
 const path = new URL("../src/numbers.ts", import.meta.url).pathname;
 const { code } = await transformWithOxc(readFileSync(path, "utf8"), path);
-const { fitting, pretty, scaledLabel, ticks, withError } = await import(`data:text/javascript;base64,${Buffer.from(code).toString("base64")}`);
+const { fitting, given, inWords, pretty, scaledLabel, ticks, withError } = await import(`data:text/javascript;base64,${Buffer.from(code).toString("base64")}`);
 
 test("a value has the digits of its error", () => {
   const cases = [
@@ -37,4 +37,13 @@ test("a field shows as many digits as it holds", () => {
   const cases = [[-0.39829465712907214, "-0.398295"], [0.0000123456789, "1.2346e-5"], [0.9, "0.9"], [-123456789.5, "-1.2346e8"], [0, "0"]];
   for (const [value, text] of cases) assert.equal(fitting(value, 9), text);
   assert.equal(pretty(-1.5e-9, 2), "\u22121.5\u00b710\u207b\u2079");
+});
+
+test("given numbers are those that were typed, names are words", () => {
+  const values = Array.from({ length: 9 }, (_, k) => 0.1 + (0.6 - 0.1) * (k / 8));
+  assert.deepEqual(values.map(given), ["0.1", "0.1625", "0.225", "0.2875", "0.35", "0.4125", "0.475", "0.5375", "0.6"]);
+  assert.equal(given(0.47500000000000003), "0.475");
+  assert.equal(given(0.4982946571290721), "0.4982946571290721", "all digits of what is no round number");
+  const names = ["pulsating-straight", "quasi-periodic", "quasi-periodic, clockwise", "blow-up"];
+  assert.deepEqual(names.map(inWords), ["pulsating straight", "quasi-periodic", "quasi-periodic, clockwise", "blow-up"]);
 });

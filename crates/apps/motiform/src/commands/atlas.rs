@@ -101,14 +101,15 @@ impl Display for Surveyed<'_> {
         let AtlasFolder { plan, grid, lines } = self.atlas;
         writeln!(f, "{}", plain(&plan.title))?;
         for side in plan.plane() {
-            writeln!(f, "axis       {side}")?;
+            writeln!(f, "axis       {}", side.words())?;
         }
         let samples = plan.computation.scan.samples;
         writeln!(
             f,
-            "cells      {} computed of {}, {samples} initial states each",
+            "cells      {} computed of {}, {} each",
             grid.computed(),
-            grid.places.len()
+            grid.places.len(),
+            counted(samples, "initial state")
         )?;
         let all = regions(plan, grid);
         let (listed, small): (Vec<_>, Vec<_>) = all.iter().partition(|region| region.cells >= LISTED);
@@ -149,7 +150,7 @@ impl Display for Surveyed<'_> {
 const LISTED: usize = 3;
 
 fn names(motions: &[Regime]) -> String {
-    motions.iter().map(|motion| motion.name()).collect::<Vec<_>>().join(" + ")
+    motions.iter().map(|motion| motion.words()).collect::<Vec<_>>().join(" + ")
 }
 
 fn boundary(f: &mut Formatter<'_>, found: &Boundary) -> std::fmt::Result {

@@ -3,7 +3,8 @@
 use crate::args::CheckOptions;
 use crate::commands::remarks;
 use crate::output::{End, plain, print};
-use motiform_study::{RunPlan, ScanPlan, Study, Ties, study};
+use motiform_dynamics::digits::given;
+use motiform_study::{RunPlan, ScanPlan, Study, Ties, counted, study};
 use std::fmt::Write;
 
 pub(crate) fn run(options: &CheckOptions) -> anyhow::Result<End> {
@@ -37,19 +38,21 @@ pub(crate) fn summary(plan: &RunPlan, ties: &Ties) -> anyhow::Result<String> {
         .0
         .iter()
         .filter(|entry| entry.1 != 0.0)
-        .map(|(name, value)| format!("{name}={value}"))
+        .map(|(name, value)| format!("{name}={}", given(*value)))
         .collect();
     writeln!(text, "parameters  {} (others 0)", set.join(" "))?;
     if !ties.is_empty() {
         let all: Vec<String> = ties.iter().map(|(name, formula)| format!("{name} = {formula}")).collect();
         writeln!(text, "ties        {}", all.join(", "))?;
     }
-    let start: Vec<String> = c.initial.0.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let start: Vec<String> =
+        c.initial.0.iter().map(|(name, value)| format!("{name}={}", given(*value))).collect();
     writeln!(text, "start       {}", start.join(" "))?;
-    writeln!(text, "time        transient {}, recorded {}, every {}", c.transient, c.t_end, c.dt_out)?;
+    let [transient, end, every] = [c.transient, c.t_end, c.dt_out].map(given);
+    writeln!(text, "time        transient {transient}, recorded {end}, every {every}")?;
     writeln!(text, "stepper     {}, {}, at most {} steps", c.stepper, c.control, c.max_steps)?;
     if let Some(noise) = &c.noise {
-        writeln!(text, "noise       {noise}, seed {}", c.seed)?;
+        writeln!(text, "noise       {}, seed {}", noise.words(plan.body()?.as_ref()), c.seed)?;
     }
     write!(text, "plan        {}", plan.hash())?;
     Ok(text)
@@ -58,12 +61,12 @@ pub(crate) fn summary(plan: &RunPlan, ties: &Ties) -> anyhow::Result<String> {
 fn of_scan(plan: &ScanPlan) -> String {
     let c = &plan.computation;
     let axes: Vec<String> = c.axes.iter().map(ToString::to_string).collect();
-    let (cells, parts) = (plan.cells(), plan.parts());
     format!(
-        "scan        {}: {cells} cells with {} initial state{} each, in {parts} parts\nscan plan   {}",
+        "scan        {}: {} with {} each, in {}\nscan plan   {}",
         axes.join(" x "),
-        c.samples,
-        if c.samples == 1 { "" } else { "s" },
+        counted(plan.cells(), "cell"),
+        counted(c.samples, "initial state"),
+        counted(plan.parts(), "part"),
         plan.hash()
     )
 }

@@ -11,6 +11,7 @@ use motiform_diagrams::{
     BranchEnd, BranchFolder, Coefficient, Followed, NamedPart, SpecialEntry, follow_kept, neutral_stretches,
     nine, stated, stretches, summary,
 };
+use motiform_dynamics::in_words;
 use motiform_lab::draw::{self, Figures, Picture};
 use motiform_store::{Folder, Journal, Opening};
 use motiform_study::branches::BranchSettings;
@@ -173,7 +174,7 @@ impl Display for Branched<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let BranchFolder { plan, found } = self.folder;
         let along = &plan.computation.along;
-        write!(f, "{}, {} = {}..{}", plain(&plan.title()), along.name, along.from, along.to)?;
+        write!(f, "{}, {}", plain(&plan.title()), along.words())?;
         for (number, followed) in found.branches.iter().enumerate() {
             branch(f, self.folder, (number, followed), self.units)?;
         }
@@ -205,7 +206,7 @@ fn branch(
     write!(f, "\nbranch {number:<3} {names}, {}", counted(followed.samples().count(), "point"))?;
     for pair in parts.windows(2) {
         let [last, first] = [pair[0].to, pair[1].from].map(nine);
-        write!(f, "\n           becomes {} between {last} and {first}", pair[1].motion.name())?;
+        write!(f, "\n           becomes {} between {last} and {first}", pair[1].motion.words())?;
     }
     if followed.family() > 0 {
         let dimensions = counted(followed.family(), "dimension");
@@ -240,8 +241,8 @@ fn branch(
 /// The name of a part of a branch, with its course and its form.
 fn name(part: &NamedPart) -> String {
     let course = part.course.map_or(String::new(), |course| format!(" {}", course.words()));
-    let form = part.form.map_or(String::new(), |form| format!(" ({})", form.name()));
-    format!("{}{course}{form}", part.motion.name())
+    let form = part.form.map_or(String::new(), |form| format!(" ({})", in_words(form.name())));
+    format!("{}{course}{form}", part.motion.words())
 }
 
 /// The end of a stable range, with its error where that is an extrapolated end of the branch.
@@ -278,7 +279,7 @@ fn line(special: &SpecialEntry, units: &Shown) -> String {
         Some(error) if error > SHOWN => stated(special.parameter, error),
         _ => nine(special.parameter),
     };
-    let mut line = format!("{:<17} {value}", special.kind);
+    let mut line = format!("{:<17} {value}", in_words(special.kind));
     let unit = if units.is_physical() {
         format!(" {}", plain(&units.name(PERIOD.dimension, "")))
     } else {

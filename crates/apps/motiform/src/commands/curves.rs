@@ -9,9 +9,10 @@ use motiform_diagrams::curves::{
     CurveFolder, FollowedCurve, codimension_2, curve_ends, curve_summary, follow_curves_kept, not_found,
 };
 use motiform_diagrams::draw::{check_scan, curve_figures};
+use motiform_dynamics::in_words;
 use motiform_lab::scan::ScanFolder;
-use motiform_study::CurvePlan;
 use motiform_study::curves::CurveKind;
+use motiform_study::{CurvePlan, counted};
 use serde::{Serialize, Serializer};
 use std::fmt::{Display, Formatter};
 
@@ -68,9 +69,10 @@ impl Display for Followed<'_> {
         let CurveFolder { plan, found } = self.folder;
         f.write_str(&plain(&plan.title()))?;
         for side in &plan.computation.plane {
-            write!(f, ", {side}")?;
+            write!(f, ", {}", side.words())?;
         }
-        write!(f, "\n{} branches along {}", found.branches.branches.len(), plan.computation.branches.along)?;
+        let branches = counted(found.branches.branches.len(), "branch");
+        write!(f, "\n{branches} along {}", plan.computation.branches.along.words())?;
         for (number, followed) in found.curves.iter().enumerate() {
             curve(f, self.folder, (number, followed))?;
         }
@@ -85,16 +87,16 @@ fn curve(
 ) -> std::fmt::Result {
     let [across, upwards] = plan.computation.plane.each_ref().map(|side| side.name.as_str());
     let [x, y] = found.start(plan, followed).unwrap_or([f64::NAN; 2]);
-    let (kind, points) = (followed.kind.name(), followed.samples().count());
+    let (kind, points) = (in_words(followed.kind.name()), followed.samples().count());
     write!(f, "\ncurve {number:<4} {kind} through {across} = {x:.9}, {upwards} = {y:.9}, {points} points")?;
     if let Some(why) = &followed.refused {
         write!(f, "\n           not followed: {why}")?;
     }
     for (kind, sample) in codimension_2(followed) {
         let [x, y] = sample.parameters;
-        write!(f, "\n           {:<17} {across} = {x:.9}  {upwards} = {y:.9}", kind.name())?;
+        write!(f, "\n           {:<17} {across} = {x:.9}  {upwards} = {y:.9}", in_words(kind.name()))?;
     }
-    let missing: Vec<&str> = not_found(followed).iter().map(|kind| kind.name()).collect();
+    let missing: Vec<String> = not_found(followed).iter().map(|kind| in_words(kind.name())).collect();
     if !missing.is_empty() {
         write!(f, "\n           none found of {}", missing.join(", "))?;
     }

@@ -66,7 +66,7 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     if !drawn {
         return Ok(End::Interrupted);
     }
-    Ok(end(fits.iter().map(|fit| fit.fitted.as_ref().map_or("undecided", |fitted| regime(fitted)))))
+    Ok(end(fits.iter().map(|fit| fit.fitted.as_ref().map_or("undecided", |fitted| fitted.motion_name()))))
 }
 
 /// The end of a command that found motions of these names: not as asked for, where one is undecided.
@@ -153,10 +153,6 @@ impl Display for Fits<'_> {
     }
 }
 
-fn regime(fitted: &Fitted) -> &'static str {
-    fitted.motion_name()
-}
-
 fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> {
     let fitted = match &fit.fitted {
         Ok(fitted) => fitted,
@@ -165,7 +161,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
             return Ok(format!("cell {:<9} undecided\nbecause        {why}\n{frames}", fit.name));
         }
     };
-    let mut text = format!("cell {:<9} {}\n", fit.name, regime(fitted));
+    let mut text = format!("cell {:<9} {}\n", fit.name, fitted.motion_words());
     writeln!(text, "because        {}", fitted.why())?;
     text += &quality(sample.cells.iter().find(|cell| cell.name == fit.name), fit.frames)?;
     let handedness = &fitted.handedness;

@@ -6,6 +6,7 @@ use crate::commands::subject;
 use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_analysis::LifeLaws;
+use motiform_dynamics::digits::given;
 use motiform_lab::draw::lifetimes::draw_lifetimes;
 use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::{Axis, ScanComputation};
@@ -168,7 +169,7 @@ impl<'a> Lived<'a> {
                 plain(&units.words(found.until, LIFE.dimension, "")),
                 format!(", times in {}", plain(&units.name(LIFE.dimension, ""))),
             ),
-            false => (found.until.to_string(), String::new()),
+            false => (given(found.until), String::new()),
         };
         let starts = format!("{} each, {}, seed {}", counted(c.samples, "start"), c.random.words(), c.seed);
         let asked = if c.budget > 0.0 && c.budget < found.until {
@@ -208,10 +209,10 @@ fn row(at: &LifeAt, factor: f64) -> String {
         None if life.lower > 0.0 => format!("above {:.3e}", factor * life.lower),
         None => "-".to_owned(),
     };
-    let value = format!("{:.9e}", at.value).parse().unwrap_or(at.value); // without the last digits of an evenly spaced axis
     let (delay, watched) = (factor * at.delay, number(Some(factor * life.watched)));
     format!(
-        "{value:>12} {:>10} {:>10} {:>10} {delay:>10.0} {:>10} {watched:>10} {:>10}  {limits}",
+        "{:>12} {:>10} {:>10} {:>10} {delay:>10.0} {:>10} {watched:>10} {:>10}  {limits}",
+        given(at.value),
         at.blew_up,
         at.captured,
         at.lasting,

@@ -4,6 +4,7 @@ use crate::args::ModelsOptions;
 use crate::commands::check::summary;
 use crate::commands::subject::find_preset;
 use crate::output::{End, print};
+use motiform_dynamics::digits::given;
 use motiform_dynamics::model::Coordinate;
 use motiform_models::amplitudes::{Definition, Equations, NAME, tensor_form, terms};
 use motiform_models::{MODELS, ModelInfo};
@@ -124,10 +125,14 @@ fn understood(text: &mut String, definition: &Definition) -> anyhow::Result<()> 
     writeln!(text)?;
     let Some(form) = tensor_form(&equations, &values) else { return Ok(()) };
     writeln!(text, "In tensor form, (V), (S), (U) of `motiform models tensor`")?;
-    let named = form.parameters.iter().map(|(name, value)| format!("{name} = {value}"));
+    let named = form.parameters.iter().map(|(name, value)| format!("{name} = {}", given(*value)));
     writeln!(text, "  {}", named.collect::<Vec<_>>().join(", "))?;
     if form.saturation != 1.0 {
-        writeln!(text, "  the term -v^2 v has the factor {}; it has 1 in the tensor model", form.saturation)?;
+        writeln!(
+            text,
+            "  the term -v^2 v has the factor {}; it has 1 in the tensor model",
+            given(form.saturation)
+        )?;
     }
     for (term, value) in &form.others {
         writeln!(text, "  not in the tensor model: {term}, with {}", complex(*value))?;
@@ -140,9 +145,9 @@ fn understood(text: &mut String, definition: &Definition) -> anyhow::Result<()> 
 fn complex([re, im]: [f64; 2]) -> String {
     match (re, im) {
         (re, im) if !re.is_finite() || !im.is_finite() => "no finite value at these parameters".to_owned(),
-        (re, 0.0) => re.to_string(),
-        (0.0, im) => format!("{im} i"),
-        (re, im) => format!("{re} {} {} i", if im < 0.0 { '-' } else { '+' }, im.abs()),
+        (re, 0.0) => given(re),
+        (0.0, im) => format!("{} i", given(im)),
+        (re, im) => format!("{} {} {} i", given(re), if im < 0.0 { '-' } else { '+' }, given(im.abs())),
     }
 }
 

@@ -5,6 +5,7 @@ use crate::commands::pages::draw;
 use crate::commands::population::observed;
 use crate::output::{End, say, warn};
 use crate::progress::Progress;
+use motiform_analysis::regime::Regime;
 use motiform_cells::{
     CellTrack, Observation, OutlineFile, Sample, Units, observations_json, observe, observed_population,
     population_numbers, write_observations,
@@ -111,7 +112,7 @@ fn sentences(
     cell: Option<&CellTrack>,
     units: &Units,
 ) -> Result<String, std::fmt::Error> {
-    let name = found.motion.regime.map_or("undecided", |regime| regime.name());
+    let name = found.motion.regime.map_or_else(|| "undecided".to_owned(), Regime::words);
     let mut text = format!("cell {:<9} {name}\nbecause        {}\n", found.cell, found.motion.why);
     if let Some(confidence) = found.motion.confidence {
         writeln!(text, "confidence     {:.0} % of resampled records", 100.0 * confidence)?;

@@ -3,7 +3,9 @@
 use motiform_cells::{
     FittedPopulation, NameShare, ObservedPopulation, OverCells, PopulationNumbers, Units, Withheld,
 };
+use motiform_dynamics::in_words;
 use motiform_statistics::four_digits;
+use motiform_study::counted;
 use std::fmt::{Result, Write};
 
 /// Shares of names and numbers of observed cells.
@@ -12,7 +14,7 @@ pub(crate) fn observed(
     numbers: &PopulationNumbers,
     units: &Units,
 ) -> std::result::Result<String, std::fmt::Error> {
-    let mut text = format!("population     {}\n", cells(population.cells));
+    let mut text = format!("population     {}\n", counted(population.cells, "cell"));
     shares(&mut text, &population.regimes)?;
     for number in &numbers.numbers {
         let quantity = number.quantity;
@@ -29,19 +31,19 @@ pub(crate) fn fitted(
     population: &FittedPopulation,
     units: &Units,
 ) -> std::result::Result<String, std::fmt::Error> {
-    let mut text = format!("population     {}\n", cells(population.cells));
+    let mut text = format!("population     {}\n", counted(population.cells, "cell"));
     shares(&mut text, &population.regimes)?;
     if population.fitted < 2 {
         text += "               no means of coefficients: they need two cells of one motion whose fits with all terms \
          converged with bounded coefficients\n";
         return Ok(text);
     }
-    let law = population.law.unwrap_or_default();
+    let law = in_words(population.law.unwrap_or_default());
     writeln!(
         text,
         "               coefficients {}, over {} ({law}):",
         population.of_which_fits(),
-        cells(population.fitted)
+        counted(population.fitted, "cell")
     )?;
     for coefficient in &population.coefficients {
         line(&mut text, &coefficient.name(), &coefficient.over, "")?;
@@ -59,8 +61,13 @@ pub(crate) fn fitted(
 
 fn shares(text: &mut String, names: &[NameShare]) -> Result {
     for NameShare { name, share } in names {
+        let name = in_words(name);
         let [value, low, high] = [share.value, share.lower, share.upper].map(|part| 100.0 * part);
-        writeln!(text, "  {name:<16} {value:>5.1} % ({low:.1} to {high:.1}), {}", cells(share.count))?;
+        writeln!(
+            text,
+            "  {name:<16} {value:>5.1} % ({low:.1} to {high:.1}), {}",
+            counted(share.count, "cell")
+        )?;
     }
     Ok(())
 }
@@ -75,11 +82,6 @@ fn line(text: &mut String, name: &str, over: &OverCells, unit: &str) -> Result {
         text,
         "{}",
         format!("  {name:<16} mean {mean}, median {median} {unit}").trim_end().to_owned()
-            + &format!(" ({})", cells(over.cells))
+            + &format!(" ({})", counted(over.cells, "cell"))
     )
-}
-
-/// `1 cell`, `2 cells`.
-fn cells(count: usize) -> String {
-    format!("{count} cell{}", if count == 1 { "" } else { "s" })
 }

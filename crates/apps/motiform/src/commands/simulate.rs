@@ -289,11 +289,11 @@ impl Display for Simulated<'_> {
         let (steps, rejected) = (manifest.steps, manifest.rejected_steps);
         let c = &plan.computation;
         write!(f, "\nsteps     {steps} accepted, {rejected} rejected ({}, {})", c.stepper, c.control)?;
-        if let Some(noise) = &c.noise {
-            write!(f, "\nnoise     {noise}, seed {}", c.seed)?;
+        if let (Some(noise), Ok(body)) = (&c.noise, plan.body()) {
+            write!(f, "\nnoise     {}, seed {}", noise.words(body.as_ref()), c.seed)?;
         }
         if let Some(verdict) = self.verdict {
-            write!(f, "\nmotion    at the end {}: {}", verdict.regime, verdict.why)?;
+            write!(f, "\nmotion    at the end {}: {}", verdict.regime.words(), verdict.why)?;
         }
         let state: Vec<String> = manifest
             .state

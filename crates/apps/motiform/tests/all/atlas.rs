@@ -22,3 +22,17 @@ fn both_kinds_of_branches_leave_a_shape_with_several_axes() {
         );
     }
 }
+
+/// A plane with one motion: no boundary, no line, no curve. The page says so, and has no empty table, field or count of nothing.
+#[test]
+fn a_plane_with_one_motion_has_a_page_without_blanks() {
+    let folder = Folder::new();
+    folder.run("atlas fig4 --axis kappa2=0.1:0.2:5 --axis kappa3=0.8:1:5 --out one").expect(0);
+    let page = std::fs::read_to_string(folder.path("one/report.html")).expect("a page");
+    for bad in ["<tbody>\n</tbody>", "\"></td>", "\">-</td>", "0 curves", "0 regions"] {
+        assert!(!page.contains(bad), "{bad}");
+    }
+    for words in ["all cells have the same motions", "No line was followed", "steady", "circular"] {
+        assert!(page.contains(words), "{words}");
+    }
+}

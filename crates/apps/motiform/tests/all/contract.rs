@@ -148,10 +148,21 @@ fn check_prints_the_plan_that_simulate_carries_out() {
     assert!(told.contains("rtol 1e-9, atol 1e-12"), "{told}");
     assert!(
         told.contains(
-            "noise       amplitude 0.001 on the shape, 0.0 on the velocity, steps of 0.03125, seed 4"
+            "noise       amplitude 0.001 on the shape, 0 on the velocity, steps of 0.03125, seed 4"
         ),
         "{told}"
     );
+}
+
+/// A body without a shape has no noise on it: sentences name what noise acts on.
+#[test]
+fn noise_is_said_of_what_the_body_has() {
+    let folder = Folder::new();
+    let run = "simulate noisy-heading --noise-velocity 0.05 --t-end 20 --out run --no-animation";
+    let told = folder.run(run).expect(0).stdout;
+    assert!(told.contains("noise     amplitude 0.05 on the velocity, steps"), "{told}");
+    let figure = std::fs::read_to_string(folder.path("run/path.svg")).unwrap();
+    assert!(figure.contains("White noise of amplitude 0.05 on each coordinate of the velocity, seed 1"));
 }
 
 /// The motion is named in words and JSON, unless there is noise; figures are called by it.

@@ -141,7 +141,7 @@ fn results_of_every_kind_have_physical_units() {
     let (model, physical) = both(zigzag, "period", "period (min)");
     let ratio = number(&physical, "period ") / number(&model, "period ");
     assert!((ratio - 3.0).abs() < 1e-5 && physical.contains(" min  "), "{physical}");
-    let kappa = |text: &str| number(text, "symmetry-breaking ");
+    let kappa = |text: &str| number(text, "symmetry breaking ");
     assert_eq!(kappa(&model), kappa(&physical), "parameters stay those of the model");
     both("scan tensor --preset fig4 --axis kappa2=0.5:0.55:2", "_exponent", "1/min");
     let curve =

@@ -246,3 +246,22 @@ fn a_scan_has_its_figures() {
         }
     }
 }
+
+/// In a model that tells left from right the two senses of circular motion have marks of their own, and values carry no round-off.
+#[test]
+fn maps_tell_the_senses_of_turning_apart() {
+    let folder = Folder::new();
+    let axes = "--axis omega=-0.2,0.1,0.2 --axis kappa2=1.1:1.5:9";
+    let done = folder.run(&format!("scan chiral {axes} --out map")).expect(0);
+    assert!(
+        done.stdout.contains("omega = -0.2, 0.1, 0.2") && done.stdout.contains("27 rows (100.0 %)"),
+        "{}",
+        done.stdout
+    );
+    let svg = std::fs::read_to_string(folder.path("map/_diagram.svg")).expect("a figure");
+    for words in [">circular, anticlockwise<", ">circular, clockwise<", "stand in columns of one width"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    let line = folder.run("scan tensor --preset fig4 --axis kappa2=0.1:0.6:5 --out line").expect(0);
+    assert!(line.stdout.contains("kappa2 = 0.1, 0.225, 0.35, 0.475, 0.6"), "{}", line.stdout);
+}

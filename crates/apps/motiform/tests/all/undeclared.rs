@@ -38,7 +38,7 @@ fn pulsating_straight_motion_keeps_its_name() {
             assert_eq!(zeros.filter(|one| number(one, "/value") == 0.0).count(), 2, "{found}");
         }
         let run = folder.run("simulate model.toml --transient 20000 --t-end 500 --out run --force").expect(0);
-        assert!(run.stdout.contains("pulsating-straight"), "{}", run.stdout);
+        assert!(run.stdout.contains("pulsating straight"), "{}", run.stdout);
     }
 }
 

@@ -79,6 +79,10 @@ class Regime:
     tint: str
     """The pale background of a marker."""
     glyph: str
+    words: str = ""
+    """The name in sentences and legends."""
+    hand: str | None = None
+    """The sense of turning, where it is that of one."""
 
 
 def info_of(raw: dict[str, Any]) -> ModelInfo:

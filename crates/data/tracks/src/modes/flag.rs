@@ -59,6 +59,25 @@ pub enum Flag {
 }
 
 impl Flag {
+    /// All names, in the order of the flags.
+    pub const NAMES: [&'static str; 15] = [
+        "too few vertices",
+        "missing vertices",
+        "no area",
+        "self-crossing",
+        "crossing unknown",
+        "not star-shaped",
+        "no fit",
+        "repeated frame",
+        "area jump",
+        "area step",
+        "position jump",
+        "position step",
+        "stage jump",
+        "clipped",
+        "gap",
+    ];
+
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &'static str {

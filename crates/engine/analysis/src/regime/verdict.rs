@@ -5,7 +5,7 @@ use crate::equilibrium::Saddle;
 use crate::regime::course::{Course, Direction};
 use crate::regime::form::Form;
 use crate::regime::resolution::Resolution;
-use motiform_dynamics::Equivariant;
+use motiform_dynamics::{Equivariant, in_words};
 use serde::{Deserialize, Serialize};
 
 motiform_dynamics::named! {
@@ -42,6 +42,12 @@ motiform_dynamics::named! {
 }
 
 impl Regime {
+    /// Its name in sentences, on pages and in figures; [`Self::name`] is that of tables and options.
+    #[must_use]
+    pub fn words(self) -> String {
+        in_words(self.name())
+    }
+
     /// The motion of a body in this regime, in one sentence.
     #[must_use]
     pub const fn meaning(self) -> &'static str {

@@ -10,6 +10,7 @@ pub(crate) use noise::noise_json;
 
 use crate::Checks;
 use crate::regime::FittedRegime;
+use motiform_dynamics::in_words;
 use motiform_inference::{
     Averaged, BetweenCells, Drift, Fit, HANDED_RATE, Handedness, Identifiability, Ladder, Placement,
     Selection, Symmetry, Warning,
@@ -103,6 +104,12 @@ impl Fitted {
             return PERSISTENT_WALK;
         }
         self.regime.as_ref().and_then(|found| found.regime).map_or("undecided", |regime| regime.name())
+    }
+
+    /// The same in words.
+    #[must_use]
+    pub fn motion_words(&self) -> String {
+        in_words(self.motion_name())
     }
 
     /// `true` if noise carries the displacement ([`FittedRegime::is_carried`]), while the speed exceeds its errors of observation.

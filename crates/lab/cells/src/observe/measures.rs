@@ -84,6 +84,8 @@ pub struct Measures {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Series {
     pub(super) dt: f64,
+    /// Its unit, after a number.
+    pub(super) unit: String,
     pub(super) lag: usize,
     pub(super) frames: Vec<Observation>,
     pub(super) headings: Vec<f64>,
@@ -94,7 +96,7 @@ pub(super) struct Series {
 
 impl Measures {
     /// Of the longest stretch without gaps; `None` if it is too short.
-    pub(super) fn of(track: &Track) -> Option<Self> {
+    pub(super) fn of(track: &Track, unit: &str) -> Option<Self> {
         let dt = track.interval();
         let frames = longest(&track.0, dt, EVEN);
         if frames.len() < LEAST {
@@ -150,7 +152,7 @@ impl Measures {
             mean_shape: mean_shape(&frames),
             directness: net / length.max(f64::MIN_POSITIVE),
             length,
-            series: Series { dt, lag, frames, headings, speeds, blocks },
+            series: Series { dt, unit: unit.to_owned(), lag, frames, headings, speeds, blocks },
         })
     }
 

@@ -47,10 +47,12 @@ pub struct MotionStatistics {
 /// Statistics of records at one sampling interval; `None` where they are too short.
 pub(super) fn of_records<'s>(records: impl Iterator<Item = &'s Series>) -> Option<MotionStatistics> {
     let records: Vec<&Series> = records.collect();
-    let dt = records.first()?.dt;
+    let Series { dt, unit, .. } = records.first()?;
+    let dt = *dt;
     let noise: Vec<f64> = records.iter().flat_map(|series| series.frames.iter().map(variance)).collect();
     let bodies = records.iter().map(|series| track(series)).collect();
-    let tracks = Tracks::of_records(dt, ["z2", "z3"].map(str::to_owned).to_vec(), bodies).ok()?;
+    let tracks =
+        Tracks::of_records(dt, ["z2", "z3"].map(str::to_owned).to_vec(), bodies).ok()?.with_times_in(unit);
     let square = mean_square(&tracks).less(2.0 * noise.iter().sum::<f64>() / noise.len() as f64);
     let wanted = |quantity: &Quantity| matches!(quantity, Quantity::Velocity | Quantity::Mode(..));
     let memories = tracks.quantities().into_iter().filter(wanted);

@@ -35,7 +35,7 @@ fn intervals(fitted: &Fitted, units: &Units) -> Table {
     let points = fitted.drift.as_ref().map_or(&[][..], |drift| &drift.points);
     let mut head = vec!["term".to_owned(), "coefficient".to_owned()];
     let every = |point: &DriftPoint| {
-        format!("every {} frames ({} {})", point.every, plain(point.interval), units.time)
+        format!("every {} frames ({} {})", point.every, plain(point.interval), units.times())
     };
     head.extend(points.iter().map(every));
     head.extend((!points.is_empty()).then(|| "largest change".to_owned()));
@@ -44,13 +44,13 @@ fn intervals(fitted: &Fitted, units: &Units) -> Table {
         let part = if c.imaginary { "imaginary part of " } else { "" };
         let estimate = |e: &Estimate| with_error(e.value, e.error);
         let again = points.iter().map(|point| match &point.estimates {
-            Ok(all) => all.get(place).map_or_else(String::new, estimate),
+            Ok(all) => all.get(place).map_or_else(|| NOT_COUNTED.to_owned(), estimate),
             Err(_) => NOT_COUNTED.to_owned(),
         });
         let change = fitted.drift.as_ref().map(|drift| {
             drift.changes.get(place).copied().flatten().map_or(NOT_COUNTED.to_owned(), |x| format!("{x:.1}"))
         });
-        let weak = fitted.checks.weak(place).map_or_else(|| "-".to_owned(), plain);
+        let weak = fitted.checks.weak(place).map_or_else(|| "none (reason above)".to_owned(), plain);
         let numbers = std::iter::once(estimate(&c.estimate)).chain(again).chain(change).chain([weak]);
         let term = Cell::text(format!("{part}{}", typeset(&c.name)));
         std::iter::once(term).chain(numbers.map(Cell::number)).collect()

@@ -77,7 +77,7 @@ fn table(prediction: &Prediction, units: &Units) -> Table {
         let side = if off > 0.0 { "more" } else { "less" };
         let at = plain(one.statistic.at[place]);
         let at = match one.statistic.kind.axis() {
-            Axis::Lag => format!("lag {at} {}", units.time),
+            Axis::Lag => format!("lag {at} {}", units.times()),
             Axis::Share => format!("{at} % quantile"),
         };
         vec![

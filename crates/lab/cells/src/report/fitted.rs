@@ -3,6 +3,7 @@
 use crate::Units;
 use crate::report::motion::capital;
 use crate::report::numbers::{estimate, interval, plain, with_error};
+use crate::report::place::notation;
 use crate::report::terms::{typeset, unit};
 use crate::{CellFit, Fitted};
 use motiform_figures::literal;
@@ -10,6 +11,15 @@ use motiform_figures::report::{Cell, Section, Table};
 use motiform_inference::{Coefficient, EquationKnowledge, PValue, Rung, paper};
 use motiform_statistics::to_error;
 use motiform_study::Dimension;
+
+/// Of a fit whose search did not end.
+const NOT_CONVERGED: &str = "not converged";
+
+/// Of an interval whose reason stands above the table.
+const NOT_STATED: &str = "not stated (reason above)";
+
+/// Of an error of a term that the best set does not have.
+const OF_NO_SET: &str = "not in the best set";
 
 pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
     let title = "Fitted equations".to_owned();
@@ -20,7 +30,7 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
         }
     };
     let why = capital(&literal(&fitted.why()));
-    let regime = fitted.motion_name();
+    let regime = fitted.motion_words();
     let about = format!(
         "Motion of the fitted equations, without their noise: {regime}. {why}.\n\nThe equations are the study file \
          {name}.toml in the folder of this page: every command of motiform takes it as a model."
@@ -55,7 +65,7 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
         ("noise of the centre, beside the contour's".to_owned(), centre(fitted, units)),
         ("velocity of the stage, subtracted".to_owned(), stage(fitted, units)),
         ("sets of terms that are as good".to_owned(), fitted.selection.subsets.ties.len().to_string()),
-        ("natural time".to_owned(), format!("{} {}", plain(model.scales.time), units.time)),
+        ("natural time".to_owned(), format!("{} {}", plain(model.scales.time), units.times())),
     ]
 }
 
@@ -63,7 +73,7 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
 fn centre(fitted: &Fitted, units: &Units) -> String {
     let noise = &fitted.model().noise;
     match noise.is_of_centre() {
-        true => format!("{} {}", estimate(&noise.centre), units.length),
+        true => format!("{} {}", estimate(&noise.centre), units.lengths()),
         false => "none is seen".to_owned(),
     }
 }
@@ -82,7 +92,11 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
         let part = if c.imaginary { "imaginary part of " } else { "" };
         let over = fitted.over_sets(&c.name).filter(|_| !c.imaginary);
         let [low, high] = interval(over.map_or(c.estimate.interval, |over| over.interval));
-        let interval = if sound && stated { format!("{low} to {high}") } else { String::new() };
+        let interval = match (sound, stated) {
+            (false, _) => NOT_CONVERGED.to_owned(),
+            (true, false) => NOT_STATED.to_owned(),
+            (true, true) => format!("{low} to {high}"),
+        };
         let mut row = vec![
             Cell::text(format!("{part}{}", typeset(&c.name))),
             Cell::number(if sound {
@@ -94,13 +108,18 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
             Cell::number(if sound {
                 to_error(c.estimate.robust, c.estimate.robust)
             } else {
-                "not converged".to_owned()
+                NOT_CONVERGED.to_owned()
             }),
             Cell::number(interval),
             Cell::text(literal(&format!("{name} = {}", plain(c.estimate.value / factor)))),
         ];
         if let Some(between) = between {
-            row.insert(4, Cell::number(between.errors.get(place).map_or_else(String::new, |e| plain(*e))));
+            row.insert(
+                4,
+                Cell::number(
+                    between.errors.get(place).map_or_else(|| "not computed".to_owned(), |e| plain(*e)),
+                ),
+            );
         }
         row
     };
@@ -118,15 +137,15 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
             Cell::text(
                 fitted.whole.coefficient(&one.name).map_or_else(String::new, |c| unit(&c.term, units)),
             ),
-            Cell::number(""),
-            Cell::number(if stated { format!("{low} to {high}") } else { String::new() }),
+            Cell::number(OF_NO_SET),
+            Cell::number(if stated { format!("{low} to {high}") } else { NOT_STATED.to_owned() }),
             Cell::text(format!(
                 "not in the file: in {:.0} % of the weight of all tied sets",
                 100.0 * one.weight
             )),
         ];
         if between.is_some() {
-            row.insert(4, Cell::number(""));
+            row.insert(4, Cell::number(OF_NO_SET));
         }
         rows.push(row);
     }
@@ -173,7 +192,7 @@ fn ladder(fitted: &Fitted) -> Option<Table> {
         vec![
             Cell::text(literal(rung.model.words())),
             Cell::number(rung.coefficients.to_string()),
-            Cell::number(rung.gain.map_or_else(String::new, plain)),
+            Cell::number(rung.gain.map_or_else(|| "not computed".to_owned(), plain)),
             Cell::text(rung.in_words()),
         ]
     };
@@ -201,7 +220,7 @@ fn motions(fitted: &Fitted) -> Option<Table> {
     let row = |(regime, count): &(motiform_analysis::regime::Regime, usize)| {
         let share = 100.0 * *count as f64 / found.draws as f64;
         vec![
-            Cell::text(regime.name()),
+            Cell::text(regime.words()),
             Cell::number(count.to_string()),
             Cell::number(format!("{share:.0} %")),
         ]
@@ -219,7 +238,7 @@ fn motions(fitted: &Fitted) -> Option<Table> {
 /// The nearest changes of the motion.
 fn bifurcations(fit: &CellFit) -> Option<Table> {
     let rows: Vec<Vec<Cell>> =
-        fit.bifurcations.iter().map(|near| vec![Cell::text(literal(&near.sentence()))]).collect();
+        fit.bifurcations.iter().map(|near| vec![Cell::text(notation(&near.sentence()))]).collect();
     (!rows.is_empty()).then(|| Table {
         caption: "The nearest bifurcations of the motion, all other parameters being those of the fit."
             .to_owned(),
@@ -233,7 +252,7 @@ fn determined(fitted: &Fitted) -> Option<Table> {
     let (known, of) = fitted.determined();
     let equations = &known.equations;
     let row = |of: &EquationKnowledge| {
-        vec![Cell::text(format!("*z*_{}", of.equation + 1)), Cell::text(literal(&of.text))]
+        vec![Cell::text(format!("*z*_{}", of.equation + 1)), Cell::text(notation(&of.text))]
     };
     let rows: Vec<Vec<Cell>> = equations.iter().map(row).collect();
     let whole = equations.iter().all(|of| of.fixed() == of.combinations.len());

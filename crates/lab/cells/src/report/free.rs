@@ -52,7 +52,7 @@ pub(crate) fn over_time(case: &Case<'_>, setting: &Setting<'_>) -> Result<Option
 
 fn table(numbers: &Numbers, units: &Units) -> Table {
     let row = |row: Row| {
-        let unit = units.unit(row.quantity.dimension);
+        let unit = units.behind(row.quantity.dimension);
         let words = row.reason(&unit).unwrap_or_else(|| answer(&row.value, &unit));
         vec![Cell::text(row.quantity.symbol), Cell::text(words)]
     };
@@ -63,15 +63,16 @@ fn table(numbers: &Numbers, units: &Units) -> Table {
     }
 }
 
-/// A number of a cell as it stands in a table; its bound where the record sets but one, empty where there is none.
-pub(crate) fn value(numbers: &Numbers, quantity: &Quantity) -> String {
+/// A number of a cell as it stands in a table, or the bound that the record sets; the reason where there is neither.
+pub(crate) fn value(numbers: &Numbers, quantity: &Quantity) -> Result<String, String> {
     let found = numbers.rows().into_iter().find(|row| row.quantity == quantity);
-    found.map_or_else(String::new, |row| match (row.value, row.bounds) {
-        (Answer::Known(found), _) => plain(found.value),
-        (_, [Some(low), None]) => format!("> {}", plain(low)),
-        (_, [None, Some(high)]) => format!("< {}", plain(high)),
-        _ => String::new(),
-    })
+    let Some(row) = found else { return Err("not computed".to_owned()) };
+    match (row.value, row.bounds) {
+        (Answer::Known(found), _) => Ok(plain(found.value)),
+        (_, [Some(low), None]) => Ok(format!("> {}", plain(low))),
+        (_, [None, Some(high)]) => Ok(format!("< {}", plain(high))),
+        (Answer::Unknown { reason }, _) => Err(reason),
+    }
 }
 
 /// Speed to the next frame, area and aspect ratio, `None` where the outline is not seen or frames are missing.

@@ -1,8 +1,9 @@
 //! The page of the data set: all cells in a table, the population, all places.
 
 use crate::Units;
+use crate::report::motion::capital;
 use crate::report::numbers::estimate;
-use crate::report::place::{self, PLANES, map};
+use crate::report::place::{self, PLANES, map, notation};
 use crate::report::{Case, Setting, fitted, free, page_name, population, words};
 use crate::{Agreement, CellFit, Fitted, Sample};
 use motiform_analysis::regime::Regime;
@@ -11,6 +12,9 @@ use motiform_figures::report::{Cell, Report, Section, Table};
 use motiform_inference::{Place, Placement};
 use motiform_study::quantity::cell;
 use motiform_study::{Error, Quantity};
+
+/// The motion of a cell whose data leave several.
+const UNDECIDED: &str = "undecided";
 
 /// Numbers without a model in the table of all cells.
 const FREE: [&Quantity; 4] = [&cell::SPEED, &cell::PERSISTENCE, &cell::AREA, &cell::ASPECT_RATIO];
@@ -62,11 +66,21 @@ fn one_law(fit: &CellFit, setting: &Setting<'_>) -> Result<Vec<Section>, Error> 
 }
 
 /// The motion of the fitted equations, or the observed one.
-pub(crate) fn verdict(case: &Case<'_>) -> &'static str {
-    if let Some(fitted) = fitted_of(case).filter(|fitted| fitted.is_walk()) {
-        return fitted.motion_name();
+pub(crate) fn verdict(case: &Case<'_>) -> String {
+    match fitted_of(case).filter(|fitted| fitted.is_walk()) {
+        Some(walk) => walk.motion_words(),
+        None => motion(fitted_regime(case).or(case.observation.motion.regime)),
     }
-    fitted_regime(case).or(case.observation.motion.regime).map_or("undecided", |regime| regime.name())
+}
+
+/// A motion in words.
+pub(crate) fn motion(regime: Option<Regime>) -> String {
+    regime.map_or_else(|| UNDECIDED.to_owned(), Regime::words)
+}
+
+/// The motion of the fit in words.
+pub(crate) fn motion_of_fit(case: &Case<'_>) -> String {
+    fitted_of(case).map_or_else(|| UNDECIDED.to_owned(), Fitted::motion_words)
 }
 
 pub(crate) fn fitted_of<'c>(case: &Case<'c>) -> Option<&'c Fitted> {
@@ -80,35 +94,52 @@ pub(crate) fn fitted_regime(case: &Case<'_>) -> Option<Regime> {
 /// The cells, and in a table of its own, so that both are as wide as the page, what their fits say.
 fn tables(cases: &[Case<'_>], names: &[String], units: &Units) -> Vec<Table> {
     let link = |case: &Case<'_>, file: &String| Cell::link(literal(&case.cell.name), page_name(file));
-    let row = |(case, file): (&Case<'_>, &String)| {
-        let free = |quantity| Cell::number(free::value(&case.observation.numbers, quantity));
+    let mut reasons: Vec<String> = Vec::new();
+    let mut row = |(case, file): (&Case<'_>, &String)| {
         let mut row = vec![link(case, file), Cell::number(case.cell.frames().to_string())];
-        row.extend(FREE.map(free));
-        row.push(Cell::text(case.observation.motion.regime.map_or("undecided", |regime| regime.name())));
+        for quantity in FREE {
+            let shown = free::value(&case.observation.numbers, quantity);
+            row.push(Cell::number(
+                shown.unwrap_or_else(|reason| format!("none ({})", place_in(&mut reasons, reason))),
+            ));
+        }
+        row.push(Cell::text(motion(case.observation.motion.regime)));
         row
     };
     let mut head = vec!["cell".to_owned(), "frames that count".to_owned()];
     head.extend(FREE.map(|quantity| units.axis(quantity)));
     head.push("observed motion".to_owned());
-    let caption = "Every cell has a page of its own.".to_owned();
-    let cells = Table { caption, head, rows: cases.iter().zip(names).map(row).collect() };
+    let rows = cases.iter().zip(names).map(&mut row).collect();
+    let why = reasons.iter().zip(1..).map(|(reason, number)| format!(" ({number}) {}.", capital(reason)));
+    let caption = format!("Every cell has a page of its own.{}", why.collect::<String>());
+    let cells = Table { caption, head, rows };
     let fitted = |(case, file): (&Case<'_>, &String)| {
         vec![
             link(case, file),
-            Cell::text(fitted_of(case).map_or("undecided", Fitted::motion_name)),
-            Cell::text(fitted_of(case).map_or("", |fitted| fitted.symmetry().name())),
+            Cell::text(motion_of_fit(case)),
+            Cell::text(fitted_of(case).map_or("no fit", |fitted| fitted.symmetry().name())),
             Cell::text(fitted_of(case).map_or_else(String::new, place_words)),
             Cell::text(agreement(case)),
         ]
     };
     let fits = Table {
-        caption: "The fit of each cell.".to_owned(),
+        caption: "The fit of each cell; where there is none, or no place, the page of the cell says why."
+            .to_owned(),
         head: ["cell", "motion of the fit", "symmetry", "place", "simulated cells"]
             .map(str::to_owned)
             .to_vec(),
         rows: cases.iter().zip(names).map(fitted).collect(),
     };
     if cases.iter().any(|case| case.fit.is_some()) { vec![cells, fits] } else { vec![cells] }
+}
+
+/// The number of a reason in the list, from 1; a new one is added.
+fn place_in(reasons: &mut Vec<String>, reason: String) -> usize {
+    let known = reasons.iter().position(|one| *one == reason);
+    known.unwrap_or_else(|| {
+        reasons.push(reason);
+        reasons.len() - 1
+    }) + 1
 }
 
 fn placed(fitted: &Fitted, plane: usize) -> Option<&Place> {
@@ -122,7 +153,7 @@ fn placed(fitted: &Fitted, plane: usize) -> Option<&Place> {
 pub(crate) fn place_words(fitted: &Fitted) -> String {
     let place = placed(fitted, 0).or(placed(fitted, 1));
     let words = |place: &Place| {
-        let one = |name: &str, value: String| format!("{name} = {value}").replace(' ', "\u{a0}");
+        let one = |name: &str, value: String| format!("{} = {value}", notation(name)).replace(' ', "\u{a0}");
         let both = place.coordinates.iter().map(|c| one(&c.name, estimate(&c.estimate)));
         both.collect::<Vec<_>>().join(", ")
     };
@@ -131,7 +162,7 @@ pub(crate) fn place_words(fitted: &Fitted) -> String {
 
 pub(crate) fn agreement(case: &Case<'_>) -> String {
     match case.prediction() {
-        None => String::new(),
+        None => "none were simulated".to_owned(),
         Some(found) if found.is_unstable() => "unstable".to_owned(),
         Some(found) => format!("{} of {} agree", found.count(Agreement::Agrees), found.comparisons.len()),
     }

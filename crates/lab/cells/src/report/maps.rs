@@ -56,6 +56,7 @@ pub(crate) fn beneath(of: Plane) -> Result<Option<PhaseDiagram>, Error> {
         let motion = Motion {
             regime,
             rows: 1,
+            turning: [0; 2],
             share: 1.0,
             medians: [f64::NAN; NUMBERS.len()],
             reasons: Reasons::default(),

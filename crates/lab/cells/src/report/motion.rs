@@ -2,18 +2,18 @@
 
 use crate::Units;
 use crate::report::numbers::{answer, plain, with_error};
-use crate::report::{Case, Setting, relatives};
+use crate::report::{Case, Setting, index, relatives};
 use crate::{AtLag, Memory, MotionStatistics};
 use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart, literal};
 use motiform_study::quantity::cell;
 use motiform_study::quantity::statistic::MSD;
-use motiform_study::{Dimension, Error};
+use motiform_study::{Dimension, Error, counted};
 
 pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section, Error> {
     let units = &setting.units;
     let found = case.observation;
-    let name = found.motion.regime.map_or("undecided", |regime| regime.name());
+    let name = index::motion(found.motion.regime);
     let mut about = format!("Observed motion: {name}. {}.", capital(&literal(&found.motion.why)));
     if let Some(confidence) = found.motion.confidence {
         about += &format!(" {:.0} % of resampled records say the same.", 100.0 * confidence);
@@ -44,7 +44,7 @@ pub(crate) fn capital(text: &str) -> String {
 }
 
 fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
-    let (time, length) = (&units.time, &units.length);
+    let (time, length) = (units.times(), units.lengths());
     let radius = match case.cell.radius {
         none if none <= 0.0 => "not known: no frame has modes of the radius".to_owned(),
         radius => format!("{} {length}", plain(radius)),
@@ -57,7 +57,7 @@ fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
         ("mean radius".to_owned(), radius),
     ];
     for (flag, count) in case.cell.flags() {
-        all.push((flag.to_owned(), format!("{count} frame{}", if count == 1 { "" } else { "s" })));
+        all.push((flag.to_owned(), counted(count, "frame")));
     }
     if let Some(m) = &case.observation.measures {
         if m.frames < case.cell.frames() {
@@ -90,7 +90,7 @@ fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
 /// Correlation times, of a cell or a population. (Persistence and diffusion are among the numbers without a model.)
 pub(crate) fn memories(statistics: &MotionStatistics, units: &Units) -> Table {
     let name = |memory: &Memory| format!("correlation time of {}", symbol(&memory.quantity));
-    let row = |memory: &Memory| (name(memory), answer(&memory.time, &units.time));
+    let row = |memory: &Memory| (name(memory), answer(&memory.time, units.times()));
     let all = statistics.memories.iter().map(row);
     Table {
         caption: "How long velocity and shape persist; in brackets 95 % intervals.".to_owned(),

@@ -8,6 +8,10 @@ use motiform_dynamics::distributions::NORMAL_95;
 use motiform_figures::report::{Cell, Section, Table};
 use motiform_figures::{MapPlace, PlaceMap, literal};
 use motiform_inference::{Coordinate, Place, Placement, Plane, coordinates, draws};
+use motiform_lab::draw::symbol;
+use motiform_models::ModelInfo;
+use motiform_models::parameters::Parameters;
+use motiform_models::tensor::TensorParameters;
 use motiform_study::Error;
 
 /// Models of the cloud, and the seed of their draws.
@@ -26,7 +30,7 @@ pub(crate) fn section(name: &str, fitted: &Fitted, setting: &Setting<'_>) -> Res
         match placement {
             Placement::Refused { reasons } => {
                 section.about +=
-                    &format!("No place on the {plane_name}: {}.\n\n", literal(&reasons.join("; ")));
+                    &format!("No place on the {plane_name}: {}.\n\n", notation(&reasons.join("; ")));
             }
             Placement::Placed(place) => {
                 section.tables.push(table(place, plane_name));
@@ -105,15 +109,30 @@ fn ellipse(place: &Place) -> Vec<[f64; 2]> {
     (0..ELLIPSE).map(point).collect()
 }
 
+/// A text with the notation of the paper for names of parameters, `*κ*_2` for `kappa2`, and true minus signs.
+pub(crate) fn notation(text: &str) -> String {
+    let info = ModelInfo::find(TensorParameters::MODEL).ok();
+    let word = |word: &str| {
+        let name = word.trim_end_matches([',', ':', ';']);
+        let known = info.filter(|info| info.parameters().iter().any(|spec| spec.name == name));
+        match known {
+            Some(info) => symbol(info, name) + &word[name.len()..],
+            None if word == "-" => "−".to_owned(),
+            None => literal(word),
+        }
+    };
+    text.split(' ').map(word).collect::<Vec<_>>().join(" ")
+}
+
 fn table(place: &Place, plane: &str) -> Table {
     let row = |c: &Coordinate| {
         let [low, high] = c.estimate.interval.map(plain);
         // what is off the slice is that of the best set alone
         let (interval, slice) = match c.slice {
             None => (format!("{low} to {high}"), "free".to_owned()),
-            Some(slice) => (String::new(), plain(slice)),
+            Some(slice) => ("of the best set alone".to_owned(), plain(slice)),
         };
-        let name = Cell::text(literal(&c.name));
+        let name = Cell::text(notation(&c.name));
         vec![name, Cell::number(estimate(&c.estimate)), Cell::number(interval), Cell::number(slice)]
     };
     Table {

@@ -8,8 +8,9 @@ use crate::{
     CellFit, FittedPopulation, NameShare, Observation, OverCells, PopulationCoefficient, PopulationNumbers,
     fitted_population, observed_population, population_numbers, population_statistics,
 };
+use motiform_dynamics::in_words;
 use motiform_figures::report::{Cell, Section, Table};
-use motiform_study::Error;
+use motiform_study::{Error, counted};
 
 /// Nothing for a single cell.
 pub(crate) fn section(cases: &[Case<'_>], setting: &Setting<'_>) -> Result<Option<Section>, Error> {
@@ -33,9 +34,9 @@ pub(crate) fn section(cases: &[Case<'_>], setting: &Setting<'_>) -> Result<Optio
     let mut figures = Vec::new();
     if let Some((count, statistics)) = population_statistics(&found) {
         about += &format!(
-            " Displacements and correlations are over {count} cell{} with enough frames at one sampling interval; with \
+            " Displacements and correlations are over {} with enough frames at one sampling interval; with \
              fewer than 8 their intervals are over blocks of the records.",
-            if count == 1 { "" } else { "s" }
+            counted(count, "cell")
         );
         tables.push(motion::memories(&statistics, units));
         figures = motion::figures(&statistics, setting)?;
@@ -55,7 +56,7 @@ fn names(shares: &[NameShare], head: &str) -> Table {
         let share = &one.share;
         let [low, high] = [share.lower, share.upper].map(|end| 100.0 * end);
         vec![
-            Cell::text(one.name),
+            Cell::text(in_words(one.name)),
             Cell::number(share.count.to_string()),
             Cell::number(format!("{:.0} %", 100.0 * share.value)),
             Cell::number(format!("{low:.0} to {high:.0} %")),
@@ -88,7 +89,7 @@ fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Ta
     let caption = format!(
         "Coefficients {}, over the cells whose fit is {}. Cells with other motions have other laws, and are in no mean.{without}",
         found.of_which_fits(),
-        found.law.unwrap_or("named")
+        in_words(found.law.unwrap_or("named"))
     );
     table(&caption, rows.collect())
 }
@@ -100,7 +101,7 @@ fn table(caption: &str, rows: Vec<Vec<Cell>>) -> Table {
 
 fn row(name: String, over: &OverCells) -> Vec<Cell> {
     let interval = over.mean_interval.map_or_else(
-        || if over.cells < 8 { "fewer than 8 cells" } else { "none" }.to_owned(),
+        || if over.cells < 8 { "fewer than 8 cells" } else { "none (reason above)" }.to_owned(),
         |[low, high]| format!("{} to {}", plain(low), plain(high)),
     );
     vec![

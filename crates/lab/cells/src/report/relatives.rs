@@ -33,7 +33,7 @@ pub(crate) fn table(found: &Relatives, units: &Units) -> Table {
             k.upper,
             k.samples,
             plain(k.interval),
-            units.time
+            units.times()
         )
     });
     rows.push(("0-1 test".to_owned(), zero_one));
@@ -55,7 +55,11 @@ fn peaks(peaks: &[SpectralPeak], units: &Units) -> String {
     let one = |peak: &SpectralPeak| {
         let (frequency, period) = (plain(peak.frequency), plain(1.0 / peak.frequency));
         let share = 100.0 * peak.share;
-        format!("{frequency} per {} (period {period}; {share:.0} % of the variance)", units.time)
+        format!(
+            "{frequency} per {} (period {period} {}; {share:.0} % of the variance)",
+            units.time,
+            units.times()
+        )
     };
     let all: Vec<String> = peaks.iter().map(one).collect();
     if all.is_empty() { "none".to_owned() } else { all.join("; ") }
@@ -70,7 +74,7 @@ fn rests_words(rests: &ObservedRests, units: &Units) -> String {
         "{}, of {} {} (median); {:.0} % of the time{growth}",
         rests.count,
         plain(duration),
-        units.time,
+        units.times(),
         100.0 * rests.share
     )
 }
@@ -84,9 +88,9 @@ fn legs_words(legs: &ObservedLegs, units: &Units) -> String {
         "{} corners; legs of {} {} and {} {}; the heading turns by {} rad{turn} (medians)",
         legs.corners,
         plain(length),
-        units.length,
+        units.lengths(),
         plain(duration),
-        units.time,
+        units.times(),
         plain(swing)
     )
 }

@@ -2,18 +2,14 @@
 
 use crate::Fitted;
 use crate::report::Case;
-use crate::report::index::{agreement, fitted_of, fitted_regime, place_words};
+use crate::report::index::{agreement, fitted_of, fitted_regime, motion, motion_of_fit, place_words};
+use motiform_analysis::regime::Regime;
 use motiform_figures::report::Section;
 
 pub(crate) fn section(case: &Case<'_>) -> Section {
-    let observed = case.observation.motion.regime;
-    let name = |regime: Option<motiform_analysis::regime::Regime>| {
-        regime.map_or("undecided", |regime| regime.name()).to_owned()
-    };
-    let mut parameters = vec![("observed motion".to_owned(), name(observed))];
+    let mut parameters = vec![("observed motion".to_owned(), motion(case.observation.motion.regime))];
     if let Some(fit) = case.fit {
-        let motion = fitted_of(case).map_or("undecided", Fitted::motion_name);
-        parameters.push(("motion of the fit".to_owned(), motion.to_owned()));
+        parameters.push(("motion of the fit".to_owned(), motion_of_fit(case)));
         let place = fitted_of(case).map_or_else(|| "none".to_owned(), place_words);
         parameters.push(("place".to_owned(), place));
         parameters.push(("simulated cells".to_owned(), agreement(case)));
@@ -25,11 +21,11 @@ pub(crate) fn section(case: &Case<'_>) -> Section {
 
 /// Agreement of the name from the samples with the name from the equations.
 fn sentence(case: &Case<'_>) -> String {
-    let observed = case.observation.motion.regime;
+    let words = |regime: Option<Regime>| regime.map(Regime::words);
     let Some(fit) = case.fit else {
         return "Observed only: no equations were fitted to this cell.".to_owned();
     };
-    match (observed, fitted_regime(case)) {
+    match (words(case.observation.motion.regime), words(fitted_regime(case))) {
         _ if fitted_of(case).is_some_and(Fitted::is_walk) => {
             "The fitted equations rest without their noise, or nearly, and the cell moves: noise carries its displacement, a \
              persistent random walk. Speed, persistence and diffusion are below.".to_owned()

@@ -20,5 +20,8 @@ mod tests {
             assert!(!one.text.is_empty(), "{} has no definition", one.word);
             assert!(all[..place].iter().all(|other| other.word != one.word), "{} is defined twice", one.word);
         }
+        for name in motiform_tracks::modes::Flag::NAMES {
+            assert!(all.iter().any(|one| one.word == name), "the flag '{name}' is not defined");
+        }
     }
 }

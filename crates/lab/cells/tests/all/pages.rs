@@ -105,7 +105,8 @@ fn check(files: &[File]) {
                 None => assert!(files.iter().any(|file| file.0 == link), "{name}: {link}"),
             }
         }
-        for bad in ["NaN", "inf ", "<b>&", "few & <b>"] {
+        let blanks = ["\"></td>", "\">-</td>", "\">−</td>", "\">–</td>"];
+        for bad in ["NaN", "inf ", "<b>&", "few & <b>"].into_iter().chain(blanks) {
             assert!(!html.contains(bad), "{name}: {bad}");
         }
     }
@@ -148,6 +149,16 @@ fn a_fitted_cell_has_its_motion_place_and_simulations_and_what_is_missing_is_sai
     ] {
         assert!(page(1).contains(words), "{words}");
     }
+    // times of reasons have their unit
+    let reason = page(1)
+        .split("at the longest lag ")
+        .nth(1)
+        .map(|rest| rest.split_whitespace().take(2).collect::<Vec<_>>());
+    assert!(reason.is_none_or(|words| words[1].starts_with('s')), "a lag without a unit");
+    assert!(
+        page(1).contains("*κ*") || page(1).contains("<i>κ</i><sub>2</sub>"),
+        "the place in the paper's notation"
+    );
     assert!(page(2).contains("undecided") && page(2).contains("12 frames count"));
     assert!(page(3).contains("No fit"));
     let long = page(1);

@@ -20,7 +20,8 @@ pub fn mixed_courses(grid: &Grid) -> Vec<String> {
             .map(|(cells, words)| format!("{words} in {cells} computed cells"))
             .collect();
         let remedy = "regions do not tell these apart, the column 'course' of a scan does";
-        (counts.len() > 1).then(|| format!("Motion '{}' goes {}; {remedy}", regime.name(), counts.join(", ")))
+        (counts.len() > 1)
+            .then(|| format!("Motion '{}' goes {}; {remedy}", regime.words(), counts.join(", ")))
     };
     Regime::ALL.into_iter().filter_map(mixed).collect()
 }

@@ -8,6 +8,7 @@ use crate::curves::CurveSample;
 use motiform_continuation::Degenerate;
 use motiform_figures::{Cell, CurveMap, MapEnd, PhaseDiagram};
 use motiform_lab::draw::{FigureFormat, Picture, files, symbol, words};
+use motiform_lab::scan::motion_mark;
 use motiform_study::{Error, counted};
 
 /// Draws `atlas`: as SVG and PNG, with its numbers as CSV.
@@ -29,16 +30,17 @@ pub fn atlas_map(folder: &AtlasFolder) -> Result<CurveMap, Error> {
     let curves = || lines.iter().flat_map(|line| &line.curves).map(|one| &one.curve);
     let stretches = curves().flat_map(curve_stretches).filter(|stretch| stretch.bounds);
     let ends = lines.iter().flat_map(|line| &line.ends);
+    let insets = insets(folder)?;
     Ok(CurveMap {
         title: plan.title.clone(),
-        caption: caption(folder)?,
+        caption: caption(folder, !insets.is_empty())?,
         x_label: symbol(info, &plane[0].name),
         y_label: symbol(info, &plane[1].name),
         x,
         y,
         under: Some(cells(folder)),
         named: true,
-        insets: insets(folder)?,
+        insets,
         curves: stretches.collect(),
         ends: ends.map(|end| MapEnd { label: end.kind.words().to_owned(), at: end.at }).collect(),
         marks: marks_together(points(folder).into_iter().filter_map(curve_mark), [x, y]),
@@ -57,8 +59,13 @@ fn cells(folder: &AtlasFolder) -> PhaseDiagram {
     let cell = |(cell, place): (usize, &crate::atlas::Place)| {
         let at = scan.axis_values(cell);
         let rows: usize = place.motions.iter().map(|found| found.rows).sum();
-        let share =
-            |found: &crate::atlas::Found| (found.regime.name().to_owned(), found.rows as f64 / rows as f64);
+        let share = |found: &crate::atlas::Found| {
+            let course = match found.courses[..] {
+                [one] => Some(one),
+                _ => None,
+            };
+            (motion_mark(found.regime, course).name.to_owned(), found.rows as f64 / rows as f64)
+        };
         Cell { x: at[0], y: at[1], shares: place.motions.iter().map(share).collect() }
     };
     PhaseDiagram {
@@ -69,23 +76,30 @@ fn cells(folder: &AtlasFolder) -> PhaseDiagram {
     }
 }
 
-fn caption(folder: &AtlasFolder) -> Result<Vec<String>, Error> {
+/// Words below the map; `paths`: regions have paths.
+fn caption(folder: &AtlasFolder, paths: bool) -> Result<Vec<String>, Error> {
     let AtlasFolder { plan, grid, lines } = folder;
     let c = &plan.computation.scan;
     let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
     let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
+    let limits = match curves {
+        0 => "no limit of stability was followed".to_owned(),
+        _ => format!("limits of stability: {} by pseudo-arclength continuation", counted(curves, "curve")),
+    };
+    let below = if paths {
+        " Below the names of wide regions: paths of the motions, of each course one, not to one scale."
+    } else {
+        ""
+    };
     let mut all = vec![
         words::named(plan.info()?, &c.parameters, &varied, &c.ties),
         format!(
-            "Motions of {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. \
-             Stability limits: {} by pseudo-arclength continuation. \
-             Below the names of wide regions: paths of the motions, not to one scale.",
+            "Motions of {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions; {limits}.{below}",
             counted(c.samples, "initial state"),
             c.random.words(),
             c.seed,
             grid.computed(),
             grid.places.len(),
-            counted(curves, "curve"),
         ),
     ];
     all.extend(unlocated(points(folder).into_iter()));

@@ -5,16 +5,22 @@ use crate::atlas::courses::mixed_courses;
 use crate::atlas::draw::atlas_map;
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::grid::Found;
+use crate::atlas::line::EndKind;
 use crate::atlas::points::special_points;
 use crate::atlas::region::{Region, regions};
 use crate::atlas::summary::words;
-use crate::branches::draw::curve_words;
 use crate::curves::curve_ends;
+use motiform_analysis::Regime;
+use motiform_dynamics::digits::{four_digits, value_and_error, with_error};
+use motiform_dynamics::in_words;
 use motiform_figures::Style;
 use motiform_figures::report::{Cell, Report, ReportFigure, Section, Table};
 use motiform_lab::draw::{sheet_in, symbol};
-use motiform_study::Error;
 use motiform_study::titles::number;
+use motiform_study::{Error, counted};
+
+/// Part of the plane to which points are stated.
+const PLACE: f64 = 1e-5;
 
 /// Smaller regions, in cells, are counted and not listed: few initial states make regions of single cells.
 const LISTED: usize = 3;
@@ -25,44 +31,56 @@ const LISTED: usize = 3;
 /// An unknown model, or numbers that no axis can hold.
 pub fn html(folder: &AtlasFolder, style: &Style) -> Result<String, Error> {
     let map = sheet_in(atlas_map(folder)?, style)?;
-    let (all, short) = all_regions(folder);
+    let plane = Section {
+        title: "The plane".to_owned(),
+        about: "Colours: motions that were found. Lines: where a motion gains or loses its stability, by continuation.".to_owned(),
+        figures: vec![ReportFigure::new(map, "The atlas.")],
+        ..Section::default()
+    };
+    let (all, about) = all_regions(folder);
+    let no_points = match folder.lines.iter().any(|line| !line.curves.is_empty()) {
+        true => "The curves and branches that were followed have none.",
+        false => "No curve was followed that could have one.",
+    };
+    let no_lines = match folder.plan.computation.lines {
+        0 => "No lines were asked for.",
+        _ => "No line was followed: there is no boundary that one could go through.",
+    };
     let sections = vec![
-        Section {
-            title: "The plane".to_owned(),
-            about: "Colours: motions that were found. Lines: where a motion gains or loses its stability, by continuation.".to_owned(),
-            figures: vec![ReportFigure::new(map, "The atlas.")],
-            ..Section::default()
-        },
-        Section {
-            title: "Regions".to_owned(),
-            about: format!(
-                "Connected cells with the same motions. {short} regions of fewer than {LISTED} cells are left out. \
-                 Numbers are those of the cell farthest from the border.{}",
-                mixed_courses(&folder.grid).iter().map(|words| format!(" {words}.")).collect::<String>()
-            ),
-            tables: vec![all],
-            ..Section::default()
-        },
-        Section {
-            title: "Boundaries".to_owned(),
-            about: "Edges of neighbouring cells with different motions, and the bifurcations between them.".to_owned(),
-            tables: vec![boundary_table(folder)],
-            ..Section::default()
-        },
-        Section {
-            title: "Points of codimension two, and ends of motions".to_owned(),
-            tables: vec![point_table(folder)?],
-            ..Section::default()
-        },
-        Section {
-            title: "What was followed".to_owned(),
-            about: "Each line begins with a motion on one side of a boundary and goes through it, over the whole range.".to_owned(),
-            tables: vec![line_table(folder)?],
-            ..Section::default()
-        },
+        plane,
+        section("Regions", about, "No region has so many cells.", all),
+        section(
+            "Boundaries",
+            "Edges of neighbouring cells with different motions, and the bifurcations between them.".to_owned(),
+            "There are none: all cells have the same motions.",
+            boundary_table(folder),
+        ),
+        section(
+            "Points of codimension two, and ends of motions",
+            String::new(),
+            no_points,
+            point_table(folder)?,
+        ),
+        section(
+            "What was followed",
+            "Each line begins with a motion on one side of a boundary and goes through it, over the whole range.".to_owned(),
+            no_lines,
+            line_table(folder)?,
+        ),
     ];
     let title = format!("Atlas: {}", folder.plan.title);
     Ok(Report { title, sections, without_captions: style.no_caption, ..Report::default() }.html())
+}
+
+/// A section with a table; without rows a sentence that says so.
+fn section(title: &str, about: String, none: &str, table: Table) -> Section {
+    let title = title.to_owned();
+    match table.rows.is_empty() {
+        true => {
+            Section { title, about: format!("{about} {none}").trim_start().to_owned(), ..Section::default() }
+        }
+        false => Section { title, about, tables: vec![table], ..Section::default() },
+    }
 }
 
 fn heads(texts: &[&str]) -> Vec<String> {
@@ -74,31 +92,25 @@ fn places(folder: &AtlasFolder) -> Result<[String; 2], Error> {
     Ok(folder.plan.plane().map(|side| symbol(info, &side.name)))
 }
 
-/// The regions, and how many are too small.
-fn all_regions(folder: &AtlasFolder) -> (Table, usize) {
+/// The regions, and what is said above them.
+fn all_regions(folder: &AtlasFolder) -> (Table, String) {
     let all = regions(&folder.plan, &folder.grid);
     let (listed, small): (Vec<&Region>, Vec<&Region>) = all.iter().partition(|region| region.cells >= LISTED);
     let row = |region: &&Region| {
         let place = &folder.grid.places[region.inner];
-        let numbers = |pick: &dyn Fn(&Found) -> Option<String>| {
-            let all = region.motions.iter().map(|motion| place.motion(*motion).and_then(pick));
-            Cell::number(all.map(|one| one.unwrap_or_else(|| "-".to_owned())).collect::<Vec<_>>().join("; "))
-        };
-        let one = |at: usize| move |found: &Found| found.numbers[at].map(|value| format!("{value:.4}"));
-        let exponent = |found: &Found| {
-            let [.., value, error] = found.numbers;
-            // exactly 0 where no deviation grows or decays: the rotations of a steady motion
-            if (value, error) == (Some(0.0), Some(0.0)) {
-                return Some("0".to_owned());
-            }
-            Some(format!("{:.4}\u{a0}±\u{a0}{:.1e}", value?, error?))
+        let numbers = |pick: &dyn Fn(&Found) -> String| {
+            let all = region
+                .motions
+                .iter()
+                .map(|motion| place.motion(*motion).map_or("not in this cell".to_owned(), pick));
+            Cell::number(all.collect::<Vec<_>>().join("; "))
         };
         vec![
             Cell::text(words(&region.motions)),
             Cell::number(format!("{:.1}\u{a0}%", 100.0 * region.share)),
             Cell::number(format!("{}, {}", number(region.at[0]), number(region.at[1]))),
-            numbers(&one(0)),
-            numbers(&one(2)),
+            numbers(&|found| found.numbers[0].map_or_else(|| "not measured".to_owned(), four_digits)),
+            numbers(&period),
             numbers(&exponent),
         ]
     };
@@ -107,7 +119,39 @@ fn all_regions(folder: &AtlasFolder) -> (Table, usize) {
         head: heads(&["Motions", "Share of the plane", "Inside at", "Mean speed", "Period", "*λ*_1"]),
         rows: listed.iter().map(row).collect(),
     };
-    (table, small.len())
+    let left_out = match small.len() {
+        0 => String::new(),
+        count => format!(" {} of fewer than {LISTED} cells are left out.", counted(count, "region")),
+    };
+    let mixed: String = mixed_courses(&folder.grid).iter().map(|words| format!(" {words}.")).collect();
+    let about = format!(
+        "Connected cells with the same motions.{left_out} Numbers, in model units, are those of the cell farthest from the border.{mixed}"
+    );
+    (table, about)
+}
+
+/// The period, or why there is none.
+fn period(found: &Found) -> String {
+    let none = match found.regime {
+        Regime::Motionless | Regime::Straight | Regime::Circular | Regime::Spinning => "steady",
+        Regime::Rectangular => "rests without a fixed length",
+        Regime::Chaotic | Regime::BlowUp => "none",
+        Regime::PulsatingStraight | Regime::QuasiPeriodic | Regime::Zigzag | Regime::Undetermined => {
+            "not determined"
+        }
+    };
+    found.numbers[2].map_or_else(|| none.to_owned(), four_digits)
+}
+
+/// The largest exponent, or why there is none.
+fn exponent(found: &Found) -> String {
+    let [.., value, error] = found.numbers;
+    match (value, error) {
+        // exactly 0 where no deviation grows or decays: the rotations of a steady motion
+        (Some(0.0), Some(0.0)) => "0".to_owned(),
+        (Some(value), Some(error)) => with_error(value, error).replace(' ', "\u{a0}"),
+        _ => "not computed".to_owned(),
+    }
 }
 
 fn boundary_table(folder: &AtlasFolder) -> Table {
@@ -121,7 +165,7 @@ fn boundary_table(folder: &AtlasFolder) -> Table {
             Cell::text(format!("{} | {}", words(&boundary.between[0]), words(&boundary.between[1]))),
             Cell::number(boundary.edges.to_string()),
             Cell::text(named.join(", ")),
-            Cell::text(boundary.why.unwrap_or_default()),
+            Cell::text(boundary.why.unwrap_or("all are named")),
         ]
     };
     Table {
@@ -133,20 +177,25 @@ fn boundary_table(folder: &AtlasFolder) -> Table {
 
 fn point_table(folder: &AtlasFolder) -> Result<Table, Error> {
     let [x, y] = places(folder)?;
-    let row = |kind: String, motion: &str, at: [f64; 2], period: Option<f64>| {
-        vec![
-            Cell::text(kind),
-            Cell::text(motion),
-            Cell::number(format!("{:.6}", at[0])),
-            Cell::number(format!("{:.6}", at[1])),
-            Cell::number(period.map_or_else(|| "-".to_owned(), |period| format!("{period:.4}"))),
-        ]
+    let plane = folder.plan.plane();
+    let row = |kind: String, motion: Regime, at: [f64; 2], period: String| {
+        let place = |side: usize| {
+            let [value, _] = value_and_error(at[side], PLACE * (plane[side].to - plane[side].from).abs(), 1);
+            Cell::number(value)
+        };
+        vec![Cell::text(kind), Cell::text(motion.words()), place(0), place(1), Cell::number(period)]
     };
     let marks = special_points(folder).into_iter().map(|point| {
-        row(point.words(), point.on.motion.name(), point.sample.parameters, point.sample.period)
+        let period = point.sample.period.map_or_else(|| "steady".to_owned(), four_digits);
+        row(point.words(), point.on.motion, point.sample.parameters, period)
     });
-    let ends = folder.lines.iter().flat_map(|line| &line.ends);
-    let ends = ends.map(|end| row(end.kind.words().to_owned(), end.motion.name(), end.at, None));
+    let ends = folder.lines.iter().flat_map(|line| &line.ends).map(|end| {
+        let period = match end.kind {
+            EndKind::Connection(_) => "grows without bound",
+            EndKind::Crossing(_) => "not stated",
+        };
+        row(end.kind.words().to_owned(), end.motion, end.at, period.to_owned())
+    });
     Ok(Table {
         caption: String::new(),
         head: vec!["What".into(), "Motion".into(), x, y, "Period".into()],
@@ -163,14 +212,19 @@ fn line_table(folder: &AtlasFolder) -> Result<Table, Error> {
             let ends = curve_ends(&plan, &one.curve).join("; ");
             let refused =
                 one.curve.refused.as_ref().map_or(String::new(), |why| format!(", not followed: {why}"));
-            format!("{} of {} motion (ends: {ends}{refused})", curve_words(one.curve.kind), one.motion)
+            format!(
+                "{} of {} motion (ends: {ends}{refused})",
+                in_words(one.curve.kind.name()),
+                one.motion.words()
+            )
         });
+        let curves: Vec<String> = curves.chain(line.refused.clone()).collect();
         rows.push(vec![
             Cell::number(format!("{}, {}", number(line.at[0]), number(line.at[1]))),
             Cell::text(symbols[line.side].clone()),
-            Cell::text(line.motion.name()),
+            Cell::text(line.motion.words()),
             Cell::number(line.branches.to_string()),
-            Cell::text(curves.chain(line.refused.clone()).collect::<Vec<_>>().join("; ")),
+            Cell::text(if curves.is_empty() { "none".to_owned() } else { curves.join("; ") }),
         ]);
     }
     let head = heads(&["Begins at", "Along", "With", "Branches", "New curves"]);

@@ -2,9 +2,10 @@
 
 use crate::atlas::folder::AtlasFolder;
 use crate::atlas::line::StabilityCurve;
-use crate::branches::draw::{curve_words, point_words};
+use crate::branches::draw::point_words;
 use crate::curves::{CurveSample, same_point};
 use motiform_continuation::Degenerate;
+use motiform_dynamics::in_words;
 
 /// A point of codimension two.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +24,7 @@ impl SpecialPoint<'_> {
     /// Its words: `Bautin on the Hopf curve`.
     pub(crate) fn words(&self) -> String {
         let name = point_words(self.kind).unwrap_or_else(|| "not located".to_owned());
-        format!("{name} on the {} curve", curve_words(self.on.curve.kind))
+        format!("{name} on the {} curve", in_words(self.on.curve.kind.name()))
     }
 }
 

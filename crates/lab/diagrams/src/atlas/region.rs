@@ -2,7 +2,7 @@
 
 use crate::atlas::boundary::descending;
 use crate::atlas::grid::Grid;
-use motiform_analysis::Regime;
+use motiform_analysis::{Course, Regime};
 use motiform_study::AtlasPlan;
 
 /// A region.
@@ -18,6 +18,8 @@ pub struct Region {
     pub inner: usize,
     /// Where that is, across and upwards.
     pub at: [f64; 2],
+    /// Of a region of one motion with several courses: a computed cell for each, in which there is no other.
+    pub courses: Vec<(Course, usize)>,
 }
 
 /// The regions of a grid, the largest first.
@@ -36,9 +38,27 @@ pub fn regions(plan: &AtlasPlan, grid: &Grid) -> Vec<Region> {
             share: cells.len() as f64 / labels.len() as f64,
             inner,
             at: [values[0], values[1]],
+            courses: courses(grid, &labels[first], &cells),
         });
     }
     descending(all, |region| region.cells)
+}
+
+/// The courses of a region of one motion, with a cell of each, of those in their order the middle one; none where there are not several.
+fn courses(grid: &Grid, motions: &[Regime], cells: &[usize]) -> Vec<(Course, usize)> {
+    let [motion] = motions else { return Vec::new() };
+    let mut ordered = cells.to_vec();
+    ordered.sort_unstable();
+    let cell = |course: Course| {
+        let own = |cell: &&usize| {
+            let place = &grid.places[**cell];
+            place.like.is_none() && place.motion(*motion).is_some_and(|found| found.courses == [course])
+        };
+        let all: Vec<&usize> = ordered.iter().filter(own).collect();
+        all.get(all.len() / 2).map(|cell| (course, **cell))
+    };
+    let all: Vec<(Course, usize)> = Course::ALL.into_iter().filter_map(cell).collect();
+    if all.len() > 1 { all } else { Vec::new() }
 }
 
 /// The cells that are connected with one by cells of the same motions; none if it was seen.

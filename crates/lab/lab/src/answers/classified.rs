@@ -4,6 +4,7 @@ use super::{About, decimals, estimate};
 use motiform_analysis::Verdict;
 use motiform_analysis::regime::Resolution;
 use motiform_dynamics::digits::six_decimals;
+use motiform_dynamics::in_words;
 use motiform_study::Plan;
 use motiform_study::plan::Named;
 use serde::Serialize;
@@ -39,7 +40,7 @@ impl Display for Classified<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let verdict = self.verdict;
         let course = verdict.course.map_or_else(String::new, |course| format!(", {}", course.words()));
-        writeln!(f, "{}{course}\nbecause        {}", verdict.regime, verdict.why)?;
+        writeln!(f, "{}{course}\nbecause        {}", verdict.regime.words(), verdict.why)?;
         certainty(f, verdict)?;
         numbers(f, verdict)?;
         lists(f, verdict)?;
@@ -73,7 +74,7 @@ fn certainty(f: &mut Formatter<'_>, verdict: &Verdict) -> Result {
         )?;
     }
     if let Some(form) = verdict.form {
-        writeln!(f, "form           {}", form.name())?;
+        writeln!(f, "form           {}", in_words(form.name()))?;
     }
     if let Some(lasted) = verdict.lasted {
         writeln!(f, "lasted         at least {lasted:.0} model time; chaos may be transient")?;

@@ -74,17 +74,16 @@ impl Display for Scanned<'_> {
             writeln!(f, "axis      {axis}")?;
         }
         let (cells, samples) = (totals.cells, plan.computation.samples);
-        let plural = if samples == 1 { "" } else { "s" };
-        writeln!(f, "cells     {cells} of {}, {samples} initial state{plural} each", plan.cells())?;
+        writeln!(f, "cells     {cells} of {}, {} each", plan.cells(), counted(samples, "initial state"))?;
         if self.drawn {
             let (random, seed) = (plan.computation.random.words(), plan.computation.seed);
             writeln!(f, "          random ones {random}, seed {seed}")?;
         }
         for (regime, rows) in totals.regimes() {
             let share = 100.0 * rows as f64 / totals.rows as f64;
-            writeln!(f, "          {:14} {rows} rows ({share:.1} %)", regime.name())?;
+            writeln!(f, "          {:18} {} ({share:.1} %)", regime.words(), counted(rows, "row"))?;
             for (course, rows) in totals.courses(regime) {
-                writeln!(f, "            {:19} {rows} rows", course.words())?;
+                writeln!(f, "            {:20} {}", course.words(), counted(rows, "row"))?;
             }
         }
         let special = [
@@ -93,7 +92,7 @@ impl Display for Scanned<'_> {
             (totals.escaped, "with an escape"),
         ];
         for (count, what) in special.into_iter().filter(|entry| entry.0 > 0) {
-            writeln!(f, "          {count} cells {what}")?;
+            writeln!(f, "          {} {what}", counted(count, "cell"))?;
         }
         for (why, rows) in totals.reasons.told() {
             writeln!(f, "            {} undetermined: {why}", counted(rows, "row"))?;

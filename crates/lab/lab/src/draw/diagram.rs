@@ -4,7 +4,9 @@ use super::{Figures, words};
 use crate::scan::{Axis, CellSummary, Reasons, ScanFolder, cells};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::sample::ascending;
-use motiform_figures::{Cell, Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured, PhaseDiagram};
+use motiform_figures::{
+    Cell, Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured, PhaseDiagram, sentence,
+};
 use motiform_models::ModelInfo;
 use motiform_models::parameters::Parameters;
 use motiform_models::tensor::TensorParameters;
@@ -61,13 +63,21 @@ fn phase_diagram_in(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Re
         cells: cells.iter().map(cell).collect(),
         lines: boundary_lines(plan),
     };
-    let columns = diagram.columns();
-    let named =
-        columns.iter().zip(axes).filter(|(columns, _)| **columns).map(|(_, axis)| symbol(info, &axis.name));
-    diagram.caption.extend(named.map(|symbol| {
-        format!("The values of {symbol} stand in columns of one width, whatever their steps.")
-    }));
+    let words = uneven(&diagram);
+    diagram.caption.extend(words);
     Ok(diagram)
+}
+
+/// A sentence for each axis along which distances mean nothing.
+#[must_use]
+pub fn uneven(diagram: &PhaseDiagram) -> Vec<String> {
+    let sides = [(&diagram.x_label, "columns of one width"), (&diagram.y_label, "rows of one height")];
+    let uneven = diagram.columns().into_iter().zip(sides).filter(|(uneven, _)| *uneven);
+    uneven
+        .map(|(_, (symbol, places))| {
+            format!("The values of {symbol} stand in {places}, whatever their steps.")
+        })
+        .collect()
 }
 
 /// The largest Lyapunov exponent against the parameter of a scan's only axis; `None` with two axes, or if no motion
@@ -154,7 +164,7 @@ fn exponents_of(
     };
     let mut points: Vec<Measured> = cells.iter().filter_map(point).collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x));
-    (!points.is_empty()).then(|| ErrorBarSeries { label: regime.name().to_owned(), points, joined: false })
+    (!points.is_empty()).then(|| ErrorBarSeries { label: regime.words(), points, joined: false })
 }
 
 /// Description of the scan.
@@ -182,8 +192,10 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary], units: &Sho
     ];
     let mut reasons = Reasons::default();
     cells.iter().flat_map(|cell| &cell.motions).for_each(|motion| reasons.add_all(&motion.reasons));
-    let told =
-        reasons.told().into_iter().map(|(why, rows)| format!("{why} ({})", counted(rows, "initial state")));
+    let told = reasons
+        .told()
+        .into_iter()
+        .map(|(why, rows)| format!("{} ({})", sentence(why), counted(rows, "initial state")));
     let told = told.collect::<Vec<_>>().join("; ");
     all.extend((!told.is_empty()).then(|| format!("Undetermined: {told}.")));
     all

@@ -3,7 +3,7 @@
 use super::diagram::symbol;
 use super::{FigureFormat, Picture, files, words};
 use crate::lifetimes::{LifeAt, Lifetimes};
-use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Interval, Label, LineStyle, Measured, literal};
+use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, Interval, Label, LineStyle, Measured, sentence};
 use motiform_models::ModelInfo;
 use motiform_study::quantity::statistic::LIFE;
 use motiform_study::{Error, ScanPlan, Shown};
@@ -96,5 +96,5 @@ fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo, units: &Shown) 
 /// The law of the lives, or why there is none, in these units.
 fn verdict(found: &Lifetimes, units: &Shown) -> String {
     let unit = Label::parse(&units.name(LIFE.dimension, "")).terminal();
-    literal(&found.laws.words_in(units.factor(LIFE.dimension), &unit))
+    sentence(&found.laws.words_in(units.factor(LIFE.dimension), &unit))
 }

@@ -14,7 +14,7 @@ pub mod words;
 
 use body::Body;
 pub use body::radius_for;
-pub use diagram::{boundary_lines, exponents, phase_diagram, scan_figures, symbol};
+pub use diagram::{boundary_lines, exponents, phase_diagram, scan_figures, symbol, uneven};
 use motiform_figures::{Drawn, Figure, FigureError, Style, png};
 use motiform_study::{Dataset, Error, Plan, Shown, Ties};
 

@@ -1,7 +1,7 @@
 //! Captions: the parameter set, the method, the scale of the drawing. All of it comes from the manifest.
 
 use super::body::Body;
-use motiform_dynamics::Outcome;
+use motiform_dynamics::{Model, Outcome};
 use motiform_models::ModelInfo;
 use motiform_study::plan::{Named, NoiseSettings};
 use motiform_study::titles::capital;
@@ -66,7 +66,7 @@ pub(super) fn method(body: &Body<'_>) -> String {
         }
         _ => String::new(),
     };
-    let noise = c.noise.map_or_else(String::new, |noise| self::noise(noise, body.model.velocities(), c.seed));
+    let noise = c.noise.map_or_else(String::new, |noise| self::noise(noise, body.model.as_ref(), c.seed));
     let end = match manifest.outcome.outcome {
         Outcome::Completed { .. } => String::new(),
         Outcome::Escaped { t, singular: true, .. } => {
@@ -94,17 +94,23 @@ fn times(body: &Body<'_>) -> String {
 }
 
 /// The noise, its amplitudes and seed.
-fn noise(noise: NoiseSettings, velocities: usize, seed: u64) -> String {
-    let NoiseSettings { velocity, shape, .. } = noise;
+fn noise(noise: NoiseSettings, body: &dyn Model, seed: u64) -> String {
     if noise.largest() == 0.0 {
         return format!(" Noise as in the equations, seed {seed}.");
     }
-    let of = if velocities == 0 {
-        format!("{} on each coordinate of the shape", number(shape))
-    } else if velocity == shape {
-        format!("{} on each coordinate of velocity and shape", number(shape))
-    } else {
-        format!("{} on each coordinate of the velocity, {} of the shape", number(velocity), number(shape))
+    let of = match noise.parts(body)[..] {
+        [(_, shape), (_, velocity)] if shape == velocity => {
+            format!("{} on each coordinate of velocity and shape", number(shape))
+        }
+        [(_, shape), (_, velocity)] => {
+            format!("{} on each coordinate of the velocity, {} of the shape", number(velocity), number(shape))
+        }
+        ref parts => {
+            let one = |(what, amplitude): &(&str, f64)| {
+                format!("{} on each coordinate of the {what}", number(*amplitude))
+            };
+            parts.iter().map(one).collect()
+        }
     };
     format!(" White noise of amplitude {of}, seed {seed}.")
 }

@@ -10,7 +10,7 @@ use motiform_analysis::regime::{Course, Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
 use motiform_dynamics::Watch;
 use motiform_dynamics::distributions::NORMAL_95;
-use motiform_dynamics::{Outcome, StopOnly};
+use motiform_dynamics::{Outcome, StopOnly, in_words};
 use motiform_kernels::{Kernel, Row, classify_rows, exponents_of_body, has_exponents};
 use motiform_study::plan::check;
 use motiform_study::{Error, Random, RunPlan};
@@ -187,7 +187,7 @@ impl Named {
 
 impl std::fmt::Display for Named {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.regime)?;
+        f.write_str(&in_words(self.regime))?;
         self.course.map_or(Ok(()), |course| write!(f, ", {}", course.words()))
     }
 }

@@ -28,6 +28,6 @@ pub use part::{PartError, Parts, read_part};
 pub use reasons::Reasons;
 pub use rows::{NUMBERS, Row, rows_to_csv};
 pub use run::Scan;
-pub use summary::{CellSummary, Motion, Totals, cells, for_each_part};
+pub use summary::{CellSummary, Motion, Totals, cells, for_each_part, motion_mark};
 pub use table::ScanTable;
 pub use work::{Ended, Store, compute, rows_at, rows_of};

@@ -4,6 +4,7 @@ use super::rows::place;
 use super::{NUMBERS, PartError, Reasons, Row, ScanFolder, read_part};
 use motiform_analysis::regime::{Course, Regime};
 use motiform_dynamics::sample::median;
+use motiform_figures::{Hand, RegimeMark, turning_mark};
 use motiform_study::Error;
 
 /// The total results of a scan, in memory that does not grow with the cells.
@@ -100,10 +101,10 @@ impl CellSummary {
         Self { cell, rows: rows.len(), motions: motions(rows) }
     }
 
-    /// The motions by name with their shares, as diagrams take them.
+    /// The motions by name with their shares, as diagrams take them: those that turn by their sense, where left and right differ.
     #[must_use]
     pub fn shares(&self) -> Vec<(String, f64)> {
-        self.motions.iter().map(|motion| (motion.regime.name().to_owned(), motion.share)).collect()
+        self.motions.iter().flat_map(|motion| motion.shares(self.rows)).collect()
     }
 }
 
@@ -114,6 +115,8 @@ pub struct Motion {
     pub regime: Regime,
     /// Number of initial states.
     pub rows: usize,
+    /// Those that turn anticlockwise, and clockwise, where left and right differ.
+    pub turning: [usize; 2],
     /// Their share of the cell, 0 to 1.
     pub share: f64,
     /// Median of each number over the rows that have it, as in [`NUMBERS`]; NaN if none has. Different motions are never
@@ -123,7 +126,29 @@ pub struct Motion {
     pub reasons: Reasons,
 }
 
+/// The courses that are senses of turning.
+pub(crate) const SENSES: [(Course, Hand); 2] =
+    [(Course::Anticlockwise, Hand::Anticlockwise), (Course::Clockwise, Hand::Clockwise)];
+
+/// The mark of a motion of this course.
+#[must_use]
+pub fn motion_mark(regime: Regime, course: Option<Course>) -> RegimeMark {
+    let hand = SENSES.into_iter().find(|(sense, _)| Some(*sense) == course).map(|(_, hand)| hand);
+    turning_mark(regime.name(), hand)
+}
+
 impl Motion {
+    /// Its name, or its names by sense, with their shares of these rows.
+    fn shares(&self, of: usize) -> Vec<(String, f64)> {
+        let [left, right] = self.turning;
+        let rest = self.rows - left - right;
+        let parts = [(Some(Course::Anticlockwise), left), (Some(Course::Clockwise), right), (None, rest)];
+        let there = parts.into_iter().filter(|(_, rows)| *rows > 0);
+        there
+            .map(|(course, rows)| (motion_mark(self.regime, course).name.to_owned(), rows as f64 / of as f64))
+            .collect()
+    }
+
     /// The median of a number by its name in [`NUMBERS`]; `None` if it is not defined.
     #[must_use]
     pub fn median(&self, name: &str) -> Option<f64> {
@@ -178,7 +203,9 @@ fn motions(rows: &[Row]) -> Vec<Motion> {
         let mut reasons = Reasons::default();
         let undetermined = same.iter().filter(|row| row.regime == Regime::Undetermined);
         undetermined.for_each(|row| reasons.add(&row.why, 1));
-        Motion { regime, rows: same.len(), share: same.len() as f64 / rows.len() as f64, medians, reasons }
+        let turning = SENSES.map(|(sense, _)| same.iter().filter(|row| row.course == Some(sense)).count());
+        let share = same.len() as f64 / rows.len() as f64;
+        Motion { regime, rows: same.len(), turning, share, medians, reasons }
     };
     let mut motions: Vec<Motion> = Regime::ALL.into_iter().map(of).filter(|motion| motion.rows > 0).collect();
     motions.sort_by_key(|motion| std::cmp::Reverse(motion.rows)); // stable
@@ -210,6 +237,19 @@ mod tests {
             (found[1].regime, found[1].share, found[1].median("period")),
             (Regime::Straight, 0.25, None)
         );
+        let turned = |mut row: Row, course| {
+            row.course = Some(course);
+            row
+        };
+        let senses = [
+            turned(row(0, Regime::Circular, f64::NAN), Course::Clockwise),
+            turned(row(1, Regime::Circular, f64::NAN), Course::Anticlockwise),
+            turned(row(2, Regime::Circular, f64::NAN), Course::Clockwise),
+            turned(row(3, Regime::Zigzag, 1.0), Course::AlongField),
+        ];
+        let shares = CellSummary::of(3, &senses).shares();
+        let expected = [("circular, anticlockwise", 0.25), ("circular, clockwise", 0.5), ("zigzag", 0.25)];
+        assert_eq!(shares, expected.map(|(name, share)| (name.to_owned(), share)));
         let mut totals = Totals::default();
         totals.add(&rows);
         totals.add(&[row(0, Regime::BlowUp, 1.0), row(1, Regime::Undetermined, 1.0)]);

@@ -5,9 +5,10 @@ use crate::dataset::read_dataset;
 use crate::statistics::Result;
 use crate::statistics::record::{Measurement, Recorder, at_rest, measured, title};
 use motiform_dynamics::Model;
+use motiform_dynamics::digits::given;
 use motiform_statistics::{Settings, Track};
 use motiform_store::table::Table;
-use motiform_study::plan::Computation;
+use motiform_study::plan::{Computation, NoiseSettings};
 use motiform_study::{Dataset, Error};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -93,7 +94,10 @@ fn other_body(first: &Computation, c: &Computation) -> Option<String> {
     if let Some(((name, expected), (_, got))) = others.next() {
         return Some(format!("its {name} is {got}, that of the first folder {expected}: {remedy}"));
     }
-    let shown = |c: &Computation| c.noise.map_or("none".to_owned(), |noise| noise.to_string());
+    let on = |noise: NoiseSettings| {
+        format!("{} on the shape, {} on the velocity", given(noise.shape), given(noise.velocity))
+    };
+    let shown = |c: &Computation| c.noise.map_or("none".to_owned(), on);
     let strength = |c: &Computation| c.noise.map(|noise| [noise.velocity, noise.shape]);
     (strength(first) != strength(c))
         .then(|| format!("its noise is {}, that of the first folder {}: {remedy}", shown(c), shown(first)))

@@ -34,9 +34,11 @@ pub fn draw(measurement: &Measurement, format: &FigureFormat) -> Result<Vec<Pict
 fn caption(measurement: &Measurement, units: &Shown, marks: &str, more: &[&str]) -> Result<Vec<String>> {
     let mut lines = vec![parameters(&measurement.plan, units)?];
     let c = &measurement.plan.computation;
-    let noise = c.noise.map_or(String::new(), |noise| {
-        format!(" Noise{}: {noise}.", if units.is_physical() { " (model units)" } else { "" })
-    });
+    let in_units = if units.is_physical() { " (model units)" } else { "" };
+    let noise = match &c.noise {
+        Some(noise) => format!(" Noise{in_units}: {}.", noise.words(measurement.plan.body()?.as_ref())),
+        None => String::new(),
+    };
     let found = &measurement.statistics;
     let what = match found.errors {
         Errors::Blocks { .. } if found.no_intervals.is_some() => {

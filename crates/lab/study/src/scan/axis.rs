@@ -1,6 +1,7 @@
 //! An axis of a scan: a parameter, or a coordinate of the start, and the values it takes.
 
 use crate::Error;
+use motiform_dynamics::digits::given;
 use motiform_dynamics::sample::ascending;
 use motiform_models::spelling::ascii;
 use motiform_models::{ModelInfo, parameters};
@@ -87,10 +88,11 @@ impl std::fmt::Display for Axis {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.values.as_slice() {
             few if few.len() <= 5 => {
-                let values: Vec<String> = few.iter().map(f64::to_string).collect();
+                let values: Vec<String> = few.iter().copied().map(given).collect();
                 write!(f, "{} = {}", self.name, values.join(", "))
             }
             [first, .., last] => {
+                let [first, last] = [*first, *last].map(given);
                 write!(f, "{} = {first} to {last} ({} values)", self.name, self.values.len())
             }
             _ => f.write_str(&self.name),

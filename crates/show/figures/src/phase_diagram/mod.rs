@@ -24,6 +24,7 @@ use super::svg::Svg;
 use cells::Cells;
 pub use inset::MapInset;
 pub(crate) use names::Names;
+pub(crate) use spacing::Spacing;
 
 /// Most cells a side that get markers.
 const TILES: usize = 40;
@@ -166,7 +167,7 @@ impl PhaseDiagram {
     fn legend(&self, cells: &Cells, look: Look, names: Option<&Names>) -> Vec<Entry> {
         let told = |rank| names.is_some_and(|names| names.tell(rank));
         let present = REGIMES.iter().enumerate().filter(|(rank, _)| cells.has(*rank) && !told(*rank));
-        let mut entries: Vec<_> = present.map(|(_, mark)| Entry::new(look.key(*mark), mark.name)).collect();
+        let mut entries: Vec<_> = present.map(|(_, mark)| Entry::new(look.key(*mark), mark.words)).collect();
         if let (Some([one, other]), true) = (cells.first_pair(), look != Look::Strip) {
             let stripes = Mark::Stripes(look.ground(&REGIMES[one]), look.ground(&REGIMES[other]));
             entries.push(Entry::new(stripes, "stripes: several motions"));

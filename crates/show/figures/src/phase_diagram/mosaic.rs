@@ -1,6 +1,6 @@
 //! Large grids: coloured cells as one picture.
 
-use super::super::marks::REGIMES;
+use super::super::marks::{REGIMES, RegimeMark};
 use super::super::palette::GREY;
 use super::super::picture::indexed_png;
 use super::cells::{Cells, Shares};
@@ -26,8 +26,14 @@ pub(super) fn png(scale: &Scale, cells: &Cells) -> Result<Vec<u8>> {
         let (row, v) = find(rows, |r| cells.row(r), y.max - place(j, height, y.span()));
         for (i, (column, u)) in across.iter().enumerate() {
             let ground = cells.at(*column, row).map_or(BLANK, |shares| colour(shares, (u + 1.0 - v).fract()));
-            let hatched = usize::from(ground) + 1 == REGIMES.len() && (i + j) % HATCH < 2;
-            pixels.push(if hatched { BLANK + 1 } else { ground });
+            let mark = REGIMES.get(usize::from(ground));
+            let rising = mark.is_some_and(RegimeMark::is_undetermined) && (i + j) % HATCH < 2;
+            let falling = mark.is_some_and(RegimeMark::is_clockwise) && (i + height - j) % HATCH < 2;
+            pixels.push(match (rising, falling) {
+                (true, _) => BLANK + 1,
+                (_, true) => BLANK,
+                _ => ground,
+            });
         }
     }
     let palette: Vec<Colour> = REGIMES.iter().map(|m| m.area).chain([WHITE, GREY]).collect();

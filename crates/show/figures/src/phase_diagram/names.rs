@@ -61,7 +61,7 @@ pub(super) fn places(
                 cells.number(inset.cell).is_some_and(|cell| region.binary_search(&cell).is_ok())
             };
             let paths = insets.iter().find(own).map_or(Vec::new(), |inset| inset.paths.clone());
-            let words: Vec<&str> = motions.iter().map(|rank| REGIMES[*rank].name).collect();
+            let words: Vec<&str> = motions.iter().map(|rank| REGIMES[*rank].words).collect();
             let label = Label::parse(&words.join(" + "));
             let found = |size: [f64; 2]| place(scale, cells, &region, size, clear);
             let size = [label.width(SIZE) + 2.0 * ROOM, SIZE + 2.0 * ROOM];

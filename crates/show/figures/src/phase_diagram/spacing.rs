@@ -9,7 +9,7 @@ const EQUAL: f64 = 1e-6;
 
 /// The division of an axis for cells of one size about their values.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Spacing {
+pub(crate) enum Spacing {
     /// Equal steps: a linear axis.
     Even,
     /// Equal ratios: a logarithmic axis.
@@ -35,12 +35,12 @@ impl Spacing {
         }
     }
 
-    pub(super) fn kind(&self) -> AxisKind {
+    pub(crate) fn kind(&self) -> AxisKind {
         AxisKind::of(*self == Self::Geometric)
     }
 
     /// The values whose columns are numbered, if they are.
-    pub(super) fn listed(&self) -> Option<&[f64]> {
+    pub(crate) fn listed(&self) -> Option<&[f64]> {
         match self {
             Self::Listed(values) => Some(values),
             _ => None,
@@ -48,7 +48,7 @@ impl Spacing {
     }
 
     /// The place of a value; on an axis of columns between those of its neighbours.
-    fn place(&self, value: f64) -> Option<f64> {
+    pub(crate) fn place(&self, value: f64) -> Option<f64> {
         match self {
             Self::Even | Self::Geometric => self.kind().place(value),
             Self::Listed(values) => Some(column(values, value)),
@@ -70,12 +70,12 @@ impl PhaseDiagram {
         self.spacings().map(|spacing| spacing.listed().is_some_and(|values| values.len() > 1))
     }
 
-    pub(super) fn spacings(&self) -> [Spacing; 2] {
+    pub(crate) fn spacings(&self) -> [Spacing; 2] {
         [&self.x[..], if self.y.len() < 2 { &[] } else { &self.y }].map(Spacing::of)
     }
 
     /// The diagram with places instead of values.
-    pub(super) fn placed(&self, [across, upwards]: &[Spacing; 2]) -> Cow<'_, Self> {
+    pub(crate) fn placed(&self, [across, upwards]: &[Spacing; 2]) -> Cow<'_, Self> {
         if [across, upwards] == [&Spacing::Even; 2] {
             return Cow::Borrowed(self);
         }

@@ -2,7 +2,7 @@
 
 use super::super::geometry::Rect;
 use super::super::marks::REGIMES;
-use super::super::stripes::draw_hatch;
+use super::super::stripes::{draw_falling, draw_hatch};
 use super::cells::{Cells, Shares};
 use super::{Paint, Scale, Svg};
 
@@ -47,6 +47,9 @@ fn draw_bar(svg: &mut Svg, scale: &Scale, [left, right]: [f64; 2], shares: &Shar
         svg.rect(bar, &Paint::fill(REGIMES[rank].area));
         if REGIMES[rank].is_undetermined() {
             draw_hatch(svg, bar);
+        }
+        if REGIMES[rank].is_clockwise() {
+            draw_falling(svg, bar);
         }
         low = high;
     }

@@ -3,6 +3,7 @@
 use crate::report::glossary::{Definition, linked};
 use crate::report::inline;
 use crate::svg::escape;
+use crate::text::powers;
 use serde::{Deserialize, Serialize};
 
 /// A table.
@@ -34,10 +35,10 @@ impl Cell {
         Self { text: text.into(), ..Self::default() }
     }
 
-    /// A number.
+    /// A number, with a power of ten where it has one as `1.5e-7`.
     #[must_use]
     pub fn number(text: impl Into<String>) -> Self {
-        Self { text: text.into(), number: true, ..Self::default() }
+        Self { text: powers(&text.into()), number: true, ..Self::default() }
     }
 
     /// A link to another page.

@@ -37,7 +37,7 @@ export function startWhy(): void {
 /** Shows the name; without a regime the motion is being named, and `likely` is what the map has at these parameters. */
 export function showName(regime: Regime | null, why: string, likely: Regime | null = null): void {
   const label = byId("regime");
-  const name = regime?.name ?? likely?.name ?? NAMING;
+  const name = regime?.words ?? likely?.words ?? NAMING;
   if (label.dataset.regime !== (regime?.name ?? "") || label.textContent !== name) {
     setText(label, name);
     label.dataset.regime = regime?.name ?? "";
@@ -46,5 +46,5 @@ export function showName(regime: Regime | null, why: string, likely: Regime | nu
   }
   explained(byId("why"), regime || !likely ? why : "as the map has it here, from the start of the preset; the motion of this body is being classified\u2026");
   window.clearTimeout(timer);
-  if (regime) timer = window.setTimeout(() => setText(byId("spoken"), `${regime.name}: ${why}`), SPOKEN_AFTER);
+  if (regime) timer = window.setTimeout(() => setText(byId("spoken"), `${regime.words}: ${why}`), SPOKEN_AFTER);
 }

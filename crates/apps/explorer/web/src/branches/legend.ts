@@ -14,7 +14,7 @@ export function showBranchLegend(element: HTMLElement, set: BranchSet | null, re
   if (!set) return element.replaceChildren();
   const motions = regimes.filter((regime) => set.branches.some((branch) => branch.between.includes(regime.name)));
   element.replaceChildren(
-    ...motions.map((regime) => make("li", { title: regime.meaning }, swatch(regime, 13), regime.name)),
+    ...motions.map((regime) => make("li", { title: regime.meaning }, swatch(regime, 13), regime.words)),
     ...lines(set),
   );
 }

@@ -1,7 +1,7 @@
 /** What is said of a point of a branch. */
 
 import { make } from "../dom";
-import { pretty } from "../numbers";
+import { inWords, pretty } from "../numbers";
 import type { Parameter } from "../protocol";
 import { symbol } from "../symbols";
 import { behind, ofSpeed, units } from "../units";
@@ -24,7 +24,8 @@ export function describe(set: BranchSet, spot: Spot, parameter: Parameter): HTML
 }
 
 /** Stable, or in how many directions deviations grow. */
-function motion({ motion, unstable, neutral }: ReturnType<BranchSet["state"]>): string {
+function motion({ motion: name, unstable, neutral }: ReturnType<BranchSet["state"]>): string {
+  const motion = inWords(name);
   const count = (n: number): string => (n === 1 ? "one direction" : `${n} directions`);
   if (unstable > 0) return `${motion}, unstable (deviations grow in ${count(unstable)})`;
   return neutral > 0 ? `${motion}, marginally stable (deviations neither grow nor die out in ${count(neutral)})` : `${motion}, stable`;

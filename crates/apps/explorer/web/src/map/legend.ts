@@ -20,7 +20,7 @@ export class Legend {
     this.shown = key;
     const distinct = lines.filter((line, i) => lines.findIndex((other) => other.label === line.label) === i);
     this.element.replaceChildren(
-      ...regimes.map((regime) => make("li", { title: regime.meaning }, swatch(regime, 13), regime.name)),
+      ...regimes.map((regime) => make("li", { title: regime.meaning }, swatch(regime, 13), regime.words)),
       ...(strip ? [make("li", {}, symbol("*\u03bb*_1"), "largest Lyapunov exponent, bars: 95 %")] : []),
       ...distinct.map((line) => make("li", {}, sample(line), symbol(line.label))),
     );

@@ -92,16 +92,19 @@ export function paintCells(g: CanvasRenderingContext2D, { box, view, lattice, me
   }
   if (!lattice) return;
   lattice.draw(g, box, view);
-  const hatched = lattice.outlineOf(regimes.findIndex((regime) => regime.glyph === "Question"), box, view);
-  if (!hatched) return;
-  g.fillStyle = pattern(g, "hatch", inks);
-  g.fill(hatched);
+  regimes.forEach((regime, index) => {
+    const kind = regime.glyph === "Question" ? "hatch" : regime.hand === "Clockwise" ? "falling" : null;
+    const hatched = kind && lattice.outlineOf(index, box, view);
+    if (!kind || !hatched) return;
+    g.fillStyle = pattern(g, kind, inks);
+    g.fill(hatched);
+  });
 }
 
 const patterns = new Map<string, CanvasPattern>();
 
-/** Dots for what is not computed yet, strokes for what stays undetermined. */
-function pattern(g: CanvasRenderingContext2D, kind: "ground" | "hatch", inks: Inks): CanvasPattern | string {
+/** Dots for what is not computed yet, strokes for what stays undetermined, white ones that fall for what turns clockwise. */
+function pattern(g: CanvasRenderingContext2D, kind: "ground" | "hatch" | "falling", inks: Inks): CanvasPattern | string {
   const key = `${kind} ${inks.ground}`;
   const known = patterns.get(key);
   if (known) return known;
@@ -116,12 +119,13 @@ function pattern(g: CanvasRenderingContext2D, kind: "ground" | "hatch", inks: In
     t.fillRect(1, 1, 1.2, 1.2);
     t.fillRect(5, 5, 1.2, 1.2);
   } else {
-    t.strokeStyle = "#888888";
+    t.strokeStyle = kind === "hatch" ? "#888888" : "#ffffff";
     t.lineWidth = 1.1;
     t.beginPath();
+    const [from, to] = kind === "hatch" ? [9, -1] : [-1, 9];
     for (const shift of [-8, 0, 8]) {
-      t.moveTo(shift - 1, 9);
-      t.lineTo(shift + 9, -1);
+      t.moveTo(shift - 1, from);
+      t.lineTo(shift + 9, to);
     }
     t.stroke();
   }

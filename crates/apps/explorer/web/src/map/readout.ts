@@ -72,7 +72,7 @@ export class Readout {
   private show(name: string | null | undefined, why: string): void {
     if (name !== this.regime) {
       const regime = this.regimes().find((one) => one.name === name);
-      this.verdict.replaceChildren(...(regime ? [swatch(regime, 14), make("b", {}, regime.name)] : []));
+      this.verdict.replaceChildren(...(regime ? [swatch(regime, 14), make("b", {}, regime.words)] : []));
       this.regime = name;
     }
     explained(this.why, why);

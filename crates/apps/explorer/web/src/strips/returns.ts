@@ -4,7 +4,7 @@ import { Sheet } from "../canvas";
 import { byId, setText } from "../dom";
 import { readNumber } from "../fields";
 import { toast } from "../toasts";
-import { pretty } from "../numbers";
+import { given, pretty } from "../numbers";
 import { drawAxes, leftRoom, pixelX, pixelY, type Box, type View } from "../plot";
 import type { Returns, ReturnsAhead, Section } from "../protocol";
 import { currentInks, curve } from "../theme";
@@ -49,7 +49,7 @@ export class ReturnStrip {
 
   setSection(section: Section, y: number | null): void {
     this.select.value = section;
-    this.line.value = y === null ? "" : String(y);
+    this.line.value = y === null ? "" : given(y);
     byId("section-line").hidden = section !== "path";
     this.before = { section, y };
   }

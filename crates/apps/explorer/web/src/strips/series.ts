@@ -134,7 +134,7 @@ export class SeriesStrip {
     return chart(place, `${name} against time`, {
       cursor: { sync: { key: "time" }, points: { show: false }, y: false, drag: { x: false, y: false } },
       scales: { x: { time: false, auto: false }, y: { range: (plot, low, high) => this.range(columns[0], headroom, plot.data[1], low, high) } },
-      padding: [4, 14, last ? 0 : 3, 0],
+      padding: [8, 14, last ? 0 : 3, 0],
       axes: [
         axis({ ...across(), size: last ? 20 : 0, show: last }),
         axis({ ...upward(3, headroom, told), size: () => this.room }),

@@ -38,10 +38,11 @@ pub(super) fn of(series: &Series) -> Finding<ObservedChaos> {
     let interval = lag as f64 * series.dt;
     if samples.len() < LEAST {
         return Finding::missing(format!(
-            "{} samples, {} apart, are too few: {LEAST} are needed, which a record of {} has",
+            "{} samples, {} {unit} apart, are too few: {LEAST} are needed, which a record of {} {unit} has",
             samples.len(),
             number(interval),
-            number(interval * LEAST as f64)
+            number(interval * LEAST as f64),
+            unit = series.unit
         ));
     }
     match motiform_analysis::zero_one(&samples, SEED) {

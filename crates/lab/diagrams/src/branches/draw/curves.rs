@@ -2,8 +2,9 @@
 
 use crate::curves::{CurveSample, Curves, FollowedCurve, codimension_2};
 use motiform_continuation::{Degenerate, Special};
+use motiform_dynamics::in_words;
 use motiform_figures::{CurveMap, CurveStyle, LineStyle, MapCurve, MapMark, PhaseDiagram};
-use motiform_lab::draw::{Figures, phase_diagram, symbol, words};
+use motiform_lab::draw::{Figures, phase_diagram, symbol, uneven, words};
 use motiform_lab::scan::{CellSummary, ScanFolder, cells};
 use motiform_study::branches::Along;
 use motiform_study::curves::CurveKind;
@@ -91,32 +92,14 @@ pub fn curve_mark((kind, sample): (Degenerate, &CurveSample)) -> Option<MapMark>
     Some(MapMark { label: point_words(kind)?, at: sample.parameters })
 }
 
-/// The words for the points of a curve.
-#[must_use]
-pub const fn curve_words(kind: CurveKind) -> &'static str {
-    match kind {
-        CurveKind::Hopf => "Hopf",
-        CurveKind::SymmetryBreaking => "symmetry breaking",
-        CurveKind::PeriodDoubling => "period doubling",
-        CurveKind::Fold | CurveKind::Pitchfork | CurveKind::Torus => kind.name(),
-    }
-}
-
 /// The words for a point of codimension two; none for one that was not located.
 #[must_use]
 pub fn point_words(kind: Degenerate) -> Option<String> {
-    Some(match kind {
-        Degenerate::Cusp => "cusp".to_owned(),
-        Degenerate::Bautin => "Bautin".to_owned(),
-        Degenerate::BogdanovTakens => "Bogdanov-Takens".to_owned(),
-        Degenerate::ZeroHopf => "zero-Hopf".to_owned(),
-        Degenerate::DoubleHopf => "double Hopf".to_owned(),
-        Degenerate::Resonance { order } => format!("1:{order} resonance"),
-        Degenerate::DoublyCritical => "doubly critical".to_owned(),
-        Degenerate::GainsSymmetry => "gains a symmetry".to_owned(),
-        Degenerate::Unresolved => return None,
-        other => other.name().to_owned(),
-    })
+    match kind {
+        Degenerate::Resonance { order } => Some(format!("1:{order} resonance")),
+        Degenerate::Unresolved => None,
+        other => Some(in_words(other.name())),
+    }
 }
 
 /// A sentence for the caption about points of codimension two that were not located; nothing without any.
@@ -154,6 +137,7 @@ fn regimes(plan: &CurvePlan, folder: &ScanFolder) -> Result<(usize, PhaseDiagram
     let mut diagram = phase_diagram(scan, &found)?;
     if scan.computation.axes[0].name != plan.computation.plane[0].name {
         std::mem::swap(&mut diagram.x, &mut diagram.y);
+        std::mem::swap(&mut diagram.x_label, &mut diagram.y_label);
         diagram.cells.iter_mut().for_each(|cell| std::mem::swap(&mut cell.x, &mut cell.y));
     }
     Ok((scan.computation.samples, diagram))
@@ -223,6 +207,7 @@ fn caption(
         let states = number(*samples, "initial state", "initial states");
         let cells = diagram.cells.len();
         all.push(format!("Beneath: the motions that {states} settled on, in each of {cells} cells."));
+        all.extend(uneven(diagram));
     }
     all.extend(unlocated(found.curves.iter().flat_map(codimension_2)));
     Ok(all)

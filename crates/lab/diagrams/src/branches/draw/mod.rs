@@ -5,6 +5,5 @@ mod curves;
 
 pub use branches::{Ordinate, branch_figures, diagram as branch_diagram};
 pub use curves::{
-    check_scan, curve_figures, curve_map, curve_mark, curve_stretches, curve_words, marks_together,
-    point_words, unlocated,
+    check_scan, curve_figures, curve_map, curve_mark, curve_stretches, marks_together, point_words, unlocated,
 };
