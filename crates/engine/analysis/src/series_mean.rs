@@ -132,7 +132,7 @@ fn slowest(off: &[f64], durations: &[f64], total: f64, count: usize) -> f64 {
 }
 
 /// The mean over these durations, summed as differences to `origin`: exact for constants, accurate for small changes on a large value.
-fn mean(samples: &[f64], durations: &[f64], origin: f64) -> f64 {
+pub(crate) fn mean(samples: &[f64], durations: &[f64], origin: f64) -> f64 {
     let sum: f64 = samples.iter().zip(durations).map(|(x, d)| (x - origin) * d).sum();
     origin + sum / durations.iter().sum::<f64>()
 }

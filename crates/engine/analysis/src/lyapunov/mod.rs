@@ -13,13 +13,14 @@ use crate::linear::norm;
 use crate::series_mean::{FEWEST_INDEPENDENT, independent_samples, mean_over};
 use crate::symmetry::reduced_speed;
 use crate::{Estimate, Result};
+pub(crate) use bounds::with_unseen;
 pub use lanes::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Equivariant, Mask, Outcome, Request, StepControl, StopOnly, Tangent, Watch};
 use renormalisation::{Renormalisation, Stretch};
-pub use separation::separates;
 pub(crate) use separation::{GROWN, SECULAR};
+pub use separation::{power_of_time, separates};
 pub use silent::left_alone;
 
 /// The settings of the computation of exponents.
@@ -178,7 +179,7 @@ impl SoFar<'_> {
     #[must_use]
     pub fn exponents(&self) -> Option<Vec<Estimate>> {
         let mut all = means(self.history, self.begun, 0.0, self.pace).ok().filter(|all| !all.is_empty())?;
-        bounds::bound(&mut all, self.history, self.begun);
+        bounds::bound(&mut all, self.history, self.time());
         Some(all)
     }
 }

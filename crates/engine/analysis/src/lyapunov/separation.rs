@@ -11,6 +11,12 @@ pub(crate) const GROWN: f64 = 10.0;
 /// power.
 pub(crate) const SECULAR: f64 = 2.0 * 1.791_759_469_228_055;
 
+/// Growth by less than this over so many runs may be a power of time.
+#[must_use]
+pub fn power_of_time(runs: usize) -> f64 {
+    GROWN.max(SECULAR * runs as f64)
+}
+
 /// A positive exponent is above this many of its 95 % errors.
 const ERRORS: f64 = 3.0;
 
@@ -19,8 +25,7 @@ const ERRORS: f64 = 3.0;
 #[must_use]
 pub fn separates(exponent: Estimate, time: f64, runs: usize, asked: f64) -> bool {
     let Estimate { value, error } = exponent;
-    let least = GROWN.max(SECULAR * runs as f64);
-    value > asked * ERRORS * error && value * time >= asked * least
+    value > asked * ERRORS * error && value * time >= asked * power_of_time(runs)
 }
 
 impl Lyapunov {

@@ -146,7 +146,8 @@ pub(super) fn is_long_enough(runs: &[Growth]) -> bool {
     pooled(runs).is_some_and(long)
 }
 
-/// A torus of shapes: returns on a curve that early and late ones fill alike, and an exponent that is zero within its error.
+/// A torus of shapes: returns on a curve that early and late ones fill alike, and an exponent that is zero within its error, or of a growth
+/// that may be a power of time: on the tori of Hamiltonian equations neighbouring orbits separate in proportion to it.
 ///
 /// That it is zero and not small is said by the 0-1 test, or by the run itself: where the distance of neighbouring orbits has not
 /// grown by more than the number of returns, error included, it grows like a power of time at most. (The 0-1 test may fail
@@ -156,10 +157,14 @@ pub(super) fn is_long_enough(runs: &[Growth]) -> bool {
 /// time, along a curve. This sees what changes within a look by more than the distance of its returns;
 /// [`super::lasting`] sees less.
 pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verdict> {
-    let Estimate { value, error } = *run.exponents.first().filter(|first| first.has_error())?;
+    let first = *run.clone().bounded().exponents.first()?;
+    let Estimate { value, error } = *run.exponents.first()?;
+    let secular = value.abs() * run.time < SECULAR;
+    // rates that fall like 1/t have no error of their own
+    let error = if error.is_infinite() && secular { value.abs() } else { error };
     let (k, dimension) = (witness.zero_one?, witness.dimension?);
     let curve = (0.8..1.2).contains(&dimension) && witness.stationary?;
-    if value > 2.0 * error || value * run.time > GROWN || !curve {
+    if error.is_infinite() || (value > 2.0 * error && !secular) || value * run.time > GROWN || !curve {
         return None;
     }
     let most = libm::log(witness.returns as f64);
@@ -167,13 +172,14 @@ pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verd
     if k > ORDER && growth > most {
         return None;
     }
-    let exponent = stated(Estimate { value, error });
+    let bounded = Estimate { value, error: if first.has_error() { first.error } else { error } };
+    let exponent = stated(bounded);
     let why = format!(
         "the returns lie on a closed curve (dimension {dimension:.2}), lambda_1 = {exponent}, 0-1 test {k:.2}: a torus of shapes"
     );
     let mut verdict = Verdict::new(Regime::QuasiPeriodic, Attractor::Torus, why, time);
     verdict.margin = Some((ORDER / k.abs().max(0.03)).max(most / growth.max(0.1)));
-    verdict.exponents.clone_from(&run.exponents);
+    verdict.exponents = vec![bounded];
     Some(verdict)
 }
 

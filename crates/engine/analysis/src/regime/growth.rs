@@ -1,7 +1,7 @@
 //! The growth of tangent vectors: runs in which the shape moved, and the exponent of several of them.
 
 use crate::Estimate;
-use crate::lyapunov::{Lyapunov, durations, rates};
+use crate::lyapunov::{Lyapunov, SECULAR, durations, power_of_time, rates, with_unseen};
 use crate::series_mean::mean_over;
 
 /// Rests that take more than this part of a run count,
@@ -86,14 +86,11 @@ pub(super) struct Growth {
 impl Growth {
     /// The growth of the first vector of a run that ended at time `end` of the search; `None` without an exponent.
     pub(super) fn of(run: &Lyapunov, end: f64) -> Option<Self> {
-        let estimate = *run.exponents.first()?;
+        let found = *run.exponents.first()?;
         let begun = run.history.last()?.0 - run.time;
-        Some(Self {
-            rates: rates(&run.history, 0),
-            durations: durations(&run.history, begun),
-            estimate,
-            start: end - run.time - run.transient,
-        })
+        let (rates, durations) = (rates(&run.history, 0), durations(&run.history, begun));
+        let estimate = with_unseen(found, &rates, &durations, SECULAR);
+        Some(Self { rates, durations, estimate, start: end - run.time - run.transient })
     }
 
     fn time(&self) -> f64 {
@@ -127,10 +124,12 @@ pub(super) fn pooled(runs: &[Growth]) -> Option<Pooled> {
         rates.splice(0..0, run.rates.iter().copied());
         durations.splice(0..0, run.durations.iter().copied());
         let Ok(mean) = mean_over(&rates, &durations) else { break };
+        let runs = all.runs + 1;
+        let mean = Estimate { error: mean.error.max(1e-12), ..mean };
         all = Pooled {
-            estimate: Estimate { value: mean.value, error: mean.error.max(1e-12) },
+            estimate: with_unseen(mean, &rates, &durations, power_of_time(runs)),
             time: all.time + run.time(),
-            runs: all.runs + 1,
+            runs,
             since: run.start,
         };
     }

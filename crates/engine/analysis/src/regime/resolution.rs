@@ -107,7 +107,7 @@ impl Verdict {
         settings: &Settings,
         watch: &dyn Watch,
     ) -> crate::Result<Self> {
-        let run = chaos::exponent(finer, shape, RUN * settings.first_look, settings, watch)?;
+        let run = chaos::exponent(finer, shape, RUN * settings.first_look, settings, watch)?.bounded();
         let (own, found) = (self.exponents.first().copied(), run.exponents.first().copied());
         let (Some(own), Some(found)) = (own, found) else { return Ok(self) };
         if !run.outcome.is_complete() || !found.has_error() {

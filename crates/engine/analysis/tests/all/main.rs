@@ -4,6 +4,7 @@ mod back_and_forth;
 mod bodies;
 mod classification_of_the_cell;
 mod common;
+mod conservative;
 mod deflation;
 mod equilibrium;
 mod escape;

@@ -6,6 +6,7 @@ mod shares;
 
 use crate::analyse::{self, Body};
 pub use escapes::{EscapeLimits, Escapes};
+use motiform_analysis::lyapunov::power_of_time;
 use motiform_analysis::regime::{Course, Settings, Verdict, classifies_in_lanes};
 use motiform_analysis::{Estimate, Lyapunov, LyapunovSettings};
 use motiform_dynamics::Watch;
@@ -145,8 +146,9 @@ fn summarise(orbits: Vec<Lyapunov>) -> Exponents {
     let lasted: Vec<&[Estimate]> =
         orbits.iter().map(|orbit| &orbit.exponents[..]).filter(|exponents| !exponents.is_empty()).collect();
     let count = lasted.first().map_or(0, |exponents| exponents.len());
+    let time = orbits.iter().map(|orbit| orbit.time).fold(0.0, f64::max);
     let means: Vec<Estimate> = (0..count)
-        .map(|place| mean(&lasted.iter().map(|exponents| exponents[place]).collect::<Vec<_>>()))
+        .map(|place| mean(&lasted.iter().map(|exponents| exponents[place]).collect::<Vec<_>>(), time))
         .collect();
     let far = |exponents: &&[Estimate]| {
         let (own, mean) = (exponents[0], means[0]);
@@ -156,15 +158,17 @@ fn summarise(orbits: Vec<Lyapunov>) -> Exponents {
     Exponents { agree, means, orbits }
 }
 
-/// The mean of independent estimates with its 95 % error.
-fn mean(estimates: &[Estimate]) -> Estimate {
+/// The mean of independent estimates over a time with its 95 % error; growth that may be a power of time has no smaller one in the mean of
+/// many.
+fn mean(estimates: &[Estimate], time: f64) -> Estimate {
     let n = estimates.len() as f64;
     let value = estimates.iter().map(|estimate| estimate.value).sum::<f64>() / n;
     let own = estimates.iter().map(|estimate| estimate.error * estimate.error).sum::<f64>().sqrt() / n;
     let squares: f64 =
         estimates.iter().map(|estimate| (estimate.value - value) * (estimate.value - value)).sum();
     let spread = if estimates.len() > 1 { NORMAL_95 * (squares / (n - 1.0) / n).sqrt() } else { 0.0 };
-    Estimate { value, error: own.max(spread) }
+    let secular = if value.abs() * time < power_of_time(1) { value.abs() } else { 0.0 };
+    Estimate { value, error: own.max(spread).max(secular) }
 }
 
 /// A motion as samples are counted: where a model tells left from right, or has a field, each course is a motion of its own.
