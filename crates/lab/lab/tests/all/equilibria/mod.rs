@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod families;
+mod ghosts;
 mod irrelevant;
 mod other_search;
 mod tensor;
