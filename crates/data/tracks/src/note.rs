@@ -1,5 +1,6 @@
 //! The notes on files that could be read.
 
+use motiform_dynamics::digits::four_digits;
 use motiform_store::counted;
 use serde::Serialize;
 use std::fmt;
@@ -88,7 +89,8 @@ impl fmt::Display for Note {
                 )
             }
             Self::UnknownUnit { file, what, step, key } => {
-                let apart = step.map_or_else(String::new, |step| format!(", {step} from frame to frame,"));
+                let apart = step
+                    .map_or_else(String::new, |step| format!(", {} from frame to frame,", four_digits(step)));
                 write!(
                     f,
                     "{file}: {what}{apart} have no unit, and are taken in frames; give the unit ({key})"

@@ -92,7 +92,11 @@ pub(crate) fn sound(cells: &[Cell], path: &Path) -> Result<()> {
             format!("{missing} vertices are not finite numbers, and no frame has 3 others")
         }
         Some(0..3) => {
-            format!("no frame has more than {} vertices: is this a table of positions?", most.unwrap_or(0))
+            format!(
+                "no frame has more than {} vertices: is this a table of positions? Speeds and persistence, too, are read from outlines: give \
+                 those of the cells, 3 vertices or more in each frame (masks, contours of TrackMate, ImageJ's ROIs)",
+                most.unwrap_or(0)
+            )
         }
         Some(_) => return Ok(()),
     };

@@ -29,6 +29,9 @@ const LEAST_FRAMES: usize = 40;
 /// Fewest periods, and fewest full turns of a circle.
 const LEAST_REPEATS: f64 = 4.0;
 const LEAST_TURNS: f64 = 2.0;
+/// Fewest turns within which the heading of a circle forgets its direction: three times the one where another record may have no name. Its
+/// measured time is right within a factor of about two.
+const LEAST_MEMORY: f64 = 3.0;
 /// Standard errors by which a mean must differ from 0.
 const CLEAR: f64 = 4.0;
 /// A shape that deviates from its mean by more than this part of the radius, and by more than the mean itself, is not that of a
@@ -137,7 +140,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
     Observation { cell, frames, motion, numbers, measures: Some(measures), repeats, statistics, relatives }
 }
 
-/// The verdict, if enough resampled records agree with it.
+/// The verdict, if enough resamples of the record agree with it: that is how sure it is of this record, not of another one.
 fn resampled(
     measures: &Measures,
     (regime, why): (Option<Regime>, String),
@@ -149,7 +152,7 @@ fn resampled(
     if confidence >= LEAST_CONFIDENCE {
         return Motion { regime, why, confidence: Some(confidence) };
     }
-    let why = format!("{why}; but only {:.0} % of the resampled records say so", 100.0 * confidence);
+    let why = format!("{why}; but only {:.0} % of the resamples of this record say so", 100.0 * confidence);
     Motion { regime: None, why, confidence: None }
 }
 
@@ -223,6 +226,17 @@ fn decide(m: &Measures, cell: &CellTrack, repeats: Option<&Repeats>) -> (Option<
                 "{turns:.1} turns, but not at a steady rate: the heading keeps its direction in {:.0} % of the time, as on legs \
                  between corners",
                 100.0 * m.straight_share
+            );
+            return (None, why);
+        }
+        let memory = m.heading_memory();
+        if memory * m.turning.abs() < LEAST_MEMORY * TAU {
+            let why = format!(
+                "{turns:.1} turns, but not at a steady rate: noise turns the heading, too, which forgets its direction within {} {}, {:.1} \
+                 turns, where {LEAST_MEMORY} turns are needed; another record of such a cell may go otherwise",
+                four_digits(memory),
+                units.time,
+                memory * m.turning.abs() / TAU
             );
             return (None, why);
         }

@@ -81,8 +81,8 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
         let (name, factor) = paper(&c.term, c.imaginary);
         let part = if c.imaginary { "imaginary part of " } else { "" };
         let over = fitted.over_sets(&c.name).filter(|_| !c.imaginary);
-        let [low, high] = interval(over.map_or(c.estimate.interval, |over| over.interval));
-        let interval = if sound && stated { format!("{low} to {high}") } else { String::new() };
+        let (value, ends) = over.map_or((c.estimate.value, c.estimate.interval), |o| (o.value, o.interval));
+        let interval = if sound && stated { interval(value, ends) } else { String::new() };
         let mut row = vec![
             Cell::text(format!("{part}{}", typeset(&c.name))),
             Cell::number(if sound {
@@ -111,7 +111,6 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
     }
     let mut rows: Vec<Vec<Cell>> = fitted.model().coefficients.iter().enumerate().map(row).collect();
     for one in fitted.in_other_sets() {
-        let [low, high] = one.interval.map(plain);
         let mut row = vec![
             Cell::text(format!("{} (other sets)", typeset(&one.name))),
             Cell::number(format!("{}, mean over sets", plain(one.value))),
@@ -119,7 +118,7 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
                 fitted.whole.coefficient(&one.name).map_or_else(String::new, |c| unit(&c.term, units)),
             ),
             Cell::number(""),
-            Cell::number(if stated { format!("{low} to {high}") } else { String::new() }),
+            Cell::number(if stated { interval(one.value, one.interval) } else { String::new() }),
             Cell::text(format!(
                 "not in the file: in {:.0} % of the weight of all tied sets",
                 100.0 * one.weight
