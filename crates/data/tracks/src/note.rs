@@ -55,6 +55,8 @@ pub enum Note {
     SentinelFrames { cell: String, frames: Vec<i64> },
     /// Two cells have the same outlines in the same frames.
     SameCell { first: String, second: String, frames: usize },
+    /// Cells with positions and no outlines.
+    Positions { cells: usize },
 }
 
 impl Note {
@@ -168,6 +170,12 @@ impl fmt::Display for Note {
             Self::SentinelFrames { cell, frames } => {
                 write!(f, "cell {cell}: {} far from all others, or negative; left out", list(frames))
             }
+            Self::Positions { cells } => write!(
+                f,
+                "{} with positions and no outlines: numbers of the path alone (speed, persistence, diffusion, turning); names and fits need \
+                 outlines",
+                counted(*cells, "cell")
+            ),
             Self::SameCell { first, second, frames } => {
                 write!(
                     f,

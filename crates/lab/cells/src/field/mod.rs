@@ -23,13 +23,16 @@ use motiform_tracks::{Note, Tracks};
 use serde::Serialize;
 use std::borrow::Cow;
 
-/// The cells without those that are another one again: their motion is no motion in common.
+/// The cells without those that are another one again in most of their frames: their motion is no motion in common.
 fn once<'c>(tracks: &Tracks, cells: &'c [CellModes]) -> Cow<'c, [CellModes]> {
-    let again = |name: &str| {
-        tracks.notes.iter().any(|note| matches!(note, Note::SameCell { second, .. } if second == name))
+    let again = |cell: &CellModes| {
+        let same = |note: &Note| match note {
+            Note::SameCell { second, frames, .. } => *second == cell.name && 2 * frames > cell.frames.len(),
+            _ => false,
+        };
+        tracks.notes.iter().any(same)
     };
-    let kept =
-        || tracks.cells.iter().zip(cells).filter(|(cell, _)| !again(&cell.name)).map(|(_, modes)| modes);
+    let kept = || cells.iter().filter(|cell| !again(cell));
     if kept().count() == cells.len() { Cow::Borrowed(cells) } else { kept().cloned().collect() }
 }
 

@@ -350,7 +350,7 @@ fn a_record_and_the_same_backwards_have_one_name() {
 }
 
 /// Rigid circle swimmers whose heading diffuses, 200 frames of a vertex noise of 1 %, a turn in 21 frames: with a memory of half a turn and of
-/// one the rate is not steady, and no record has the name; with one of 24 turns and without an end nearly all have it.
+/// one the rate is not steady, and hardly a record has the name; with one of 24 turns, and with one that does not end, all have it.
 #[test]
 fn a_heading_that_is_forgotten_within_a_turn_makes_no_circle() {
     let swimmer = |diffusion: f64, seed: u64| {
@@ -369,7 +369,8 @@ fn a_heading_that_is_forgotten_within_a_turn_makes_no_circle() {
         seen(along(path.iter().map(|one| one.0), z2, seed)).motion
     };
     let records = 12;
-    for (diffusion, named) in [(0.1, 0..=0), (0.05, 0..=2), (0.002, 11..=12), (0.0, 12..=12)] {
+    // of a hundred other records 1, 4, 100 and 100 have the name, without this rule 48, 88, 100 and 100
+    for (diffusion, named) in [(0.1, 0..=1), (0.05, 0..=2), (0.002, 12..=12), (0.0, 12..=12)] {
         let all: Vec<_> = (0..records).map(|seed| swimmer(diffusion, seed)).collect();
         let circles = all.iter().filter(|one| one.regime == Some(Regime::Circular)).count();
         let said = all.iter().filter(|one| one.why.contains("forgets its direction")).count();
