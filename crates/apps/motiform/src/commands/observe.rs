@@ -155,7 +155,7 @@ fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error
         writeln!(text, "not given      {}: {reason}", names.join(", "))?;
     }
     if !bare.is_empty() {
-        let reason = "the record is too short beside the time over which they stay alike";
+        let reason = "the record is too short beside their correlation times";
         writeln!(text, "no interval    {}: {reason}", bare.join(", "))?;
     }
     if let Some(remark) = found.numbers.remark(&units.length) {
