@@ -172,8 +172,8 @@ impl fmt::Display for Note {
             }
             Self::Positions { cells } => write!(
                 f,
-                "{} with positions and no outlines: numbers of the path alone (speed, persistence, diffusion, turning); names and fits need \
-                 outlines",
+                "{} with positions and no outlines: numbers of the path alone (speed, persistence, diffusion, turning); names and fits \
+                 need outlines",
                 counted(*cells, "cell")
             ),
             Self::SameCell { first, second, frames } => {

@@ -218,8 +218,8 @@ fn unlike_walkers(seed: u64, velocity: [f64; 2]) -> (Vec<Track>, Fit) {
     (tracks, found)
 }
 
-/// Cells of two persistences: the model of common rates has velocities of a stage that none of them has. Each by its own law they have none,
-/// and one that they do have is found.
+/// Cells of two persistences: the model of common rates has velocities of a stage that none of them has. Each by its own law they have
+/// none, and one that they do have is found.
 #[test]
 fn cells_that_differ_are_not_carried() {
     let of_one_law = |tracks: &[Track], found: &Fit| {

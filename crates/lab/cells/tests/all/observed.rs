@@ -349,8 +349,8 @@ fn a_record_and_the_same_backwards_have_one_name() {
     }
 }
 
-/// Rigid circle swimmers whose heading diffuses, 200 frames of a vertex noise of 1 %, a turn in 21 frames: with a memory of half a turn and of
-/// one the rate is not steady, and hardly a record has the name; with one of 24 turns, and with one that does not end, all have it.
+/// Rigid circle swimmers whose heading diffuses, 200 frames of a vertex noise of 1 %, a turn in 21 frames: with a memory of half a turn and
+/// of one the rate is not steady, and hardly a record has the name; with one of 24 turns, and with one that does not end, all have it.
 #[test]
 fn a_heading_that_is_forgotten_within_a_turn_makes_no_circle() {
     let swimmer = |diffusion: f64, seed: u64| {
