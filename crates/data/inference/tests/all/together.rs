@@ -206,8 +206,8 @@ fn cells_of_a_mirror_symmetric_law_are_not_handed_by_themselves() {
 fn unlike_walkers(seed: u64, velocity: [f64; 2]) -> (Vec<Track>, Fit) {
     let walker = |number: u64| {
         let persistence = [3.0, 12.0][usize::from(number % 2 == 1)];
-        let term = |equation, rate: f64| (equation, Complex::new(-rate, 0.0), vec![equation as i32]);
-        let equations = vec![term(1, 1.0 / persistence), term(2, 0.2), term(3, 0.2)];
+        let term = |equation, rate: f64, of| (equation, Complex::new(-rate, 0.0), vec![of]);
+        let equations = vec![term(1, 1.0 / persistence, 1), term(2, 0.2, 2), term(3, 0.2, 3)];
         let eta = [libm::sqrt(1.0 / persistence), 0.1];
         let law = Experiment::new(equations, 0.0, 100 * seed + number);
         Experiment { eta, interval: 1.0, frames: 200, ..law }.track().without_velocity(velocity.map(|v| -v))
