@@ -63,7 +63,7 @@ pub use subsets::{
 };
 pub use walk::{Bounded, Fix, Misfit, PersistentWalk, SPREAD_SCATTER, persistent_walk, walk_likelihood};
 pub use warnings::{
-    COARSE, Channel, Drift, DriftPoint, Stretch, UnequalNoise, Warning, drift, fastest_rate, warnings,
-    whiteness,
+    COARSE, Channel, Drift, DriftPoint, Stretch, UnequalNoise, Warning, carried_cells, drift, fastest_rate,
+    warnings, whiteness,
 };
 pub use weak::{Weak, weak};

@@ -13,11 +13,12 @@ pub use whiteness::{Channel, whiteness};
 
 use crate::field::{Field, Values};
 use crate::filter::Frame;
+use crate::fit::refit;
 use crate::identifiability::unbounded;
-use crate::{Fit, PValue, Result, StageVelocity, Track, observation, stage_velocities};
-use motiform_dynamics::Complex;
+use crate::{Fit, PValue, Result, Settings, StageVelocity, Track, observation, stage_velocities};
 use motiform_dynamics::digits::with_error;
 use motiform_dynamics::sample::ascending;
+use motiform_dynamics::{Complex, Watch};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
@@ -216,9 +217,7 @@ pub fn warnings(tracks: &[Track], fit: &Fit, drift: Option<&Drift>) -> Result<Ve
     if !names.is_empty() {
         all.push(Warning::NoiseAtBound { names });
     }
-    let mut channels = whiteness(fit);
-    let limit = WHITE / channels.len().max(1) as f64;
-    channels.retain(|channel| channel.p_value < limit);
+    let channels = coloured(fit);
     let white = channels.is_empty();
     if !white {
         all.push(Warning::Coloured { channels });
@@ -227,7 +226,10 @@ pub fn warnings(tracks: &[Track], fit: &Fit, drift: Option<&Drift>) -> Result<Ve
         all.push(Warning::Drifting { names });
     }
     all.extend(stretched(tracks));
-    all.extend(carried(tracks, fit, white)?);
+    if fit.converged() {
+        let found = stage_velocities(tracks, fit)?.into_iter().flatten();
+        all.extend(carried(found.map(|one| (one, white)), tracks.len(), fit));
+    }
     all.extend(errors_differ(fit));
     all.extend(UnequalNoise::of(fit).map(Warning::UnequalNoise));
     Ok(all)
@@ -240,19 +242,42 @@ fn stretched(tracks: &[Track]) -> Option<Warning> {
     Some(Warning::Stretched { share, degrees, p_value })
 }
 
-/// The clearest velocity of a stage, if there is one.
-fn carried(tracks: &[Track], fit: &Fit, white: bool) -> Result<Option<Warning>> {
-    if !fit.converged() {
-        return Ok(None);
+/// The channels whose innovations are not white.
+fn coloured(fit: &Fit) -> Vec<Channel> {
+    let mut channels = whiteness(fit);
+    let limit = WHITE / channels.len().max(1) as f64;
+    channels.retain(|channel| channel.p_value < limit);
+    channels
+}
+
+/// [`Warning::Carried`] of cells that may differ: each by its own law, with the terms of the joint fit and coefficients and noise of its
+/// own. Where cells differ, a law of all of them leaves velocities that none of them has.
+///
+/// # Errors    of the input; [`crate::Error::Interrupted`]
+/// # Checked by  `tests/all/together.rs`: walkers of two persistences, at rest and on a stage that drifts
+pub fn carried_cells(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Option<Warning>> {
+    let settings = Settings { library: fit.library.clone(), handed: fit.handed, starts: Vec::new() };
+    let mut found = Vec::new();
+    for track in tracks {
+        let own = std::slice::from_ref(track);
+        let law = refit(own, &settings, &fit.scales, &fit.theta(), watch)?;
+        if law.converged() {
+            let white = coloured(&law).is_empty();
+            found.extend(stage_velocities(own, &law)?.into_iter().flatten().map(|one| (one, white)));
+        }
     }
-    let found = stage_velocities(tracks, fit)?.into_iter().flatten();
-    let clearest = found.min_by(|a, b| a.p_value.total_cmp(&b.p_value));
+    Ok(carried(found.into_iter(), tracks.len(), fit))
+}
+
+/// The clearest velocity of a stage among those of so many tracks, if there is one; each with `true` where the innovations are white.
+fn carried(found: impl Iterator<Item = (StageVelocity, bool)>, tracks: usize, fit: &Fit) -> Option<Warning> {
+    let clearest = found.min_by(|a, b| a.0.p_value.total_cmp(&b.0.p_value));
     let least = LEAST_CARRIED * fit.scales.amplitudes[0];
-    let is_clear = |found: &StageVelocity| {
+    let is_clear = |(found, _): &(StageVelocity, bool)| {
         let size = libm::hypot(found.velocity[0], found.velocity[1]);
-        found.p_value * (tracks.len() as f64) < CARRIED && size > least
+        found.p_value * (tracks as f64) < CARRIED && size > least
     };
-    let warning = |StageVelocity { velocity, errors, p_value }: StageVelocity| {
+    let warning = |(StageVelocity { velocity, errors, p_value }, white): (StageVelocity, bool)| {
         let is_small = libm::hypot(velocity[0], velocity[1]) <= fit.scales.amplitudes[0];
         Warning::Carried {
             velocity: is_small.then_some([velocity, errors]),
@@ -261,7 +286,7 @@ fn carried(tracks: &[Track], fit: &Fit, white: bool) -> Result<Option<Warning>> 
             remedy: "the correction 'drift' subtracts a drift".to_owned(),
         }
     };
-    Ok(clearest.filter(is_clear).map(warning))
+    clearest.filter(is_clear).map(warning)
 }
 
 fn errors_differ(fit: &Fit) -> Option<Warning> {

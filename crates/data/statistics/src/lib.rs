@@ -49,7 +49,7 @@ pub use error::{Error, Result};
 pub use exponent::local_exponent;
 pub use gapped::GappedVectors;
 pub use jackknife::jackknife;
-pub use motiform_dynamics::digits::{four_digits, to_error, with_error};
+pub use motiform_dynamics::digits::{four_digits, interval, to_error, with_error, with_interval};
 
 /// A number with four digits and its unit; in model units without one.
 pub(crate) fn in_unit(x: f64, unit: &str) -> String {

@@ -82,6 +82,12 @@ pub(crate) fn digest(points: &[[f64; 2]]) -> u64 {
     points.iter().map(one).fold(0, u64::wrapping_add)
 }
 
+/// The cells that have positions alone.
+pub(crate) fn positions(cells: &[Cell]) -> Option<Note> {
+    let cells = cells.iter().filter(|cell| cell.has_positions_alone()).count();
+    (cells > 0).then_some(Note::Positions { cells })
+}
+
 /// Median areas above this are said once for all cells (um^2): large tissue cells have them, amoebae with a wrong scale too.
 const LARGE: f64 = 1000.0;
 
@@ -99,6 +105,6 @@ pub(crate) fn implausible(cell: &Cell, unit: &str) -> Option<Note> {
     let mut areas: Vec<f64> = cell.frames.iter().map(|outline| area(&outline.points).abs()).collect();
     areas.sort_unstable_by(f64::total_cmp);
     let area = *areas.get(areas.len() / 2)?;
-    let strange = unit == "um" && !(AREAS[0]..=AREAS[1]).contains(&area);
+    let strange = unit == "um" && !cell.has_positions_alone() && !(AREAS[0]..=AREAS[1]).contains(&area);
     strange.then(|| Note::ImplausibleArea { cell: cell.name.clone(), area, unit: unit.to_owned() })
 }

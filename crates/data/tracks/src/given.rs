@@ -1,6 +1,6 @@
 //! Outlines that a caller has in memory -> tracks.
 
-use crate::after::{filed_twice, implausible, sentinels};
+use crate::after::{filed_twice, implausible, positions, sentinels};
 use crate::numbering::{median_difference, numbers};
 use crate::read::sound;
 use crate::resolve::{Resolved, resolve};
@@ -46,6 +46,7 @@ pub fn given(mut cells: Vec<Cell>, about: Given) -> Result<Tracks> {
         notes.extend(implausible(cell, &about.length_unit));
     }
     notes.extend(filed_twice(&cells));
+    notes.extend(positions(&cells));
     let Given { length_unit, time_unit, y_down } = about;
     Ok(Tracks { cells, files: Vec::new(), length_unit, time_unit, y_down, image: None, notes })
 }

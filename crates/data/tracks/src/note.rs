@@ -1,5 +1,6 @@
 //! The notes on files that could be read.
 
+use motiform_dynamics::digits::four_digits;
 use motiform_store::counted;
 use serde::Serialize;
 use std::fmt;
@@ -54,6 +55,8 @@ pub enum Note {
     SentinelFrames { cell: String, frames: Vec<i64> },
     /// Two cells have the same outlines in the same frames.
     SameCell { first: String, second: String, frames: usize },
+    /// Cells with positions and no outlines.
+    Positions { cells: usize },
 }
 
 impl Note {
@@ -88,7 +91,8 @@ impl fmt::Display for Note {
                 )
             }
             Self::UnknownUnit { file, what, step, key } => {
-                let apart = step.map_or_else(String::new, |step| format!(", {step} from frame to frame,"));
+                let apart = step
+                    .map_or_else(String::new, |step| format!(", {} from frame to frame,", four_digits(step)));
                 write!(
                     f,
                     "{file}: {what}{apart} have no unit, and are taken in frames; give the unit ({key})"
@@ -166,6 +170,12 @@ impl fmt::Display for Note {
             Self::SentinelFrames { cell, frames } => {
                 write!(f, "cell {cell}: {} far from all others, or negative; left out", list(frames))
             }
+            Self::Positions { cells } => write!(
+                f,
+                "{} with positions and no outlines: numbers of the path alone (speed, persistence, diffusion, turning); names and fits \
+                 need outlines",
+                counted(*cells, "cell")
+            ),
             Self::SameCell { first, second, frames } => {
                 write!(
                     f,

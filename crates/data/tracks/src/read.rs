@@ -1,6 +1,6 @@
 //! Files -> tracks.
 
-use crate::after::{filed_twice, implausible, large, sentinels};
+use crate::after::{filed_twice, implausible, large, positions, sentinels};
 use crate::formats::{self, Found};
 use crate::scale::{apply, scales};
 use crate::{Cell, Error, Format, Image, Note, Options, Result, Tracks, detect};
@@ -44,6 +44,7 @@ pub fn read<P: AsRef<Path>>(paths: &[P], options: &Options) -> Result<Tracks> {
     }
     tracks.notes.extend(large(&tracks.cells, &tracks.length_unit));
     tracks.notes.extend(filed_twice(&tracks.cells));
+    tracks.notes.extend(positions(&tracks.cells));
     once(&mut tracks.notes);
     Ok(tracks)
 }
@@ -82,7 +83,7 @@ fn file(path: &Path, options: &Options) -> Result<(Tracks, Format)> {
     ))
 }
 
-/// At least one outline must have an area.
+/// At least one outline must have an area, or all are positions.
 pub(crate) fn sound(cells: &[Cell], path: &Path) -> Result<()> {
     let most = cells.iter().flat_map(|cell| &cell.frames).map(|outline| outline.points.len()).max();
     let missing: usize = cells.iter().flat_map(|cell| &cell.frames).map(|outline| outline.missing).sum();
@@ -91,8 +92,12 @@ pub(crate) fn sound(cells: &[Cell], path: &Path) -> Result<()> {
         Some(0..3) if missing > 0 => {
             format!("{missing} vertices are not finite numbers, and no frame has 3 others")
         }
+        Some(1) => return Ok(()), // a table of positions
         Some(0..3) => {
-            format!("no frame has more than {} vertices: is this a table of positions?", most.unwrap_or(0))
+            format!(
+                "no frame has more than {} vertices: give 3 and more in each frame, or one, the position of the cell",
+                most.unwrap_or(0)
+            )
         }
         Some(_) => return Ok(()),
     };

@@ -73,6 +73,15 @@ impl Tracks {
     /// Number of cells and outlines, in words: `1 cell, 400 outlines`.
     #[must_use]
     pub fn size(&self) -> String {
-        format!("{}, {}", counted(self.cells.len(), "cell"), counted(self.outlines(), "outline"))
+        let what = if self.cells.iter().all(Cell::has_positions_alone) { "position" } else { "outline" };
+        format!("{}, {}", counted(self.cells.len(), "cell"), counted(self.outlines(), what))
+    }
+}
+
+impl Cell {
+    /// `true` if each frame has one point: the position of the cell, which has no outline.
+    #[must_use]
+    pub fn has_positions_alone(&self) -> bool {
+        self.frames.iter().all(|outline| outline.points.len() == 1 && outline.missing == 0)
     }
 }

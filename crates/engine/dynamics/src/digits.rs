@@ -9,6 +9,9 @@ const LEAST_PLAIN_ERROR: f64 = 1e-4;
 /// Values known to more than this many parts of their error are written without it: to four digits.
 const EXACT: f64 = 1e6;
 
+/// An end of an interval this many times as far from the value as the other one has fewer digits.
+const FAR: f64 = 10.0;
+
 /// Most decimals.
 const MOST: i32 = 15;
 
@@ -50,6 +53,33 @@ pub fn with_error(value: f64, error: f64) -> String {
 pub fn to_error(value: f64, error: f64) -> String {
     let [value, _] = two_digits(value, error);
     value
+}
+
+/// `6.2 (1.3 to 460)`: a value and the ends of its interval.
+#[must_use]
+pub fn with_interval(value: f64, ends: [f64; 2]) -> String {
+    let [value, low, high] = to_interval(value, ends);
+    format!("{value} ({low} to {high})")
+}
+
+/// The ends of [`with_interval`] alone: `1.3 to 460`.
+#[must_use]
+pub fn interval(value: f64, ends: [f64; 2]) -> String {
+    let [_, low, high] = to_interval(value, ends);
+    format!("{low} to {high}")
+}
+
+/// The narrower side is the error of the value; each end has the same place, or, more than ten
+/// times as far, two digits of its own distance. No end other than 0 becomes 0.
+fn to_interval(value: f64, ends: [f64; 2]) -> [String; 3] {
+    let sides = ends.map(|end| (end - value).abs());
+    let error = sides.into_iter().filter(|side| *side > 0.0).fold(f64::INFINITY, f64::min);
+    let end = |k: usize| {
+        let text = to_error(ends[k], if sides[k] > FAR * error { sides[k] } else { error });
+        let is_lost = ends[k] != 0.0 && text.parse() == Ok(0.0);
+        if is_lost { four_digits(format!("{:.1e}", ends[k]).parse().unwrap_or(ends[k])) } else { text }
+    };
+    [to_error(value, error), end(0), end(1)]
 }
 
 fn two_digits(value: f64, error: f64) -> [String; 2] {
@@ -145,6 +175,27 @@ mod tests {
         assert_eq!(steps.map(given).collect::<Vec<_>>(), typed);
         let said = [0.1 + 0.2, 0.475_000_000_000_000_03, -0.0, 1e7, 0.783_547_485, 2e-5].map(given);
         assert_eq!(said, ["0.3", "0.475", "0", "1e7", "0.783547485", "2e-5"]);
+    }
+
+    /// Diffusion of short records, where half of the width is 100 times the side towards 0; equal sides; one side, or none, that is known.
+    #[test]
+    fn intervals_have_the_digits_of_their_narrower_side() {
+        for (value, ends, text) in [
+            (6.182, [1.278, 457.1], "6.2 (1.3 to 460)"),
+            (4.132, [0.869, 301.5], "4.1 (0.9 to 300)"),
+            (4.132, [0.012_34, 301.5], "4.1 (0.012 to 300)"),
+            (-4.132, [-301.5, -0.012_34], "-4.1 (-300 to -0.012)"),
+            (1.0, [-4e-4, 2.1], "1.0 (-0.0004 to 2.1)"),
+            (2.013, [1.948, 2.078], "2.013 (1.948 to 2.078)"),
+            (0.5, [0.41, 0.601], "0.500 (0.410 to 0.601)"),
+            (1.0, [0.0, 2.0], "1.0 (0.0 to 2.0)"),
+            (6541.3, [6418.0, 6700.0], "6540 (6420 to 6700)"),
+            (3.0, [1.5, f64::INFINITY], "3.0 (1.5 to inf)"),
+            (0.0, [0.0, 0.36], "0.00 (0.00 to 0.36)"),
+            (1.5, [1.5, 1.5], "1.5 (1.5 to 1.5)"),
+        ] {
+            assert_eq!(with_interval(value, ends), text);
+        }
     }
 
     #[test]

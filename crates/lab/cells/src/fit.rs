@@ -251,7 +251,8 @@ pub(crate) fn fit_in_stages(
     }
     let settings = Settings { library: library.seen(&tracks), ..Settings::default() };
     let unit = cells[0].units.unit(Dimension::SPEED);
-    let mut fitted = match fitted(&tracks, Members::Cells, (&settings, options, &unit), stages, watch) {
+    let members = Members::Cells(cells.iter().any(|cell| cell.drift.is_some()));
+    let mut fitted = match fitted(&tracks, members, (&settings, options, &unit), stages, watch) {
         Err(Error::Inference(error)) => return Ok(refused(TOGETHER, frames, error.to_string())),
         found => found?,
     };

@@ -11,7 +11,7 @@ use motiform_cells::{
     Units, fit_cells, fit_together, fits_json, fitted_population, observe,
 };
 use motiform_inference::{Estimate, PValue, Place, Placement, Symmetry};
-use motiform_statistics::{four_digits, to_error, with_error};
+use motiform_statistics::{four_digits, interval, to_error, with_error};
 use motiform_store::Opening;
 use serde::{Serialize, Serializer};
 use std::fmt::{Display, Formatter, Write};
@@ -189,7 +189,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
         }
         let stated = !coefficient.imaginary && fitted.no_intervals().is_none();
         if let Some(one) = fitted.over_sets(&coefficient.name).filter(|_| stated) {
-            write!(text, " 95 %: {} to {}", four_digits(one.interval[0]), four_digits(one.interval[1]))?;
+            write!(text, " 95 %: {}", interval(one.value, one.interval))?;
         }
         if let Some(weak) = fitted.checks.weak(place) {
             write!(text, " weak form {}", four_digits(weak))?;
@@ -197,12 +197,12 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
         text.push('\n');
     }
     for one in fitted.in_other_sets() {
-        let [low, high] = one.interval.map(four_digits);
-        let interval =
-            if fitted.no_intervals().is_none() { format!(", 95 %: {low} to {high}") } else { String::new() };
+        let stated = fitted.no_intervals().is_none();
+        let ends =
+            if stated { format!(", 95 %: {}", interval(one.value, one.interval)) } else { String::new() };
         writeln!(
             text,
-            "  {:<20} not in the best set; over all tied sets {}{interval}, in {:.0} % of their weight",
+            "  {:<20} not in the best set; over all tied sets {}{ends}, in {:.0} % of their weight",
             one.name,
             four_digits(one.value),
             100.0 * one.weight
@@ -313,9 +313,8 @@ fn place(placement: &Placement) -> String {
             let at: Vec<String> = coordinates
                 .iter()
                 .map(|c| {
-                    let Estimate { value, error, interval: [low, high], .. } = c.estimate;
-                    let [low, high] = [low, high].map(|end| to_error(end, error));
-                    format!("{} = {} (95 %: {low} to {high})", c.name, with_error(value, error))
+                    let Estimate { value, error, interval: ends, .. } = c.estimate;
+                    format!("{} = {} (95 %: {})", c.name, with_error(value, error), interval(value, ends))
                 })
                 .collect();
             format!(" {}; {distance:.3} off the slice ({deviation:.1} standard errors)", at.join(", "))

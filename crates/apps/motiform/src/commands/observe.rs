@@ -12,14 +12,17 @@ use motiform_cells::{
 };
 use motiform_dynamics::Watch;
 use motiform_lab::pool::all_cores;
-use motiform_statistics::{Answer, four_digits};
+use motiform_statistics::{Answer, four_digits, with_interval};
 use motiform_store::{Kind, Staged};
+use motiform_study::quantity::cell;
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::{Columns, Note, Options};
 use serde::{Serialize, Serializer};
 use std::fmt::{Display, Formatter, Write};
 use std::path::PathBuf;
 
+/// Numbers of one path, which have no interval.
+const WITHOUT_INTERVAL: [&str; 3] = [cell::PATH.name, cell::NET_DISPLACEMENT.name, cell::DIRECTIONALITY.name];
 /// Notes of one kind that are printed.
 const MOST_NOTES: usize = 4;
 
@@ -115,7 +118,7 @@ fn sentences(
     let name = found.motion.regime.map_or_else(|| "undecided".to_owned(), Regime::words);
     let mut text = format!("cell {:<9} {name}\nbecause        {}\n", found.cell, found.motion.why);
     if let Some(confidence) = found.motion.confidence {
-        writeln!(text, "confidence     {:.0} % of resampled records", 100.0 * confidence)?;
+        writeln!(text, "confidence     {:.0} % of resamples of this record", 100.0 * confidence)?;
     }
     text += &quality(cell, found.frames)?;
     if let Some(measures) = &found.measures
@@ -131,7 +134,7 @@ fn sentences(
 
 /// The numbers without a model, and why some are missing.
 fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error> {
-    let mut text = String::new();
+    let (mut text, mut bare) = (String::new(), Vec::new());
     let mut missing: Vec<(String, Vec<&str>)> = Vec::new();
     for row in found.numbers.rows() {
         let unit = units.unit(row.quantity.dimension);
@@ -142,11 +145,19 @@ fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error
             }
             continue;
         }
+        let is_bare = row.value.known().is_some_and(|found| found.interval.is_none());
+        if is_bare && !WITHOUT_INTERVAL.contains(&row.quantity.name) {
+            bare.push(row.quantity.symbol);
+        }
         let value = answer(&row.value, &unit);
         writeln!(text, "{:<15}{}", row.quantity.symbol, value.trim_end())?;
     }
     for (reason, names) in missing {
         writeln!(text, "not given      {}: {reason}", names.join(", "))?;
+    }
+    if !bare.is_empty() {
+        let reason = "the record is too short beside their correlation times";
+        writeln!(text, "no interval    {}: {reason}", bare.join(", "))?;
     }
     if let Some(remark) = found.numbers.remark(&units.length) {
         writeln!(text, "centroid       {remark}")?;
@@ -158,13 +169,12 @@ fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error
 fn answer(found: &Answer, unit: &str) -> String {
     match found {
         Answer::Unknown { reason } => reason.clone(),
-        Answer::Known(found) => match found.interval {
-            Some([low, high]) => {
-                let [value, low, high] = [found.value, low, high].map(four_digits);
-                format!("{value} ({low} to {high}) {unit}")
-            }
-            None => format!("{} {unit}", four_digits(found.value)),
-        },
+        Answer::Known(found) => {
+            let number = found
+                .interval
+                .map_or_else(|| four_digits(found.value), |ends| with_interval(found.value, ends));
+            format!("{number} {unit}")
+        }
     }
 }
 

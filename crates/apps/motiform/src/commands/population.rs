@@ -4,7 +4,7 @@ use motiform_cells::{
     FittedPopulation, NameShare, ObservedPopulation, OverCells, PopulationNumbers, Units, Withheld,
 };
 use motiform_dynamics::in_words;
-use motiform_statistics::four_digits;
+use motiform_statistics::{four_digits, with_interval};
 use motiform_study::counted;
 use std::fmt::{Result, Write};
 
@@ -73,8 +73,8 @@ fn shares(text: &mut String, names: &[NameShare]) -> Result {
 }
 
 fn line(text: &mut String, name: &str, over: &OverCells, unit: &str) -> Result {
-    let number = |value: f64, interval: Option<[f64; 2]>| match interval.map(|ends| ends.map(four_digits)) {
-        Some([low, high]) => format!("{} ({low} to {high})", four_digits(value)),
+    let number = |value: f64, interval: Option<[f64; 2]>| match interval {
+        Some(ends) => with_interval(value, ends),
         None => four_digits(value),
     };
     let (mean, median) = (number(over.mean, over.mean_interval), number(over.median, over.median_interval));

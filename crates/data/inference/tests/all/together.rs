@@ -7,8 +7,8 @@ use super::common::{Equations, Experiment, FULL, full};
 use super::samples::draws;
 use motiform_dynamics::{Complex, Normal};
 use motiform_inference::{
-    Fit, HANDED_RATE, Library, Senses, Settings, Symmetry, Track, averaged, between_cells, fit, handedness,
-    senses, subsets,
+    Fit, HANDED_RATE, Library, Senses, Settings, Symmetry, Track, Warning, averaged, between_cells,
+    carried_cells, fit, handedness, senses, subsets, warnings,
 };
 
 fn settings() -> Settings {
@@ -200,4 +200,47 @@ fn cells_of_a_mirror_symmetric_law_are_not_handed_by_themselves() {
     }
     println!("p-values {p_values:.3?}");
     assert!(p_values.iter().all(|p| *p > HANDED_RATE) && p_values.iter().any(|p| *p > 0.2), "{p_values:?}");
+}
+
+/// Six walkers of speed 1 whose velocity forgets within 3 and within 12, on a stage of this velocity, and the fit of one law to them.
+fn unlike_walkers(seed: u64, velocity: [f64; 2]) -> (Vec<Track>, Fit) {
+    let walker = |number: u64| {
+        let persistence = [3.0, 12.0][usize::from(number % 2 == 1)];
+        let term = |equation, rate: f64, of| (equation, Complex::new(-rate, 0.0), vec![of]);
+        let equations = vec![term(1, 1.0 / persistence, 1), term(2, 0.2, 2), term(3, 0.2, 3)];
+        let eta = [libm::sqrt(1.0 / persistence), 0.1];
+        let law = Experiment::new(equations, 0.0, 100 * seed + number);
+        Experiment { eta, interval: 1.0, frames: 200, ..law }.track().without_velocity(velocity.map(|v| -v))
+    };
+    let tracks: Vec<Track> = (0..6).map(walker).collect();
+    let library = Library::tensor().select(&["z1: z1", "z2: z2", "z3: z3"]).unwrap();
+    let found = fit(&tracks, &Settings { library, ..Settings::default() }, &()).unwrap();
+    (tracks, found)
+}
+
+/// Cells of two persistences: the model of common rates has velocities of a stage that none of them has. Each by its own law they have
+/// none, and one that they do have is found.
+#[test]
+fn cells_that_differ_are_not_carried() {
+    let of_one_law = |tracks: &[Track], found: &Fit| {
+        let all = warnings(tracks, found, None).unwrap();
+        all.iter().any(|warning| matches!(warning, Warning::Carried { .. }))
+    };
+    let mut invented = 0;
+    let groups = draws(4, 40);
+    for seed in 0..groups {
+        let (tracks, found) = unlike_walkers(seed, [0.0; 2]);
+        invented += u32::from(of_one_law(&tracks, &found));
+        let own = carried_cells(&tracks, &found, &()).unwrap();
+        assert!(own.is_none(), "{seed}: {own:?}"); // 1e-3 for each group
+        assert!(!between_cells(&tracks, &found).unwrap().differing(&found).is_empty(), "{seed}");
+    }
+    println!("one law invents a velocity in {invented} of {groups} groups");
+    assert!(invented > 0);
+    for (seed, stage) in [(0, [0.7, -0.4]), (1, [1.5, -0.8])] {
+        let (tracks, found) = unlike_walkers(seed, stage);
+        let own = carried_cells(&tracks, &found, &()).unwrap();
+        // one step from 0 says little of the size of such a velocity
+        assert!(matches!(own, Some(Warning::Carried { p_value: Some(_), .. })), "{own:?}");
+    }
 }

@@ -30,6 +30,8 @@ pub enum Flag {
     TooFewVertices { vertices: usize, least: usize },
     /// Vertices of the file, `of` in all, were not finite: the outline has holes. Up to a tenth of them the others still give the modes.
     MissingVertices { count: usize, of: usize },
+    /// The record is one of positions: there is no outline.
+    PositionAlone,
     /// The polygon encloses nothing.
     NoArea,
     /// Two edges cross.
@@ -84,6 +86,7 @@ impl Flag {
         match self {
             Self::TooFewVertices { .. } => "too few vertices",
             Self::MissingVertices { .. } => "missing vertices",
+            Self::PositionAlone => "position alone",
             Self::NoArea => "no area",
             Self::SelfCrossing { .. } => "self-crossing",
             Self::CrossingUnknown { .. } => "crossing unknown",
@@ -135,7 +138,7 @@ impl fmt::Display for Flag {
                 write!(f, "{name}: {vertices}, at least {least} are needed")
             }
             Self::MissingVertices { count, of } => write!(f, "{name}: {count} of {of} are not finite"),
-            Self::NoArea | Self::NoFit => f.write_str(name),
+            Self::PositionAlone | Self::NoArea | Self::NoFit => f.write_str(name),
             Self::SelfCrossing { edges: [a, b] } => write!(f, "{name}: edges {a} and {b}"),
             Self::CrossingUnknown { vertices } => write!(f, "{name}: {vertices} vertices are too many"),
             Self::NotStarShaped { turns, back, tolerance } => {

@@ -72,12 +72,20 @@ impl FrameModes {
         self.radius.is_some() && !self.is_left_out()
     }
 
-    /// Returns `true` if place and form of the polygon are observations, whatever its radius: it encloses an
-    /// area, and only modes would ask for more vertices.
+    /// Returns `true` if its place is an observation, and the form of the polygon where there is one, whatever its radius: it encloses an
+    /// area, and only modes would ask for more vertices, or the record is one of positions.
     #[must_use]
     pub fn is_seen(&self) -> bool {
-        let hides = |flag: &Flag| flag.leaves_out() && !matches!(flag, Flag::TooFewVertices { .. });
-        self.form.is_some() && !self.flags.iter().any(hides)
+        self.is_seen_but(|_| false)
+    }
+
+    /// The same without regard to these flags.
+    #[must_use]
+    pub fn is_seen_but(&self, without: impl Fn(&Flag) -> bool) -> bool {
+        let of_modes = |flag: &Flag| matches!(flag, Flag::TooFewVertices { .. } | Flag::PositionAlone);
+        let hides = |flag: &Flag| flag.leaves_out() && !of_modes(flag) && !without(flag);
+        let is_placed = self.form.is_some() || self.flags.contains(&Flag::PositionAlone);
+        is_placed && !self.flags.iter().any(hides)
     }
 }
 

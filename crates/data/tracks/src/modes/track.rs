@@ -53,6 +53,7 @@ pub fn modes(tracks: &Tracks, options: &ModeOptions) -> Vec<CellModes> {
 
 fn cell_modes(cell: &Cell, borders: &Borders, options: &ModeOptions) -> CellModes {
     let mut frames: Vec<FrameModes> = Vec::with_capacity(cell.frames.len());
+    let positions = cell.has_positions_alone();
     for outline in &cell.frames {
         let mut modes = outline_modes(&outline.points, options);
         (modes.frame, modes.t) = (outline.frame, outline.t);
@@ -60,10 +61,15 @@ fn cell_modes(cell: &Cell, borders: &Borders, options: &ModeOptions) -> CellMode
             let of = outline.points.len() + outline.missing;
             modes.flags.push(Flag::MissingVertices { count: outline.missing, of });
         }
-        modes.flags.extend(borders.flags(&outline.points));
+        match positions {
+            true => modes.flags = vec![Flag::PositionAlone],
+            false => modes.flags.extend(borders.flags(&outline.points)),
+        }
         frames.push(modes);
     }
-    repeated(cell, &mut frames);
+    if !positions {
+        repeated(cell, &mut frames);
+    }
     gaps(&mut frames);
     jumps(&mut frames, options.jump);
     displacements(&mut frames);

@@ -61,8 +61,17 @@ fn vertices_that_are_not_finite() {
 
 #[test]
 fn positions_are_no_outlines() {
-    assert!(refusal("particle,frame,x,y\n1,0,3,4\n1,1,4,5\n").contains("table of positions"));
-    assert!(refusal("cell,frame,i,x,y\n1,0,0,3,4\n1,0,1,4,5\n").contains("more than 2 vertices"));
+    let tracks = read("particle,frame,x,y\n1,0,3,4\n1,1,4,5\n1,2,4,5\n").unwrap();
+    assert!(
+        notes(&tracks).contains("1 cell with positions and no outlines")
+            && tracks.size() == "1 cell, 3 positions"
+    );
+    let modes = &motiform_tracks::modes::modes(&tracks, &motiform_tracks::modes::ModeOptions::default())[0];
+    let seen: Vec<_> =
+        modes.frames.iter().filter(|frame| frame.is_seen()).map(|frame| frame.centroid).collect();
+    assert_eq!((seen, modes.used().count()), (vec![[3.0, 4.0], [4.0, 5.0], [4.0, 5.0]], 0));
+    let error = refusal("cell,frame,i,x,y\n1,0,0,3,4\n1,0,1,4,5\n");
+    assert!(error.contains("more than 2 vertices") && error.contains("or one, the position"), "{error}");
     assert!(refusal("cell,frame,i,x,y\n").contains("no vertex"));
 }
 

@@ -106,10 +106,7 @@ impl Grid {
 
 /// `true` if the place of an outline is that of the cell on the images, also where the stage was elsewhere for a moment.
 fn is_placed(frame: &FrameModes) -> bool {
-    let hides = |flag: &Flag| {
-        flag.leaves_out() && !matches!(flag, Flag::TooFewVertices { .. } | Flag::PositionJump { .. })
-    };
-    frame.form.is_some() && !frame.flags.iter().any(hides)
+    frame.is_seen_but(|flag| matches!(flag, Flag::PositionJump { .. }))
 }
 
 /// The most frequent step between frames of a cell, the least of equally frequent ones.

@@ -18,9 +18,23 @@ pub use jitter::Jitter;
 pub use jumps::StageJump;
 
 use grid::Grid;
-use motiform_tracks::Tracks;
 use motiform_tracks::modes::CellModes;
+use motiform_tracks::{Note, Tracks};
 use serde::Serialize;
+use std::borrow::Cow;
+
+/// The cells without those that are another one again in most of their frames: their motion is no motion in common.
+fn once<'c>(tracks: &Tracks, cells: &'c [CellModes]) -> Cow<'c, [CellModes]> {
+    let again = |cell: &CellModes| {
+        let same = |note: &Note| match note {
+            Note::SameCell { second, frames, .. } => *second == cell.name && 2 * frames > cell.frames.len(),
+            _ => false,
+        };
+        tracks.notes.iter().any(same)
+    };
+    let kept = || cells.iter().filter(|cell| !again(cell));
+    if kept().count() == cells.len() { Cow::Borrowed(cells) } else { kept().cloned().collect() }
+}
 
 /// Motion that the cells of a field of view have in common.
 ///
@@ -49,6 +63,7 @@ impl FieldOfView {
     pub fn of(tracks: &Tracks, cells: &[CellModes]) -> Self {
         // of masks whose size is known outlines lie on edges and middles of pixels
         let pixel = pixels::pitch(tracks).map(|pitch| tracks.image.map_or(pitch, |image| image.pixel));
+        let cells = &once(tracks, cells)[..];
         let Some(mut grid) = Grid::of(cells) else { return Self { pixel, ..Self::default() } };
         let mut jumps = jumps::find(&grid, cells);
         grid.subtract_jumps(&jumps);

@@ -10,8 +10,8 @@ use motiform_dynamics::Watch;
 use motiform_dynamics::distributions::student_factor;
 use motiform_inference::{
     Beside, Fit, Ladder, PValue, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, Warning,
-    averaged, between_cells, drift, fit, handed_beside, handedness, identifiability, ladder, place_among,
-    select, walk_p_value, warnings,
+    averaged, between_cells, carried_cells, drift, fit, handed_beside, handedness, identifiability, ladder,
+    place_among, select, walk_p_value, warnings,
 };
 
 /// Several tracks: pieces of one record, or cells.
@@ -19,20 +19,21 @@ use motiform_inference::{
 pub(crate) enum Members {
     /// Pieces of the record of one cell.
     Pieces,
-    /// Cells, two at least.
-    Cells,
+    /// Cells, two at least; `true` if their field of view drifts.
+    Cells(bool),
 }
 
 impl Members {
-    /// The remedy for a velocity that does not turn with the cell, where the correction 'drift' was given or not.
+    /// The remedy for a velocity that does not turn with the cell, where the correction 'drift' was given or not. It subtracts from cells
+    /// together only what their field of view shows.
     fn remedy(self, given: bool) -> &'static str {
         match (self, given) {
-            (_, false) => "the correction 'drift' subtracts a drift",
+            (Self::Pieces | Self::Cells(true), false) => "the correction 'drift' subtracts a drift",
             (Self::Pieces, true) => {
                 "the correction 'drift' was given, and no velocity that stays the same over the record explains all of it; \
                  fit a part of the record in which the stage does not change"
             }
-            (Self::Cells, true) => {
+            (Self::Cells(_), _) => {
                 "the correction 'drift' subtracts from cells together only what all of the field of view have in common: fit this one by \
                  itself"
             }
@@ -59,7 +60,7 @@ pub(crate) fn fitted(
     watch: &dyn Watch,
 ) -> Result<Box<Fitted>> {
     let mut whole = stages.get("whole", watch, |watch| Ok(fit(tracks, settings, watch)?))?;
-    if members == Members::Cells {
+    if matches!(members, Members::Cells(_)) {
         let between = between_cells(tracks, &whole)?;
         whole = whole.with_cells(&between, student_factor(tracks.len() - 1));
     }
@@ -76,6 +77,10 @@ pub(crate) fn fitted(
     })?;
     let checks = Checks::of(tracks, model)?;
     let mut warnings = warnings(tracks, model, drift.as_ref())?;
+    let is_carried = |warning: &Warning| matches!(warning, Warning::Carried { .. });
+    if let (Members::Cells(false), Some(place)) = (members, warnings.iter().position(is_carried)) {
+        warnings.splice(place..=place, carried_cells(tracks, model, watch)?);
+    }
     warnings.iter_mut().for_each(|warning| explain(warning, unit, members.remedy(options.stage)));
     // no stage that is kept: few cells are handed
     let beside = |what| match handed {

@@ -63,7 +63,8 @@ impl Numbers {
         };
         let bare = |value: Option<f64>| of_steps(value.map(|value| Some(Measured { value, interval: None })));
         let form = |number: Option<FormNumber>| {
-            number.map_or_else(|| Answer::unknown("no frame is seen"), |number| Answer::Known(number.mean))
+            let why = if self.seen > 0 { "there are positions and no outlines" } else { "no frame is seen" };
+            number.map_or_else(|| Answer::unknown(why), |number| Answer::Known(number.mean))
         };
         let row = Row::new;
         let mut rows = vec![

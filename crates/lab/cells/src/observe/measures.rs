@@ -161,6 +161,12 @@ impl Measures {
         self.displacement_error / (std::f64::consts::SQRT_2 * self.displacement.max(f64::MIN_POSITIVE))
     }
 
+    /// Time in which the heading forgets its direction beside the steady turn: 1/D, with the diffusion D that the error of the mean turning
+    /// rate over the duration T has, `sqrt(2 D/T)`.
+    pub(super) fn heading_memory(&self) -> f64 {
+        2.0 / (self.turning_error * self.turning_error * self.duration).max(f64::MIN_POSITIVE)
+    }
+
     /// The same numbers with blocks of the record drawn with replacement: turning rate and its error, scatter of the speed.
     pub(super) fn resampled(&self) -> impl Iterator<Item = Self> + '_ {
         let mut random = Normal::new(1, 0);

@@ -1,7 +1,7 @@
 //! Common statistics of tracked cells: mean-square displacement, persistence, autocorrelations of velocity and shape, with errors.
 
 use super::measures::Series;
-use motiform_inference::Observation;
+use motiform_inference::{Observation, Scales};
 use motiform_statistics::{
     Answer, Autocorrelation, Errors, MeanSquare, Measured, Quantity, Track, Tracks, Walk, autocorrelation,
     mean_square, persistent_walk,
@@ -57,13 +57,22 @@ pub(super) fn of_records<'s>(records: impl Iterator<Item = &'s Series>) -> Optio
     let wanted = |quantity: &Quantity| matches!(quantity, Quantity::Velocity | Quantity::Mode(..));
     let memories = tracks.quantities().into_iter().filter(wanted);
     let extent = extent(&records);
+    let seen: Vec<_> =
+        records.iter().map(|series| motiform_inference::Track(series.frames.clone())).collect();
+    let signal = Scales::of(&seen, 3).signal;
     let known = |quantity: Quantity| {
         let found = memory(autocorrelation(&tracks, &quantity).ok()?);
         let varies = tracks.bodies().iter().any(|body| {
             let unit = if quantity == Quantity::Velocity { dt } else { 1.0 };
             quantity.size(body).iter().any(|size| size * unit > ROUND_OFF * extent)
         });
-        let time = if varies { found.time } else { Answer::unknown("it does not vary beyond round-off") };
+        let time = match quantity {
+            _ if !varies => Answer::unknown("it does not vary beyond round-off"),
+            Quantity::Mode(number, _) if signal[number + 1] < 1.0 => {
+                Answer::unknown("it does not exceed the errors of the outlines")
+            }
+            _ => found.time,
+        };
         Some(Memory { time, ..found })
     };
     let memories: Option<Vec<Memory>> = memories.map(known).collect();

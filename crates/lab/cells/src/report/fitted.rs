@@ -91,11 +91,11 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
         let (name, factor) = paper(&c.term, c.imaginary);
         let part = if c.imaginary { "imaginary part of " } else { "" };
         let over = fitted.over_sets(&c.name).filter(|_| !c.imaginary);
-        let [low, high] = interval(over.map_or(c.estimate.interval, |over| over.interval));
+        let (value, ends) = over.map_or((c.estimate.value, c.estimate.interval), |o| (o.value, o.interval));
         let interval = match (sound, stated) {
             (false, _) => NOT_CONVERGED.to_owned(),
             (true, false) => NOT_STATED.to_owned(),
-            (true, true) => format!("{low} to {high}"),
+            (true, true) => interval(value, ends),
         };
         let mut row = vec![
             Cell::text(format!("{part}{}", typeset(&c.name))),
@@ -130,7 +130,6 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
     }
     let mut rows: Vec<Vec<Cell>> = fitted.model().coefficients.iter().enumerate().map(row).collect();
     for one in fitted.in_other_sets() {
-        let [low, high] = one.interval.map(plain);
         let mut row = vec![
             Cell::text(format!("{} (other sets)", typeset(&one.name))),
             Cell::number(format!("{}, mean over sets", plain(one.value))),
@@ -138,7 +137,7 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
                 fitted.whole.coefficient(&one.name).map_or_else(String::new, |c| unit(&c.term, units)),
             ),
             Cell::number(OF_NO_SET),
-            Cell::number(if stated { format!("{low} to {high}") } else { NOT_STATED.to_owned() }),
+            Cell::number(if stated { interval(one.value, one.interval) } else { NOT_STATED.to_owned() }),
             Cell::text(format!(
                 "not in the file: in {:.0} % of the weight of all tied sets",
                 100.0 * one.weight

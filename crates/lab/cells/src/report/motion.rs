@@ -16,7 +16,7 @@ pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section,
     let name = index::motion(found.motion.regime);
     let mut about = format!("Observed motion: {name}. {}.", capital(&literal(&found.motion.why)));
     if let Some(confidence) = found.motion.confidence {
-        about += &format!(" {:.0} % of resampled records say the same.", 100.0 * confidence);
+        about += &format!(" {:.0} % of resamples of this record say the same.", 100.0 * confidence);
     }
     let mut figures = match &found.statistics {
         Some(statistics) => figures(statistics, setting)?,

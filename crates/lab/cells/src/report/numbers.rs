@@ -1,8 +1,8 @@
 //! Numbers as they stand in tables.
 
 use motiform_inference::Estimate;
-pub(crate) use motiform_statistics::with_error;
-use motiform_statistics::{Answer, Measured, four_digits, to_error};
+use motiform_statistics::{Answer, Measured, four_digits, with_interval};
+pub(crate) use motiform_statistics::{interval, with_error};
 
 /// A number to four digits.
 pub(crate) fn plain(x: f64) -> String {
@@ -15,22 +15,7 @@ pub(crate) fn estimate(estimate: &Estimate) -> String {
 
 /// A value with the ends of its interval.
 pub(crate) fn measured(found: &Measured) -> String {
-    match found.interval {
-        Some(ends) => {
-            let [low, high] = interval(ends);
-            format!("{} ({low} to {high})", to_error(found.value, half_width(ends)))
-        }
-        None => plain(found.value),
-    }
-}
-
-/// The ends of an interval, to two digits of half its width.
-pub(crate) fn interval(ends: [f64; 2]) -> [String; 2] {
-    ends.map(|end| to_error(end, half_width(ends)))
-}
-
-fn half_width([low, high]: [f64; 2]) -> f64 {
-    0.5 * (high - low)
+    found.interval.map_or_else(|| plain(found.value), |ends| with_interval(found.value, ends))
 }
 
 /// A value, or why there is none.

@@ -3,7 +3,7 @@
 use crate::Fitted;
 use crate::report::Setting;
 use crate::report::maps::beneath;
-use crate::report::numbers::{estimate, plain};
+use crate::report::numbers::{estimate, interval, plain};
 use motiform_dynamics::distributions::NORMAL_95;
 use motiform_figures::report::{Cell, Section, Table};
 use motiform_figures::{MapPlace, PlaceMap, literal};
@@ -126,14 +126,13 @@ pub(crate) fn notation(text: &str) -> String {
 
 fn table(place: &Place, plane: &str) -> Table {
     let row = |c: &Coordinate| {
-        let [low, high] = c.estimate.interval.map(plain);
         // what is off the slice is that of the best set alone
-        let (interval, slice) = match c.slice {
-            None => (format!("{low} to {high}"), "free".to_owned()),
+        let (ends, slice) = match c.slice {
+            None => (interval(c.estimate.value, c.estimate.interval), "free".to_owned()),
             Some(slice) => ("of the best set alone".to_owned(), plain(slice)),
         };
         let name = Cell::text(notation(&c.name));
-        vec![name, Cell::number(estimate(&c.estimate)), Cell::number(interval), Cell::number(slice)]
+        vec![name, Cell::number(estimate(&c.estimate)), Cell::number(ends), Cell::number(slice)]
     };
     Table {
         caption: format!(

@@ -1,7 +1,7 @@
 //! The population: names and numbers over cells.
 
 use crate::Units;
-use crate::report::numbers::plain;
+use crate::report::numbers::{interval, plain};
 use crate::report::terms::{typeset, unit};
 use crate::report::{Case, Setting, motion};
 use crate::{
@@ -102,7 +102,7 @@ fn table(caption: &str, rows: Vec<Vec<Cell>>) -> Table {
 fn row(name: String, over: &OverCells) -> Vec<Cell> {
     let interval = over.mean_interval.map_or_else(
         || if over.cells < 8 { "fewer than 8 cells" } else { "none (reason above)" }.to_owned(),
-        |[low, high]| format!("{} to {}", plain(low), plain(high)),
+        |ends| interval(over.mean, ends),
     );
     vec![
         Cell::text(name),

@@ -8,7 +8,7 @@ use motiform_cells::{CellTrack, Correction, FieldOfView, FitOptions, Sample, fit
 use motiform_inference::Symmetry;
 use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::synthetic::pixelated;
-use motiform_tracks::{Outline, Tracks};
+use motiform_tracks::{Cell, Note, Outline, Tracks};
 
 const WALK: Walker = Walker { speed: 0.6, persistence: 5.0, shape: Shape::Passive, frames: 150, noise: 0.01 };
 
@@ -286,4 +286,20 @@ fn words_about_the_field_do_not_contradict_each_other() {
     let words = jumped.field.in_words(&motiform_cells::Units::of(&jumped));
     let words = &words.iter().find(|row| row.0 == "stage jumps").expect("a row").1;
     assert!(words.matches('\u{b1}').count() == 2, "{words}");
+}
+
+/// Cells that are in two files: the second ones are left out, and the field of view is that of the first ones alone.
+#[test]
+fn cells_that_are_read_twice_have_no_jitter() {
+    let once = walkers(6);
+    let mut twice = once.clone();
+    for cell in &once.cells {
+        let (first, second) = (cell.name.clone(), format!("again {}", cell.name));
+        twice.notes.push(Note::SameCell { first, second: second.clone(), frames: cell.frames.len() });
+        twice.cells.push(Cell { name: second, frames: cell.frames.clone() });
+    }
+    let [alone, both] = [once, twice.clone()].map(field);
+    assert!(alone == both && alone.jitter.as_ref().is_some_and(|jitter| !jitter.is_seen()), "{both:?}");
+    twice.notes.clear();
+    assert!(field(twice).jitter.is_some_and(|jitter| jitter.is_seen()));
 }

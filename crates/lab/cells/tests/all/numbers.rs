@@ -402,3 +402,32 @@ fn cells_that_are_held_or_come_to_rest_have_no_diffusion() {
     let free = why(&changed(&|path, k| path[k]));
     assert!(free.len() <= 2, "{free:?}");
 }
+
+/// Walkers as outlines, and as the table of their centroids: the numbers of the path are the same to the last bit, those of the form have a
+/// reason, and so has the name. The field of view drifts for both.
+#[test]
+fn positions_have_the_numbers_of_their_path() {
+    let walk = Walker { speed: 0.6, persistence: 5.0, shape: Shape::Round, frames: 120, noise: 0.01 };
+    let outlines = tracks((0..4).map(|seed| walk.outlines(700 + seed)).collect());
+    let seen = Sample::of_tracks(outlines.clone(), &ModeOptions::default());
+    let mut positions = outlines;
+    for (cell, modes) in positions.cells.iter_mut().zip(&seen.cells) {
+        for (outline, frame) in cell.frames.iter_mut().zip(&modes.modes.frames) {
+            outline.points = vec![frame.centroid];
+        }
+    }
+    let placed = Sample::of_tracks(positions, &ModeOptions::default());
+    assert_eq!(placed.field.drift, seen.field.drift);
+    for (one, other) in placed.cells.iter().zip(&seen.cells) {
+        let [one, other] = [one, other].map(observe);
+        assert!(one.motion.regime.is_none() && one.motion.why.contains("no outlines"), "{}", one.motion.why);
+        for (a, b) in one.numbers.rows().into_iter().zip(other.numbers.rows()) {
+            let of_form =
+                ["area", "perimeter", "aspect_ratio", "solidity", "circularity"].contains(&a.quantity.name);
+            match of_form {
+                true => assert_eq!(a.value.reason(), Some("there are positions and no outlines")),
+                false => assert_eq!(a, b),
+            }
+        }
+    }
+}

@@ -1,7 +1,9 @@
 //! The summary: one JSON object, and sentences.
 
 use crate::statistics::Measurement;
-use motiform_statistics::{Answer, Diffusion, Errors, MeanTime, Measured, Oscillation, Side, four_digits};
+use motiform_statistics::{
+    Answer, Diffusion, Errors, MeanTime, Measured, Oscillation, Side, four_digits, with_interval,
+};
 use motiform_study::{Dimension, Shown};
 use serde_json::{Value, json};
 
@@ -272,18 +274,8 @@ fn answer(answer: &Answer) -> String {
 
 /// `2.013 (1.95 to 2.08)`: the digits that the interval leaves.
 pub(crate) fn value(measured: &Measured) -> String {
-    let digits = |x: f64| {
-        if x == 0.0 && measured.half_width() == 0.0 {
-            return "0".to_owned();
-        }
-        let width = measured.half_width().max(1e-6 * x.abs()).max(1e-300);
-        let places = (1.0 - width.log10().floor()).clamp(0.0, 12.0) as usize;
-        if x != 0.0 && !(1e-4..1e6).contains(&x.abs()) { format!("{x:.3e}") } else { format!("{x:.places$}") }
-    };
     match measured.interval {
-        Some([lower, upper]) => {
-            format!("{} ({} to {})", digits(measured.value), digits(lower), digits(upper))
-        }
+        Some(ends) => with_interval(measured.value, ends),
         None => format!("{} (no interval)", four_digits(measured.value)),
     }
 }
