@@ -61,7 +61,10 @@ pub use stage::{Beside, StageVelocity, WithStage, handed_beside, stage_velocitie
 pub use subsets::{
     Averaged, Selection, Subset, Subsets, TIE, averaged, refit_tied, refit_with, select, subsets,
 };
-pub use walk::{Bounded, Fix, Misfit, PersistentWalk, SPREAD_SCATTER, persistent_walk, walk_likelihood};
+pub use walk::{
+    Bounded, Fix, Misfit, PersistentWalk, SPREAD_SCATTER, WalkTogether, persistent_walk, walk_likelihood,
+    walk_together,
+};
 pub use warnings::{
     COARSE, Channel, Drift, DriftPoint, Stretch, UnequalNoise, Warning, carried_cells, drift, fastest_rate,
     warnings, whiteness,

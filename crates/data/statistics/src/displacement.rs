@@ -155,18 +155,16 @@ impl MeanSquare {
         self.groups
     }
 
-    /// Tells if a displacement over the lag of a place is known: in any group, and in every group.
+    /// Tells if a displacement over the lag of a place is known.
     #[must_use]
-    pub fn is_known(&self, place: usize) -> [bool; 2] {
-        [self.sums[place].count() > 0.0, self.sums[place].is_everywhere()]
+    pub fn is_known(&self, place: usize) -> bool {
+        self.sums[place].count() > 0.0
     }
 
     /// The value at a place with its interval, on its logarithm (squares of late displacements are skew) where it is above 0.
     #[must_use]
     pub fn measured(&self, place: usize) -> Measured {
-        let skew = leave_out(self.groups, &|left_out| self.value(place, left_out), true);
-        let found = if skew.interval.is_some() { skew } else { self.sums[place].measured() };
-        self.shown(found)
+        self.shown(self.sums[place].over_unequal())
     }
 
     /// d ln MSD / d ln lag between lags some places away on both sides; `None` where nothing moved.

@@ -17,27 +17,33 @@ const LEAST: usize = 8;
 /// # Checked by  tests/all/coverage.rs; for a mean it is the usual standard error (tests/all/quantiles.rs)
 #[must_use]
 pub fn jackknife(value: f64, without: &[f64]) -> Measured {
-    Measured { value, interval: spread(without).map(|half| [value - half, value + half]) }
+    Measured { value, interval: spread(without, None).map(|half| [value - half, value + half]) }
 }
 
 /// [`jackknife`] of the logarithm: for values above 0, whose interval then stays above 0.
 #[must_use]
 pub(crate) fn jackknife_ratio(value: f64, without: &[f64]) -> Measured {
+    ratio(value, without, None)
+}
+
+fn ratio(value: f64, without: &[f64], freedom: Option<usize>) -> Measured {
     let logarithms: Vec<f64> = without.iter().map(|&x| libm::log(x)).collect();
-    let half = if value > 0.0 { spread(&logarithms) } else { None };
+    let half = if value > 0.0 { spread(&logarithms, freedom) } else { None };
     Measured { value, interval: half.map(|half| [value * libm::exp(-half), value * libm::exp(half)]) }
 }
 
-/// Half the width of the interval.
-fn spread(without: &[f64]) -> Option<f64> {
+/// Half the width of the interval; degrees of freedom are one less than the groups, or these.
+fn spread(without: &[f64], freedom: Option<usize>) -> Option<f64> {
     let groups = without.len();
-    if groups < LEAST || without.iter().any(|value| !value.is_finite()) {
+    // of unequal groups, such as blocks of one record by where windows begin, one may be empty
+    let least = if freedom.is_some() { LEAST - 1 } else { LEAST };
+    if groups < least || without.iter().any(|value| !value.is_finite()) {
         return None;
     }
     let n = groups as f64;
     let mean = without.iter().sum::<f64>() / n;
     let squares: f64 = without.iter().map(|value| (value - mean) * (value - mean)).sum();
-    Some(student_quantile(groups - 1) * ((n - 1.0) / n * squares).sqrt())
+    Some(student_quantile(freedom.unwrap_or(groups - 1)) * ((n - 1.0) / n * squares).sqrt())
 }
 
 /// Sums over the groups of units: a mean is `sum / count`.
@@ -67,11 +73,6 @@ impl Sums {
         self.groups.iter().map(|group| group[1]).sum()
     }
 
-    /// Returns `true` if every group has a term.
-    pub(crate) fn is_everywhere(&self) -> bool {
-        self.groups.iter().all(|group| group[1] > 0.0)
-    }
-
     /// The mean, without group `left_out` if one is given.
     pub(crate) fn mean(&self, left_out: Option<usize>) -> f64 {
         let kept = self.groups.iter().enumerate().filter(|(number, _)| Some(*number) != left_out);
@@ -81,6 +82,25 @@ impl Sums {
 
     pub(crate) fn measured(&self) -> Measured {
         leave_out(self.groups.len(), &|left_out| self.mean(left_out), false)
+    }
+
+    /// The mean with its interval over the groups that have terms, on its logarithm where it is above 0. Degrees of freedom are those of
+    /// groups of unequal size: `(sum n)^2/sum n^2 - 1`, of n terms each.
+    ///
+    /// Source: Satterthwaite (1946), Biometrics Bull. 2, 110, for terms whose number is the inverse of the variance of their mean.
+    pub(crate) fn over_unequal(&self) -> Measured {
+        let sizes: Vec<f64> = self.groups.iter().map(|group| group[1]).collect();
+        let without: Vec<f64> =
+            (0..sizes.len()).filter(|&k| sizes[k] > 0.0).map(|group| self.mean(Some(group))).collect();
+        let [sum, squares] = sizes.iter().fold([0.0; 2], |[s, q], n| [s + n, q + n * n]);
+        let freedom = Some((sum * sum / squares - 1.0).round() as usize);
+        let value = self.mean(None);
+        let skew = ratio(value, &without, freedom);
+        if skew.interval.is_some() {
+            return skew;
+        }
+        let half = spread(&without, freedom).filter(|half| half.is_finite());
+        Measured { value, interval: half.map(|half| [value - half, value + half]) }
     }
 }
 

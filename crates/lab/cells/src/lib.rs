@@ -49,7 +49,7 @@ pub use folder::write_observations;
 pub use names::file_names;
 pub use numbers::{
     FormNumber, Forms, Numbers, OfWalk, PopulationNumber, PopulationNumbers, Row, StatedWalk, Steps,
-    WalkTests, Withheld, Wobble, number_columns, numbers, population_numbers,
+    WalkNumbers, WalkTests, Withheld, Wobble, number_columns, numbers, population_numbers,
 };
 pub use observe::{
     AtLag, Finding, Memory, Motion, MotionStatistics, Observation, ObservedChaos, ObservedLegs,

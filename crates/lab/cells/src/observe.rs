@@ -14,12 +14,13 @@ pub use relatives::{
 };
 pub use statistics::{AtLag, Memory, MotionStatistics};
 
+use crate::numbers::{WalkNumbers, bare, leaving, walk_of_cells, widened};
 use crate::{CellTrack, Numbers, Units, numbers};
 use measures::Measures;
 use motiform_analysis::regime::Regime;
 use motiform_analysis::symmetry::wrap;
 use motiform_dynamics::sample::ascending;
-use motiform_statistics::{Walk, four_digits, with_error};
+use motiform_statistics::{four_digits, with_error};
 use motiform_tracks::modes::Flag;
 use repeats::Repeats;
 use serde::Serialize;
@@ -127,19 +128,19 @@ pub fn observe(cell: &CellTrack) -> Observation {
         Some(_) => resampled(&measures, (regime, why), cell, repeats.as_ref()),
     };
     let motion = beside_drift(cell, motion);
-    let mut statistics = statistics::of_records(std::iter::once(&measures.series));
     let relatives = Some(Relatives::of(&measures));
     let numbers = numbers(cell);
-    if let Some(statistics) = &mut statistics {
-        // one answer: what refuses the walk of the path refuses that of its displacements
-        let misfit = numbers.walk.as_ref().and_then(motiform_inference::PersistentWalk::misfit);
-        let refused = misfit.and(numbers.stated_walk.reason.clone());
-        if motion.regime == Some(Regime::Circular) {
-            statistics.walk = Walk::unknown("the heading turns steadily: this is no persistent random walk");
-        } else if let Some(reason) = refused {
-            statistics.walk = Walk::unknown(&reason);
+    let walk = match motion.regime {
+        Some(Regime::Circular) => {
+            WalkNumbers::unknown("the heading turns steadily: this is no persistent random walk")
         }
-    }
+        _ => WalkNumbers::from(&numbers.stated_walk),
+    };
+    let statistics = statistics::of_records(std::iter::once(&measures.series), walk).map(|mut found| {
+        let persistence = numbers.walk.as_ref().map(|walk| walk.persistence.value);
+        found.displacement = widened(found.displacement, measures.duration, persistence);
+        found
+    });
     let cell = cell.name.clone();
     Observation { cell, frames, motion, numbers, measures: Some(measures), repeats, statistics, relatives }
 }
@@ -186,7 +187,9 @@ pub fn population_statistics(found: &[Observation]) -> Option<(usize, MotionStat
     ascending(&mut intervals);
     let usual = *intervals.get(intervals.len() / 2)?;
     let alike = || all.iter().copied().filter(|series| (series.dt / usual - 1.0).abs() < 1e-3);
-    Some((alike().count(), statistics::of_records(alike())?))
+    let statistics = statistics::of_records(alike(), walk_of_cells(found))?;
+    let displacement = bare(statistics.displacement, leaving(found).is_some());
+    Some((alike().count(), MotionStatistics { displacement, ..statistics }))
 }
 
 /// The motion of these numbers, or what is missing.

@@ -47,6 +47,15 @@ pub struct OverCells {
     pub median_interval: Option<[f64; 2]>,
 }
 
+impl OverCells {
+    /// The same, the interval of the mean wide enough to hold another one.
+    #[must_use]
+    pub(crate) fn holding(self, [low, high]: [f64; 2]) -> Self {
+        let mean_interval = self.mean_interval.map(|ends| [ends[0].min(low), ends[1].max(high)]);
+        Self { mean_interval, ..self }
+    }
+}
+
 /// A coefficient over cells. Where they follow one law within their errors the mean is that with the weights of their information
 /// ([`pooled_fits`]); else it is the plain one, without an interval.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -136,9 +145,12 @@ fn shares(names: impl Iterator<Item = &'static str>) -> Vec<NameShare> {
     counts.into_iter().filter_map(share).collect()
 }
 
-/// A number over cells; `None` without any.
+/// A number over cells, whatever their order; `None` without any.
 #[must_use]
 pub fn over_cells(values: &[f64]) -> Option<OverCells> {
+    let mut values = values.to_vec();
+    ascending(&mut values);
+    let values = &values[..];
     let (mean, median) = (mean(values.iter().copied())?, median(values.iter().copied())?);
     let [mean_interval, median_interval] = intervals(values, [mean, median]);
     Some(OverCells { cells: values.len(), mean, mean_interval, median, median_interval })

@@ -22,8 +22,22 @@ impl Sums {
 
     /// Log-likelihood where the velocity has this variance in each coordinate.
     pub(super) fn log_likelihood(&self, variance: f64) -> f64 {
+        if self.logarithms == f64::INFINITY {
+            return f64::NEG_INFINITY;
+        }
         -0.5 * (self.count * libm::log(TAU * variance) + self.logarithms + self.squares / variance)
     }
+}
+
+/// A walk whose velocity has unit variance in each coordinate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Law {
+    /// Persistence time.
+    pub(super) persistence: f64,
+    /// What independent errors of a place add to the variance of a coordinate; below 0 where places are means over a time.
+    pub(super) error: f64,
+    /// What diffusion beside the walk adds to the variance of a displacement, per time.
+    pub(super) beside: f64,
 }
 
 /// The transition of mean and covariance over an interval: x += g v, v *= a, and the noise.
@@ -35,11 +49,12 @@ struct Transition {
 }
 
 impl Transition {
-    fn new(interval: f64, persistence: f64) -> Self {
-        let h = interval / persistence;
+    fn new(interval: f64, law: Law) -> Self {
+        let p = law.persistence;
+        let h = interval / p;
         let (a, lost) = (libm::exp(-h), -libm::expm1(-h));
-        let p = persistence;
-        Self { a, g: p * lost, q: [p * p * spread(h), p * lost * lost, lost * (1.0 + a)] }
+        let place = p * p * spread(h) + law.beside * interval;
+        Self { a, g: p * lost, q: [place, p * lost * lost, lost * (1.0 + a)] }
     }
 }
 
@@ -94,7 +109,7 @@ impl State {
 /// One step of the filter.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Step {
-    piece: usize,
+    pub(super) piece: usize,
     /// The velocity that is expected before the step.
     pub(super) velocity: [f64; 2],
     /// The innovation; standardised in the results of [`steps`].
@@ -104,7 +119,8 @@ pub(super) struct Step {
 }
 
 /// Each step, piece by piece. The first place of a piece starts it: no velocity is known.
-fn run(pieces: &[Vec<Fix>], persistence: f64, error: f64, mut each: impl FnMut(Step)) {
+fn run(pieces: &[Vec<Fix>], law: Law, mut each: impl FnMut(Step)) {
+    let error = law.error;
     for (number, piece) in pieces.iter().enumerate() {
         let Some(first) = piece.first() else { continue };
         let mut state = State { x: first.at, v: [0.0; 2], c: [error, 0.0, 1.0] };
@@ -113,7 +129,7 @@ fn run(pieces: &[Vec<Fix>], persistence: f64, error: f64, mut each: impl FnMut(S
             let interval = pair[1].t - pair[0].t;
             let by = match known {
                 Some((same, by)) if same == interval => by,
-                _ => Transition::new(interval, persistence),
+                _ => Transition::new(interval, law),
             };
             known = Some((interval, by));
             let velocity = state.v;
@@ -124,24 +140,29 @@ fn run(pieces: &[Vec<Fix>], persistence: f64, error: f64, mut each: impl FnMut(S
     }
 }
 
-/// Sums of a walk with this persistence time; `error`: variance of a coordinate's error relative to that of the velocity.
-pub(super) fn sums(pieces: &[Vec<Fix>], persistence: f64, error: f64) -> Sums {
+/// Sums of a walk; an error below 0 that no path has leaves no likelihood.
+pub(super) fn sums(pieces: &[Vec<Fix>], law: Law) -> Sums {
     let mut sums = Sums::default();
-    run(pieces, persistence, error, |Step { innovation: [x, y], variance, .. }| {
+    run(pieces, law, |Step { innovation: [x, y], variance, .. }| {
         sums.count += 2.0;
-        sums.logarithms += 2.0 * libm::log(variance);
+        sums.logarithms += if variance > 0.0 { 2.0 * libm::log(variance) } else { f64::INFINITY };
         sums.squares += (x * x + y * y) / variance;
     });
     sums
 }
 
-/// The steps with standardised innovations; `[persistence, error]` as in [`sums`].
-pub(super) fn steps(pieces: &[Vec<Fix>], [persistence, error]: [f64; 2]) -> Vec<Step> {
+/// The steps, innovations as they are.
+pub(super) fn raw_steps(pieces: &[Vec<Fix>], law: Law) -> Vec<Step> {
     let mut all = Vec::new();
-    run(pieces, persistence, error, |step| {
-        all.push(Step { innovation: step.innovation.map(|new| new / step.variance.sqrt()), ..step });
-    });
+    run(pieces, law, |step| all.push(step));
     all
+}
+
+/// The steps with standardised innovations.
+pub(super) fn steps(pieces: &[Vec<Fix>], law: Law) -> Vec<Step> {
+    let unit =
+        |step: Step| Step { innovation: step.innovation.map(|new| new / step.variance.sqrt()), ..step };
+    raw_steps(pieces, law).into_iter().map(unit).collect()
 }
 
 /// The innovations of each coordinate of each piece.

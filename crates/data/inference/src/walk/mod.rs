@@ -1,16 +1,21 @@
 //! The persistent random walk with errors of the positions: the first null of every law of motion.
 
+mod beside;
 mod course;
 mod filter;
 mod misfit;
 mod ridge;
 mod table;
+mod together;
 
 use crate::warnings::ljung_box;
+use beside::{Beside, Number, Scores};
+use filter::Law;
 pub use misfit::Misfit;
 use misfit::Tests;
 use serde::Serialize;
 use table::{Known, Table};
+pub use together::{WalkTogether, walk_together};
 
 /// Fewest steps between places: three numbers and their intervals are estimated from two coordinates of each.
 const LEAST_STEPS: usize = 12;
@@ -48,6 +53,12 @@ pub struct PersistentWalk {
     pub diffusion: Bounded,
     /// Standard deviation of the error of a coordinate.
     pub error: Bounded,
+    /// Its variance; below 0 where the places are means over a time, such as an exposure, and so the displacements from place to place
+    /// smaller than those of a walk.
+    pub error_variance: Bounded,
+    /// Score of diffusion beside the walk: for a walk with errors of the places a normal number of variance 1. Above 0 displacements from
+    /// place to place scatter more than those of the walk, without the return of an error; below 0 less.
+    pub beside_score: f64,
     /// Log-likelihood of the places after the first of each piece.
     pub log_likelihood: f64,
     /// `true` if the places are as likely, within the intervals, without any motion: then there is no lower end to speed and diffusion
@@ -93,6 +104,7 @@ impl PersistentWalk {
     pub fn misfit(&self) -> Option<Misfit> {
         let Self { turning_score, direction_p_value, spread, steady_p_value, changes, p_value, .. } = *self;
         let tests = Tests {
+            beside: self.beside_score,
             turning: turning_score,
             direction: direction_p_value,
             spread,
@@ -109,7 +121,8 @@ impl PersistentWalk {
 ///
 /// so that <|r(t) - r(0)|^2> = 2 S^2 P (t - P (1 - e^{-t/P})) + 4 sigma^2. The process is linear: a Kalman
 /// filter with the exact transition gives the exact likelihood at any spacing of the times. It depends on a
-/// scale that is known in closed form, on P, and on the ratio of error and motion: the best ratio is found at each of some P, which narrow,
+/// scale that is known in closed form, on P, and on the ratio of error and motion (below 0 where places are means over an exposure, of
+/// which independent errors are the opposite in the covariance of displacements): the best ratio is found at each of some P, which narrow,
 /// and the best walk from there in steps that shrink; intervals are those of the profile of the likelihood (1.92 below its maximum, more
 /// of short records) over these P and ratios around the best one of each.
 ///
@@ -129,10 +142,16 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
     }
     let table = Table::of(pieces)?;
     let best = table.best();
-    let [persistence, speed, diffusion, error] =
-        [Known::Persistence, Known::Speed, Known::Diffusion, Known::Error].map(|known| table.bounded(known));
-    let found = filter::steps(pieces, best);
-    let tests = Tests::of(&found, best[1]);
+    let scores = Scores::of(pieces, best.law, best.sums.scale(), table::shortest(pieces));
+    let beside = Beside::of(scores);
+    let number = |known, number| beside.wider(number, table.bounded(known));
+    let persistence = number(Known::Persistence, Number::Persistence);
+    let speed = number(Known::Speed, Number::Speed);
+    let diffusion = number(Known::Diffusion, Number::Diffusion);
+    let error_variance = number(Known::Error, Number::Error);
+    let root = |square: f64| square.max(0.0).sqrt();
+    let found = filter::steps(pieces, best.law);
+    let tests = Tests::of(&found, best.law.error);
     let rests = table.rests();
     let moves = |end: Option<f64>| end.filter(|_| !rests);
     Some(PersistentWalk {
@@ -147,7 +166,13 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
             high: diffusion.high.filter(|_| persistence.high.is_some()),
             ..diffusion
         },
-        error,
+        error: Bounded {
+            value: root(error_variance.value),
+            low: error_variance.low.map(root),
+            high: error_variance.high.map(root),
+        },
+        error_variance,
+        beside_score: beside.score(),
         log_likelihood: table.highest(),
         rests,
         steps,
@@ -167,5 +192,6 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
 #[must_use]
 pub fn walk_likelihood(pieces: &[Vec<Fix>], persistence: f64, speed: f64, error: f64) -> f64 {
     let variance = 0.5 * speed * speed;
-    filter::sums(pieces, persistence, error * error / variance).log_likelihood(variance)
+    let law = Law { persistence, error: error * error / variance, beside: 0.0 };
+    filter::sums(pieces, law).log_likelihood(variance)
 }

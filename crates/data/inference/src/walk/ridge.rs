@@ -1,24 +1,25 @@
 //! Walks of one persistence time: the error of highest likelihood, and others around it.
 
-use super::filter::{Sums, spread, sums};
+use super::filter::{Law, Sums, spread, sums};
 use crate::Fix;
-use std::f64::consts::LN_10;
 
-/// Decades of the variance of an error relative to that of what is new in the displacement of a coordinate over an interval; beside them
-/// no error at all.
-const ERRORS: (f64, f64) = (-3.0, 6.0);
-/// Points per decade at which the best error is looked for first.
-const COARSE: f64 = 1.5;
-/// Width to which it is enclosed then (logarithm of the variance).
+/// The error's variance relative to that of what is new in the displacement of a coordinate over an interval is `exp(u) - SMOOTH`.
+/// Places that are means over the time of an exposure have displacements like those with a negative one: of a path without memory down to
+/// -1/6, and beyond -1/4 there is no such path.
+const SMOOTH: f64 = 0.26;
+/// Smallest and largest relative variance that are looked at.
+const ERRORS: [f64; 2] = [-0.255, 1e6];
+/// Points at which the best error is looked for first: so many per unit of u.
+const COARSE: f64 = 0.8;
+/// Width to which it is enclosed then (of u).
 const CLOSE: f64 = 0.01;
 /// Walks on each side of the best one.
 const SIDE: u32 = 8;
 
-/// A walk: persistence time, variance of the error relative to that of the velocity, and its sums.
+/// A walk and its sums.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry {
-    pub(super) persistence: f64,
-    pub(super) error: f64,
+    pub(super) law: Law,
     pub(super) sums: Sums,
 }
 
@@ -36,36 +37,35 @@ pub(super) struct Places<'p> {
 }
 
 impl Places<'_> {
-    /// The walk of these logarithms of the persistence time and of the relative variance of the error (minus infinity: none).
-    pub(super) fn walk(&self, [time, error]: [f64; 2]) -> Entry {
+    /// The walk of this logarithm of the persistence time and this u of the error.
+    pub(super) fn walk(&self, [time, u]: [f64; 2]) -> Entry {
         let persistence = libm::exp(time);
-        let error = libm::exp(error) * step_variance(persistence, self.interval); // exp(-inf) = 0: no error
-        Entry { persistence, error, sums: sums(self.pieces, persistence, error) }
+        let error = (libm::exp(u) - SMOOTH) * step_variance(persistence, self.interval);
+        let law = Law { persistence, error, beside: 0.0 };
+        Entry { law, sums: sums(self.pieces, law) }
     }
 
-    /// Logarithm of the relative variance of the error of a walk.
-    pub(super) fn relative(&self, walk: &Entry) -> f64 {
-        libm::log(walk.error / step_variance(walk.persistence, self.interval))
+    /// The u of the error of a walk.
+    pub(super) fn relative(&self, law: Law) -> f64 {
+        libm::log(law.error / step_variance(law.persistence, self.interval) + SMOOTH)
     }
 
-    /// Smallest and largest logarithm of the relative variance of an error.
+    /// Smallest and largest u of an error.
     pub(super) fn errors() -> [f64; 2] {
-        [ERRORS.0 * LN_10, ERRORS.1 * LN_10]
+        ERRORS.map(|relative| libm::log(relative + SMOOTH))
     }
 
     /// The walk of highest likelihood among those of this persistence time (its logarithm).
     pub(super) fn ridge(&self, time: f64) -> Entry {
-        let count = ((ERRORS.1 - ERRORS.0) * COARSE).ceil() as usize;
         let [from, to] = Self::errors();
+        let count = ((to - from) * COARSE).ceil() as usize;
         let step = (to - from) / count as f64;
         let at = |k: usize| from + step * k as f64;
-        let none = self.walk([time, f64::NEG_INFINITY]);
         let all: Vec<Entry> = (0..=count).map(|k| self.walk([time, at(k)])).collect();
-        let Some(best) = (0..=count).max_by(|&a, &b| all[a].highest().total_cmp(&all[b].highest())) else {
-            return none;
-        };
+        let best =
+            (0..=count).max_by(|&a, &b| all[a].highest().total_cmp(&all[b].highest())).unwrap_or_default();
         let enclosed = [at(best.saturating_sub(1)), at((best + 1).min(count))];
-        higher(higher(self.golden(time, enclosed), all[best]), none)
+        higher(self.golden(time, enclosed), all[best])
     }
 
     /// The best walk between two errors, by sections of the golden ratio.
@@ -91,8 +91,8 @@ impl Places<'_> {
             return Vec::new();
         }
         let ends = Self::errors();
-        let (time, middle) = (libm::log(best.persistence), self.relative(best).max(ends[0]));
-        let mut walks = vec![self.walk([time, f64::NEG_INFINITY])];
+        let (time, middle) = (libm::log(best.law.persistence), self.relative(best.law));
+        let mut walks = Vec::new();
         for (sign, end) in [(-1.0, ends[0]), (1.0, ends[1])] {
             let room = (end - middle).abs();
             let mut reach = 0.05_f64;

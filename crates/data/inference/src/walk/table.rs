@@ -1,5 +1,6 @@
 //! The likelihood of persistent random walks along its ridge, and its profiles.
 
+use super::filter::Law;
 use super::ridge::{Entry, Places};
 use super::{Bounded, Fix};
 use motiform_dynamics::distributions::NORMAL_95;
@@ -18,22 +19,28 @@ const ENDS: (f64, f64) = (0.03, 30.0);
 /// The last step of the logarithm of the persistence time.
 const CLOSE: f64 = 1e-6;
 
+/// The least gain of log-likelihood of a step: of steps without a memory P and S move together without end.
+const GAIN: f64 = 1e-8;
+/// The first step from a walk nearby.
+const NEARBY: f64 = 0.2;
+
 /// The quantity that an interval is computed for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Known {
     Persistence,
     Speed,
     Diffusion,
+    /// The variance of the error of a coordinate.
     Error,
 }
 
 /// The value of a walk where the velocity has this variance in each coordinate.
 fn value_at(walk: &Entry, known: Known, variance: f64) -> f64 {
     match known {
-        Known::Persistence => walk.persistence,
+        Known::Persistence => walk.law.persistence,
         Known::Speed => (2.0 * variance).sqrt(),
-        Known::Diffusion => variance * walk.persistence,
-        Known::Error => (variance * walk.error).sqrt(),
+        Known::Diffusion => variance * walk.law.persistence,
+        Known::Error => variance * walk.law.error,
     }
 }
 
@@ -49,15 +56,8 @@ pub(super) struct Table {
 impl Table {
     /// `None` where no walk has a likelihood.
     pub(super) fn of(pieces: &[Vec<Fix>]) -> Option<Self> {
-        let gaps = pieces.iter().flat_map(|piece| piece.windows(2).map(|pair| pair[1].t - pair[0].t));
-        let interval = gaps.filter(|gap| *gap > 0.0).fold(f64::INFINITY, f64::min);
-        let span = |piece: &Vec<Fix>| Some(piece.last()?.t - piece.first()?.t);
-        let longest = pieces.iter().filter_map(span).fold(0.0, f64::max);
-        if !(interval.is_finite() && longest > 0.0) {
-            return None;
-        }
+        let (interval, ends) = times(pieces)?;
         let places = Places { pieces, interval };
-        let ends = [ENDS.0 * interval, ENDS.1 * longest].map(libm::log);
         let (ridge, step) = ridge(&places, ends)?;
         let best = *ridge.iter().max_by(|a, b| a.highest().total_cmp(&b.highest()))?;
         let best = refined(&places, best, step, ends);
@@ -83,9 +83,9 @@ impl Table {
         self.best.highest()
     }
 
-    /// Persistence time and relative variance of the error of highest likelihood.
-    pub(super) fn best(&self) -> [f64; 2] {
-        [self.best.persistence, self.best.error]
+    /// The walk of highest likelihood.
+    pub(super) fn best(&self) -> &Entry {
+        &self.best
     }
 
     /// The value of highest likelihood with the ends of its interval: where the profile of the likelihood is
@@ -102,10 +102,11 @@ impl Table {
         let last = hull.iter().rposition(|point| point[1] > level).unwrap_or(hull.len() - 1);
         let low = (first > 0).then(|| known.value(crossing(&hull[first - 1], &hull[first])));
         let high = (last + 1 < hull.len()).then(|| known.value(crossing(&hull[last + 1], &hull[last])));
-        let none = known == Known::Error && first == 0;
+        // the smallest errors that any path has are among those that were looked at
+        let least = (known == Known::Error && first == 0).then(|| hull[0][0]);
         Bounded {
             value,
-            low: if none { Some(0.0) } else { low.map(|low| low.min(value)) },
+            low: low.or(least).map(|low| low.min(value)),
             high: high.map(|high| high.max(value)),
         }
     }
@@ -130,14 +131,41 @@ impl Table {
     }
 }
 
+/// The shortest interval.
+pub(super) fn shortest(pieces: &[Vec<Fix>]) -> f64 {
+    let gaps = pieces.iter().flat_map(|piece| piece.windows(2).map(|pair| pair[1].t - pair[0].t));
+    gaps.filter(|gap| *gap > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// The shortest interval, and the logarithms of the shortest and the longest persistence time that are looked at.
+fn times(pieces: &[Vec<Fix>]) -> Option<(f64, [f64; 2])> {
+    let interval = shortest(pieces);
+    let span = |piece: &Vec<Fix>| Some(piece.last()?.t - piece.first()?.t);
+    let longest = pieces.iter().filter_map(span).fold(0.0, f64::max);
+    let ends = [ENDS.0 * interval, ENDS.1 * longest].map(libm::log);
+    (interval.is_finite() && longest > 0.0).then_some((interval, ends))
+}
+
+/// The walk of highest likelihood of all these pieces, from one nearby on: what many cells have in common, from the walk of a usual one.
+/// `true` beside it: the shortest persistence time that is looked at is less likely by more than the intervals.
+pub(super) fn nearby(pieces: &[Vec<Fix>], persistence: f64, error: f64) -> Option<(Entry, bool)> {
+    let (interval, ends) = times(pieces)?;
+    let places = Places { pieces, interval };
+    let least = Places::errors()[0];
+    let at = [libm::log(persistence), places.relative(Law { persistence, error, beside: 0.0 }).max(least)];
+    let best = refined(&places, places.walk(at), NEARBY, ends);
+    let is_resolved = places.ridge(ends[0]).highest() < best.highest() - drop(best.sums.count);
+    best.highest().is_finite().then_some((best, is_resolved))
+}
+
 impl Known {
-    /// Intervals are looked for on logarithms, those of an error, which may be 0, on itself.
+    /// Intervals are looked for on logarithms, those of the variance of an error, which may be 0 or less, on itself.
     fn coordinate(self, value: f64) -> f64 {
         if self == Self::Error { value } else { libm::log(value) }
     }
 
     fn value(self, coordinate: f64) -> f64 {
-        if self == Self::Error { coordinate.max(0.0) } else { libm::exp(coordinate) }
+        if self == Self::Error { coordinate } else { libm::exp(coordinate) }
     }
 }
 
@@ -178,7 +206,7 @@ fn ridge(places: &Places<'_>, ends: [f64; 2]) -> Option<(Vec<Entry>, f64)> {
         walks = (0..count).map(|k| places.ridge(area[0] + step * k as f64)).collect();
         let highest = walks.iter().map(Entry::highest).filter(|l| l.is_finite()).reduce(f64::max)?;
         let within = || walks.iter().filter(|walk| walk.highest() > highest - REACH);
-        let times = within().map(|walk| libm::log(walk.persistence));
+        let times = within().map(|walk| libm::log(walk.law.persistence));
         let found = times.fold([f64::INFINITY, f64::NEG_INFINITY], |f, t| [f[0].min(t), f[1].max(t)]);
         // one step wider, so that the profile falls below what is asked for unless the ends are in the way
         let narrow = [(found[0] - step).max(ends[0]), (found[1] + step).min(ends[1])];
@@ -190,20 +218,19 @@ fn ridge(places: &Places<'_>, ends: [f64; 2]) -> Option<(Vec<Entry>, f64)> {
     Some((walks, step))
 }
 
-/// The walk of highest likelihood near this one: from it in steps along both sides, halved where none leads higher. An error of 0 stays 0.
+/// The walk of highest likelihood near this one: from it in steps along both sides, halved where none leads higher.
 fn refined(places: &Places<'_>, mut best: Entry, step: f64, ends: [f64; 2]) -> Entry {
-    let mut at = [libm::log(best.persistence), places.relative(&best)];
+    let mut at = [libm::log(best.law.persistence), places.relative(best.law)];
     let reach = [ends, Places::errors()];
-    let sides = if best.error > 0.0 { 2 } else { 1 };
     let mut steps = [step, step];
     while steps[0] > CLOSE {
-        let tried = (0..sides).flat_map(|side| [-1.0, 1.0].map(|sign| (side, sign))).map(|(side, sign)| {
+        let tried = (0..2_usize).flat_map(|side| [-1.0, 1.0].map(|sign| (side, sign))).map(|(side, sign)| {
             let mut other = at;
             other[side] = (at[side] + sign * steps[side]).clamp(reach[side][0], reach[side][1]);
             (places.walk(other), other)
         });
         match tried.max_by(|a, b| a.0.highest().total_cmp(&b.0.highest())) {
-            Some((higher, place)) if higher.highest() > best.highest() => (best, at) = (higher, place),
+            Some((higher, place)) if higher.highest() > best.highest() + GAIN => (best, at) = (higher, place),
             _ => steps = steps.map(|step| 0.5 * step),
         }
     }

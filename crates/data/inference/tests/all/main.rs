@@ -21,6 +21,7 @@ mod stage;
 mod stretch;
 mod subsets;
 mod together;
+mod together_walk;
 mod two_modes;
 mod walk;
 mod warnings;

@@ -8,7 +8,12 @@ use std::f64::consts::TAU;
 
 /// A walk of persistence time P and speed S at times `k dt`, by the exact transition in steps of `dt`; each
 /// place is seen with an error, and with the probability `seen`.
-fn walk([persistence, speed, error]: [f64; 3], (dt, frames): (f64, u32), seen: f64, seed: u64) -> Vec<Fix> {
+pub(crate) fn walk(
+    [persistence, speed, error]: [f64; 3],
+    (dt, frames): (f64, u32),
+    seen: f64,
+    seed: u64,
+) -> Vec<Fix> {
     let mut normal = Normal::new(seed, 0);
     let a = libm::exp(-dt / persistence);
     let variance = 0.5 * speed * speed;
@@ -33,7 +38,7 @@ fn walk([persistence, speed, error]: [f64; 3], (dt, frames): (f64, u32), seen: f
     fixes
 }
 
-fn found(fixes: &[Fix]) -> PersistentWalk {
+pub(crate) fn found(fixes: &[Fix]) -> PersistentWalk {
     persistent_walk(&[fixes.to_vec()]).expect("it moves")
 }
 
@@ -313,7 +318,9 @@ fn ends_of_the_persistence_are_those_of_its_profile() {
             let [low, high] = [one.persistence.low, one.persistence.high];
             for end in [low, high].into_iter().flatten() {
                 let fall = below(end);
-                assert!((1.6..2.6).contains(&fall), "seed {seed}: {fall} below at {end}, {one:?}");
+                // an interval that allows for diffusion beside the walk is wider than the profile
+                let most = if one.beside_score.abs() > 0.5 { f64::INFINITY } else { 2.6 };
+                assert!((1.6..most).contains(&fall), "seed {seed}: {fall} below at {end}, {one:?}");
             }
             assert!(low.is_some() || below(0.03 * sampling.0) < 2.2, "seed {seed}: {one:?}");
             assert!(

@@ -9,14 +9,18 @@ mod places;
 mod population;
 mod rows;
 mod steps;
+mod together;
 mod walk;
 mod wobble;
 
+pub(crate) use displacement::{by_place, widened};
 pub use forms::{FormNumber, Forms};
 pub use population::{PopulationNumber, PopulationNumbers, Withheld, population_numbers};
+pub(crate) use population::{bare, walk_of_cells};
 pub use rows::{Row, number_columns};
 pub use steps::Steps;
-pub use walk::{OfWalk, StatedWalk, WalkTests};
+pub(crate) use together::leaving;
+pub use walk::{OfWalk, StatedWalk, WalkNumbers, WalkTests};
 pub use wobble::Wobble;
 
 use crate::{AtLag, CellTrack};
@@ -53,6 +57,9 @@ pub struct Numbers {
     pub wobble: Option<Wobble>,
     /// The reason why displacements are not those of one cell, and there is no number of a path; `None` of a sound record.
     pub mixed: Option<String>,
+    /// The reason why the walk is not that of the cell alone, where all cells drift together.
+    #[serde(skip)]
+    drift: Option<String>,
     #[serde(skip)]
     places: Places,
 }
@@ -64,7 +71,8 @@ pub struct Numbers {
 pub fn numbers(cell: &CellTrack) -> Numbers {
     let places = Places::of(&cell.modes);
     let walk = persistent_walk(&places.pieces);
-    let error = walk.as_ref().filter(|walk| walk.describes()).map(|walk| walk.error.value);
+    let drift = cell.drift.map(|_| DRIFTS.to_owned());
+    let error = walk.as_ref().filter(|walk| walk.describes()).map(|walk| walk.error_variance);
     let times: Vec<f64> = cell.modes.frames.iter().filter(|one| one.is_seen()).map(|one| one.t).collect();
     let (seen, mixed) = (times.len(), cell.modes.mixed());
     let few = || if seen < 2 { rows::without_steps(seen) } else { walk::TOO_FEW.to_owned() };
@@ -76,13 +84,17 @@ pub fn numbers(cell: &CellTrack) -> Numbers {
         wobble: Wobble::of(&cell.modes),
         pieces: places.pieces.len(),
         steps: Steps::of(&places, error),
-        displacement: displacement::of_cell(&places),
-        stated_walk: StatedWalk::of(walk.as_ref(), &without),
+        displacement: displacement::of_cell(&places, walk.as_ref()),
+        stated_walk: StatedWalk::of(walk.as_ref(), &without, drift.as_deref()),
         walk,
         forms: Forms::of(&cell.modes),
+        drift,
         places,
     }
 }
+
+/// Why there is no walk of cells on a stage that drifts.
+const DRIFTS: &str = "all cells drift together, which no random walk does; the correction 'drift' subtracts it, if it is that of the stage";
 
 impl Numbers {
     /// That changes of the shape move the centroid, of which speed and persistence are, in a sentence; `None` where they hardly do.

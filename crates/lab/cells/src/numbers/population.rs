@@ -1,12 +1,10 @@
 //! Numbers over cells.
 
-use super::Wobble;
-use super::displacement;
 use super::places::Places;
+use super::{WalkNumbers, Wobble, displacement, together};
 use crate::{AtLag, Observation, OverCells, over_cells};
-use motiform_dynamics::distributions::chi_square_tail;
 use motiform_dynamics::sample::{ascending, median};
-use motiform_inference::{Bounded, Misfit, PValue, PersistentWalk, SPREAD_SCATTER};
+use motiform_inference::{Bounded, PersistentWalk, WalkTogether};
 use motiform_statistics::four_digits;
 use motiform_study::Quantity;
 use motiform_study::quantity::cell;
@@ -54,12 +52,15 @@ pub struct PopulationNumbers {
 #[must_use]
 pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
     let rows: Vec<_> = found.iter().map(|one| one.numbers.rows()).collect();
-    let withheld = withheld(found);
+    let refused = together::refused(found);
+    let walk = refused.is_none().then(|| together::walk(found).ok()).flatten();
+    let withheld = withheld(found, refused.as_deref(), walk.is_some());
     let number = |place: usize| {
         let quantity = rows[0][place].quantity;
         let values: Vec<f64> = rows.iter().filter_map(|all| Some(all[place].value.known()?.value)).collect();
         let stated = withheld.iter().all(|other| !std::ptr::eq(other.quantity, quantity));
-        Some(PopulationNumber { quantity, over: over_cells(&values)? }).filter(|_| stated)
+        let over = unbiased(over_cells(&values)?, quantity, (&values, walk.as_ref()));
+        Some(PopulationNumber { quantity, over }).filter(|_| stated)
     };
     let count = rows.first().map_or(0, Vec::len);
     let numbers = (0..count).filter_map(number).collect();
@@ -67,28 +68,73 @@ pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
     PopulationNumbers {
         numbers,
         withheld,
-        displacement: displacement::of_cells(&places),
+        displacement: bare(displacement::of_cells(&places), together::leaving(found).is_some()),
         displacement_cells: places.len(),
     }
 }
 
+/// Points without intervals where they would be those of a selection of cells.
+pub(crate) fn bare(mut points: Vec<AtLag>, is_selected: bool) -> Vec<AtLag> {
+    points.iter_mut().filter(|_| is_selected).for_each(|at| at.value.interval = None);
+    points
+}
+
+/// A mean over cells whose interval also holds what has no bias of short records: P and D of the walk of all paths together; the root
+/// mean square over cells of speeds that are roots themselves.
+fn unbiased(
+    over: OverCells,
+    quantity: &Quantity,
+    (values, walk): (&[f64], Option<&WalkTogether>),
+) -> OverCells {
+    let ends = |of: fn(&WalkTogether) -> Bounded| walk.map(of).and_then(|one| Some([one.low?, one.high?]));
+    let other = match quantity {
+        one if std::ptr::eq(one, &cell::PERSISTENCE) => ends(|walk| walk.persistence),
+        one if std::ptr::eq(one, &cell::DIFFUSION) => ends(|walk| walk.diffusion),
+        one if std::ptr::eq(one, &cell::RMS_SPEED) => {
+            let squares: Vec<f64> = values.iter().map(|value| value * value).collect();
+            over_cells(&squares).and_then(|all| all.mean_interval).map(|ends| ends.map(f64::sqrt))
+        }
+        _ => None,
+    };
+    match other {
+        Some(other) => over.holding(other),
+        None => over,
+    }
+}
+
+/// The walk of these cells together, or why there is none: what refuses means of the walks refuses it.
+pub(crate) fn walk_of_cells(found: &[Observation]) -> WalkNumbers {
+    let walk = together::refused(found).map_or_else(|| together::walk(found), Err);
+    walk.map_or_else(|reason| WalkNumbers::unknown(&reason), |walk| together::stated(&walk))
+}
+
 /// Numbers of the walk that too many cells only bound, or that single cells know too poorly.
-fn withheld(found: &[Observation]) -> Vec<Withheld> {
-    let described = |one: &&PersistentWalk| one.describes();
-    let walks: Vec<&PersistentWalk> =
-        found.iter().filter_map(|one| one.numbers.walk.as_ref().filter(described)).collect();
-    let refused = found.iter().filter_map(|one| one.numbers.walk.as_ref()?.misfit()).count();
-    let together =
-        few_left(walks.len(), refused).or_else(|| turning_together(&walks)).or_else(|| elsewhere(found));
-    let together = together.or_else(|| wobbling(found));
+fn withheld(found: &[Observation], refused: Option<&str>, has_common: bool) -> Vec<Withheld> {
+    let walks = together::described(found);
+    let beside = together::beside(found);
+    // what moves the centroids is why their walks are refused
+    let together = wobbling(found).or_else(|| refused.map(str::to_owned));
     let all = |of: fn(&PersistentWalk) -> Bounded| walks.iter().map(|walk| of(walk)).collect::<Vec<_>>();
+    let widest = if has_common { WIDEST_BESIDE } else { WIDEST };
     let numbers =
         [(&cell::PERSISTENCE, all(|walk| walk.persistence)), (&cell::DIFFUSION, all(|walk| walk.diffusion))];
     let one = |(quantity, of_cells): (&'static Quantity, Vec<Bounded>)| {
-        Some(Withheld { quantity, why: together.clone().or_else(|| why_biased(&of_cells))? })
+        Some(Withheld { quantity, why: together.clone().or_else(|| why_biased(&of_cells, widest))? })
     };
     let mut all: Vec<Withheld> = numbers.into_iter().filter_map(one).collect();
-    all.extend(of_short_records(&walks));
+    let unresolved = || {
+        let open = walks.iter().filter(|walk| walk.persistence.low.is_none()).count();
+        (open as f64 > MOST_UNRESOLVED * walks.len() as f64).then(|| {
+            format!(
+                "the frames do not resolve the persistence of {open} of {} cells, whose displacements do not tell motion from errors",
+                walks.len()
+            )
+        })
+    };
+    let rms = beside.clone().or_else(unresolved).map(|why| Withheld { quantity: &cell::RMS_SPEED, why });
+    let error = beside.map(|why| Withheld { quantity: &cell::POSITION_ERROR, why });
+    all.extend(rms);
+    all.extend(error.or_else(|| of_short_records(&walks)));
     all
 }
 
@@ -105,16 +151,6 @@ fn of_short_records(walks: &[&PersistentWalk]) -> Option<Withheld> {
     Some(Withheld { quantity: &cell::POSITION_ERROR, why })
 }
 
-/// The sentence that most cells are no such walk, if so: the others may be those in which it does not show.
-fn few_left(walks: usize, refused: usize) -> Option<String> {
-    (refused > walks && walks > 0).then(|| {
-        format!(
-            "no persistent random walk describes the path of {refused} of {} cells; the others may be those in which that does not show",
-            walks + refused
-        )
-    })
-}
-
 /// The sentence that the centroids of most cells are moved by changes of their shapes, if they are.
 fn wobbling(found: &[Observation]) -> Option<String> {
     let seen: Vec<Wobble> = found.iter().filter_map(|one| one.numbers.wobble).collect();
@@ -128,53 +164,8 @@ fn wobbling(found: &[Observation]) -> Option<String> {
     })
 }
 
-/// Significance of tests of all walks together.
-const TOGETHER: f64 = 1e-3;
-/// Fewest cells of these tests.
-const FEWEST: usize = 8;
-
-/// The sentence that walks turn one way, each for itself or all alike, although no single cell shows it, if they do.
-fn turning_together(walks: &[&PersistentWalk]) -> Option<String> {
-    let count = walks.len() as f64;
-    let squares: f64 = walks.iter().map(|walk| walk.turning_score * walk.turning_score).sum();
-    let sum: f64 = walks.iter().map(|walk| walk.turning_score).sum();
-    let p = chi_square_tail(squares, count).min(chi_square_tail(sum * sum / count, 1.0));
-    (walks.len() >= FEWEST && p < TOGETHER).then(|| {
-        format!(
-            "of {} cells whose path alone is a persistent random walk the velocities keep turning one way, taken together ({}): \
-             such cells diffuse less than these walks",
-            walks.len(),
-            PValue(p)
-        )
-    })
-}
-
-/// The ratio of mean-square displacements beyond which cells and their walks disagree, where their difference is so many standard errors.
-const APART: f64 = 1.5;
-const ERRORS: f64 = 4.0;
-
-/// The sentence that cells displace themselves by far less or more than their walks, over long times, if they do: the test of one cell
-/// ([`PersistentWalk::spread`]) for all together. Those that show it by themselves count.
-fn elsewhere(found: &[Observation]) -> Option<String> {
-    let walks = found.iter().filter_map(|one| one.numbers.walk.as_ref());
-    let meant = walks.filter(|walk| matches!(walk.misfit(), None | Some(Misfit::Held | Misfit::Keeps)));
-    let spreads: Vec<f64> = meant.map(|walk| walk.spread).collect();
-    let count = spreads.len() as f64;
-    let mean = spreads.iter().sum::<f64>() / count;
-    let apart =
-        (mean - 1.0).abs() > ERRORS * SPREAD_SCATTER / count.sqrt() && !(1.0 / APART..=APART).contains(&mean);
-    (spreads.len() >= FEWEST && apart).then(|| {
-        format!(
-            "over long times the mean-square displacement of {} cells is {} times that of their walks: {}",
-            spreads.len(),
-            four_digits(mean),
-            if mean < 1.0 { "they are held back, or come back" } else { "they keep a direction" }
-        )
-    })
-}
-
 /// The reason why a mean of these numbers over cells is biased, if there is one.
-fn why_biased(of_cells: &[Bounded]) -> Option<String> {
+fn why_biased(of_cells: &[Bounded], widest: f64) -> Option<String> {
     let spans: Vec<f64> = of_cells.iter().filter_map(|one| Some(one.high? / one.low?)).collect();
     let (cells, open) = (of_cells.len(), of_cells.len() - spans.len());
     if open as f64 > MOST_OPEN * cells as f64 {
@@ -189,7 +180,7 @@ fn why_biased(of_cells: &[Bounded]) -> Option<String> {
              longest or shortest; a mean over the others would leave them out"
         ));
     }
-    let span = median(spans).filter(|&span| span > WIDEST)?;
+    let span = median(spans).filter(|&span| span > widest)?;
     Some(format!(
         "single cells know it within a factor of {} (median of the interval's upper over lower end): so poorly known values \
          are biased, and a mean over cells keeps the bias; longer records are needed",
@@ -201,6 +192,11 @@ fn why_biased(of_cells: &[Bounded]) -> Option<String> {
 /// over cells is stated. The estimate of highest likelihood is biased in the second order of its relative error.
 const MOST_OPEN: f64 = 0.05;
 const WIDEST: f64 = 2.5;
+/// Largest share of cells without a rms speed, for want of frames that resolve the persistence, where a mean of it is stated: it hardly
+/// depends on which cells these are.
+const MOST_UNRESOLVED: f64 = 0.25;
+/// [`WIDEST`] where the interval of the mean also holds the walk of all paths together, which has no such bias.
+const WIDEST_BESIDE: f64 = 5.0;
 
 /// Places of the cells of the median sampling interval.
 fn usual(found: &[Observation]) -> Vec<&Places> {

@@ -3,7 +3,7 @@
 use super::averaged;
 use super::places::Places;
 use motiform_dynamics::sample;
-use motiform_inference::Fix;
+use motiform_inference::{Bounded, Fix};
 use motiform_statistics::Measured;
 use serde::Serialize;
 
@@ -23,7 +23,8 @@ pub struct Steps {
     pub count: usize,
     /// Their mean length per time: the speed as it is seen at this sampling. Errors of the places raise it, turns between frames lower it.
     pub speed: Option<Measured>,
-    /// Root mean square of the same, with the part of the errors, 4 sigma^2, subtracted; `None` where no walk says how large these are.
+    /// Root mean square of the same, with the part of the errors, 4 sigma^2, subtracted (added where places are means over an exposure);
+    /// the interval holds the error of both. `None` where no walk says how large these are.
     pub rms_speed: Option<Measured>,
     /// Length of the path, straight across gaps; of all pieces.
     pub path: f64,
@@ -42,8 +43,8 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// `error`: standard deviation of a coordinate's error, if it is known. `None` without a displacement.
-    pub(super) fn of(places: &Places, error: Option<f64>) -> Option<Self> {
+    /// `error`: variance of a coordinate's error, if it is known. `None` without a displacement.
+    pub(super) fn of(places: &Places, error: Option<Bounded>) -> Option<Self> {
         let pairs = || places.pieces.iter().flat_map(|piece| piece.windows(2));
         pairs().next()?;
         let path: f64 = pairs().map(|pair| length(step(&pair[0], &pair[1]))).sum();
@@ -53,10 +54,9 @@ impl Steps {
         let whole = || pairs().filter(|pair| is_whole(places, pair));
         let rates: Vec<f64> = whole().map(rate).collect();
         let squares: Vec<f64> = rates.iter().map(|rate| rate * rate).collect();
-        let own = |error: f64| {
-            let inverse = whole().map(|pair| (pair[1].t - pair[0].t).powi(-2));
-            let noise = 4.0 * error * error * sample::mean(inverse)?;
-            Some(reaching_up(averaged(&squares)?).map(|square| (square - noise).max(0.0).sqrt()))
+        let own = |error: Bounded| {
+            let inverse = sample::mean(whole().map(|pair| (pair[1].t - pair[0].t).powi(-2)))?;
+            Some(less(reaching_up(averaged(&squares)?), error, 4.0 * inverse))
         };
         let no_gap = |pair: &[Fix]| pair[1].t - pair[0].t <= NO_GAP * places.interval;
         let (mut way, mut time) = (0.0, 0.0);
@@ -98,6 +98,18 @@ fn reaching_up(mean: Measured) -> Measured {
         (left > 0.0).then(|| [low, mean.value / left])
     };
     Measured { interval: mean.interval.and_then(upper), ..mean }
+}
+
+/// The root of a mean square without `times` the variance of an error; no interval where that of the error has an open end.
+fn less(square: Measured, error: Bounded, times: f64) -> Measured {
+    let value = square.value - times * error.value;
+    let end = |[low, high]: [f64; 2]| {
+        let down = libm::hypot(square.value - low, times * (error.high? - error.value));
+        let up = libm::hypot(high - square.value, times * (error.value - error.low?));
+        Some([value - down, value + up])
+    };
+    let root = |square: f64| square.max(0.0).sqrt();
+    Measured { value, interval: square.interval.and_then(end) }.map(root)
 }
 
 /// The mean with an interval that also holds the path over its time, which errors of the times between frames do not change: these raise

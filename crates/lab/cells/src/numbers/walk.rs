@@ -1,10 +1,15 @@
 //! The numbers of the persistent random walk that are stated, and why the others are not: one answer for text, pages, tables and JSON.
 
 use motiform_inference::{Bounded, PersistentWalk};
+use motiform_statistics::{Answer, Measured};
 use serde::Serialize;
 
 /// Why there is no walk.
 pub(super) const TOO_FEW: &str = "fewer than 12 displacements, or none at all";
+
+/// Why there is no error of the places.
+const SMOOTH: &str = "displacements from frame to frame are smaller than those of a walk without errors, as those of places that are means \
+                      over an exposure; they show no error";
 
 /// A number of the walk, or why it is not stated.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -68,6 +73,8 @@ pub struct WalkTests {
     pub log_likelihood: f64,
     /// Probability of innovations as far from white as these.
     pub p_value: f64,
+    /// Score of diffusion beside the walk.
+    pub beside_score: f64,
     /// Score of a turn of the velocity one way.
     pub turning_score: f64,
     /// Probability of changes of the velocity with an axis as clear as these.
@@ -80,7 +87,7 @@ pub struct WalkTests {
 
 impl StatedWalk {
     /// `without`: the reason why there is no walk at all.
-    pub(super) fn of(walk: Option<&PersistentWalk>, without: &str) -> Self {
+    pub(super) fn of(walk: Option<&PersistentWalk>, without: &str, drift: Option<&str>) -> Self {
         let all = |reason: String| {
             let [persistence, speed, diffusion, error] = [(); 4].map(|()| OfWalk::none(reason.clone()));
             Self { persistence, speed, diffusion, error, reason: Some(reason), tests: None }
@@ -90,6 +97,7 @@ impl StatedWalk {
             steps: walk.steps,
             log_likelihood: walk.log_likelihood,
             p_value: walk.p_value,
+            beside_score: walk.beside_score,
             turning_score: walk.turning_score,
             direction_p_value: walk.direction_p_value,
             spread: walk.spread,
@@ -98,14 +106,57 @@ impl StatedWalk {
         if let Some(misfit) = walk.misfit() {
             return Self { tests, ..all(format!("no persistent random walk describes the path: {misfit}")) };
         }
+        if let Some(drift) = drift {
+            return Self { tests, ..all(drift.to_owned()) };
+        }
         let number = |bounded, name| OfWalk::of(bounded, name, walk.rests);
         Self {
             persistence: number(walk.persistence, "persistence time"),
             speed: number(walk.speed, "speed"),
             diffusion: number(walk.diffusion, "diffusion coefficient"),
-            error: number(walk.error, "error"),
+            error: match walk.error_variance.high {
+                Some(high) if high < 0.0 => OfWalk::none(SMOOTH.to_owned()),
+                _ => number(walk.error, "error"),
+            },
             reason: None,
             tests,
+        }
+    }
+}
+
+/// The walk of one cell, or of many together, as [`crate::MotionStatistics`] have it.
+///
+/// # Units   of the data
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WalkNumbers {
+    /// Persistence time P.
+    pub persistence: Answer,
+    /// Root mean square speed S of the walk itself.
+    pub speed: Answer,
+    /// Diffusion coefficient D.
+    pub diffusion: Answer,
+}
+
+impl WalkNumbers {
+    /// No numbers, for this reason.
+    pub(crate) fn unknown(reason: &str) -> Self {
+        let [persistence, speed, diffusion] = [(); 3].map(|()| Answer::unknown(reason));
+        Self { persistence, speed, diffusion }
+    }
+}
+
+impl From<&StatedWalk> for WalkNumbers {
+    fn from(walk: &StatedWalk) -> Self {
+        let answer = |found: &OfWalk| match (found.value, &found.reason) {
+            (Some(value), _) => {
+                Answer::Known(Measured { value, interval: found.low.zip(found.high).map(<[f64; 2]>::from) })
+            }
+            (None, reason) => Answer::unknown(reason.clone().unwrap_or_default()),
+        };
+        Self {
+            persistence: answer(&walk.persistence),
+            speed: answer(&walk.speed),
+            diffusion: answer(&walk.diffusion),
         }
     }
 }

@@ -1,10 +1,11 @@
 //! Common statistics of tracked cells: mean-square displacement, persistence, autocorrelations of velocity and shape, with errors.
 
 use super::measures::Series;
+use crate::numbers::{WalkNumbers, by_place};
 use motiform_inference::{Observation, Scales};
 use motiform_statistics::{
-    Answer, Autocorrelation, Errors, MeanSquare, Measured, Quantity, Track, Tracks, Walk, autocorrelation,
-    mean_square, persistent_walk,
+    Answer, Autocorrelation, Errors, MeanSquare, Measured, Quantity, Track, Tracks, autocorrelation,
+    mean_square,
 };
 use serde::Serialize;
 
@@ -38,15 +39,20 @@ pub struct MotionStatistics {
     pub errors: Errors,
     /// Mean-square displacement, the part of the measurement errors subtracted.
     pub displacement: Vec<AtLag>,
-    /// Persistence time, speed and diffusion coefficient of a persistent random walk, where it describes the displacements.
-    pub walk: Walk,
+    /// The persistent random walk, where it describes the paths: that of the numbers without a model.
+    pub walk: WalkNumbers,
     /// Autocorrelations of velocity, z2 and z3; errors of measurement lower them by their share of the variance.
     pub memories: Vec<Memory>,
 }
 
-/// Statistics of records at one sampling interval; `None` where they are too short.
-pub(super) fn of_records<'s>(records: impl Iterator<Item = &'s Series>) -> Option<MotionStatistics> {
-    let records: Vec<&Series> = records.collect();
+/// Statistics of records at one sampling interval, whatever their order; `None` where they are too short.
+pub(super) fn of_records<'s>(
+    records: impl Iterator<Item = &'s Series>,
+    walk: WalkNumbers,
+) -> Option<MotionStatistics> {
+    let mut records: Vec<&Series> = records.collect();
+    let place = |series: &Series| series.frames.first().map_or([0.0; 2], |frame| [frame.y[0], frame.y[1]]);
+    records.sort_by(|a, b| a.frames.len().cmp(&b.frames.len()).then_with(|| by_place(place(a), place(b))));
     let Series { dt, unit, .. } = records.first()?;
     let dt = *dt;
     let noise: Vec<f64> = records.iter().flat_map(|series| series.frames.iter().map(variance)).collect();
@@ -79,7 +85,7 @@ pub(super) fn of_records<'s>(records: impl Iterator<Item = &'s Series>) -> Optio
     Some(MotionStatistics {
         errors: tracks.errors(),
         displacement: points(&square),
-        walk: persistent_walk(&square),
+        walk,
         memories: memories?,
     })
 }

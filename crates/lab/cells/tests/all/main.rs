@@ -3,6 +3,7 @@
 mod bifurcations;
 mod bodies;
 mod cameras;
+mod common_walk;
 mod doubts;
 mod every_format;
 mod field;
