@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod families;
-mod ghosts;
 mod irrelevant;
 mod other_search;
 mod tensor;
