@@ -24,7 +24,7 @@ impl NoiseSettings {
         self.velocity.max(self.shape)
     }
 
-    /// What it acts on in a body, with its amplitude there: the velocity where that is an unknown, the shape where there is one.
+    /// The parts of a body that it acts on, with its amplitude there: the velocity where that is an unknown, the shape where there is one.
     #[must_use]
     pub fn parts(&self, body: &dyn Model) -> Vec<(&'static str, f64)> {
         let velocities = body.velocities();

@@ -99,7 +99,7 @@ fn curves_that_meet_have_one_mark() {
     let svg = std::fs::read_to_string(folder.path("run/curves.svg")).unwrap();
     assert!(!svg.contains("not located"));
     let table = std::fs::read_to_string(folder.path("run/curves.csv")).unwrap();
-    let at_origin = |line: &&str| line.contains("gains a symmetry") && line.contains("Bogdanov-Takens");
+    let at_origin = |line: &&str| line.contains("gains symmetry") && line.contains("Bogdanov-Takens");
     assert_eq!(table.lines().filter(at_origin).count(), 1, "{table}");
 }
 

@@ -91,7 +91,7 @@ fn branches() {
 /// Samples along the parameter are kept every second.
 #[test]
 fn sweeps() {
-    let command = "continue tensor --preset fig5a --along kappa2=0.7:1.6 --branches 1 --points 5 --sweep 160 --no-figures";
+    let command = "continue tensor --preset fig5a --along kappa2=0.7:1.6 --branches 1 --points 5 --sweep 320 --no-figures";
     let sampled = |folder: &Path| {
         let entries = std::fs::read_dir(folder.join("_work")).into_iter().flatten().flatten();
         entries.filter_map(|entry| Some(entry.metadata().ok()?.len() as usize)).sum()

@@ -1,4 +1,4 @@
-//! What the walk lacks between neighbouring places: the scores of its numbers, and of diffusion beside it.
+//! Changes between neighbouring places that the walk lacks: the scores of its numbers, and of diffusion beside it.
 
 use super::filter::{Law, Step, raw_steps, spread};
 use super::{Bounded, Fix};
@@ -8,7 +8,7 @@ use nalgebra::{Matrix4, Vector4};
 const STEP: f64 = 1e-4;
 /// Score from which on the intervals hold the walk with diffusion beside it as well.
 pub(super) const ALLOWED: f64 = 0.5;
-/// What is added to the information, as a part of itself: of steps without a memory P and S are unbounded, and D is known.
+/// Part of the information that is added to it: of steps without a memory P and S are unbounded, and D is known.
 const RIDGE: f64 = 1e-6;
 
 /// The derivatives of the log-likelihood at a walk by the logarithms of P and of the variance of its velocity, by the variance of the
@@ -92,7 +92,7 @@ impl Scores {
         Some([of(3)?, of(4)?])
     }
 
-    /// How much a number moves with those of the scores; `D = V P + beside/2` in each coordinate.
+    /// The change of a number with those of the scores; `D = V P + beside/2` in each coordinate.
     pub(super) fn gradient(&self, number: Number) -> Vector4<f64> {
         match number {
             Number::Persistence => Vector4::new(1.0, 0.0, 0.0, 0.0),

@@ -34,9 +34,9 @@ impl Sums {
 pub(super) struct Law {
     /// Persistence time.
     pub(super) persistence: f64,
-    /// What independent errors of a place add to the variance of a coordinate; below 0 where places are means over a time.
+    /// The part of independent errors of a place in the variance of a coordinate; below 0 where places are means over a time.
     pub(super) error: f64,
-    /// What diffusion beside the walk adds to the variance of a displacement, per time.
+    /// The part of diffusion beside the walk in the variance of a displacement, per time.
     pub(super) beside: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What a walk lacks between neighbouring places, and the common walk of many cells, on processes of known numbers.
+//! Diffusion beside a walk, means over exposures, and the common walk of many cells, on processes of known numbers.
 
 use super::walk::{found, walk};
 use crate::samples::draws;

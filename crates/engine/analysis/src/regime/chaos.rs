@@ -164,7 +164,7 @@ pub(super) fn torus(run: &Lyapunov, witness: &Witness, time: f64) -> Option<Verd
     let error = if error.is_infinite() && secular { value.abs() } else { error };
     let (k, dimension) = (witness.zero_one?, witness.dimension?);
     let curve = (0.8..1.2).contains(&dimension) && witness.stationary?;
-    if error.is_infinite() || (value > 2.0 * error && !secular) || value * run.time > GROWN || !curve {
+    if error.is_infinite() || value > 2.0 * error || value * run.time > GROWN || !curve {
         return None;
     }
     let most = libm::log(witness.returns as f64);

@@ -118,7 +118,7 @@ fn tables(cases: &[Case<'_>], names: &[String], units: &Units) -> Vec<Table> {
             link(case, file),
             Cell::text(motion_of_fit(case)),
             Cell::text(fitted_of(case).map_or("no fit", |fitted| fitted.symmetry().name())),
-            Cell::text(fitted_of(case).map_or_else(String::new, place_words)),
+            Cell::text(fitted_of(case).map_or_else(|| "none".to_owned(), place_words)),
             Cell::text(agreement(case)),
         ]
     };

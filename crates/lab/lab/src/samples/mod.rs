@@ -281,9 +281,9 @@ mod tests {
             silent: Vec::new(),
             history: Vec::new(),
             reduced_speeds: Vec::new(),
-            time: 1.0,
+            time: 1e6,
             transient: 0.0,
-            outcome: Outcome::Completed { t: 1.0 },
+            outcome: Outcome::Completed { t: 1e6 },
             shape: Vec::new(),
         };
         assert!(summarise(vec![orbit(0.5), orbit(0.51)]).agree);
