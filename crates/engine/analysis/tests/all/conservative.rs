@@ -99,7 +99,7 @@ fn integrable_motions_are_not_chaotic() {
             assert!(seen.exponents.iter().all(|one| one.covers(0.0)), "{name} {seed}: {:?}", seen.exponents);
             if let Some(said) = seen.why.split("lambda_1 = ").nth(1).filter(|said| said.contains("+-")) {
                 let number =
-                    |word: Option<&str>| word.unwrap().trim_end_matches(&[',', ';']).parse::<f64>().unwrap();
+                    |word: Option<&str>| word.unwrap().trim_end_matches([',', ';']).parse::<f64>().unwrap();
                 let mut words = said.split_whitespace();
                 let (value, error) = (number(words.next()), number(words.nth(1)));
                 assert!(value.abs() <= error, "{name} {seed}: {}", seen.why);

@@ -51,7 +51,7 @@ pub(crate) fn insets(folder: &AtlasFolder) -> Result<Vec<MapInset>, Error> {
         let places: Option<Vec<[f64; 2]>> = region.courses.iter().map(by_sense).collect();
         match places.filter(|places| !places.is_empty()) {
             Some(places) => {
-                all.extend(places.into_iter().zip(paths).map(|(cell, paths)| MapInset { cell, paths }))
+                all.extend(places.into_iter().zip(paths).map(|(cell, paths)| MapInset { cell, paths }));
             }
             None => all.push(MapInset { cell: region.at, paths: paths.concat() }),
         }
