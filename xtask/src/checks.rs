@@ -1,9 +1,8 @@
 //! Lints and documentation, with all features enabled, so that optional parts are checked too.
 
-use crate::{cargo, cargo_command, step};
-use anyhow::{Context, Result};
+use crate::{cargo, cargo_command, step, sysroot};
+use anyhow::Result;
 use std::path::PathBuf;
-use std::process::Command;
 
 const OPTIONS: [&str; 3] = ["--release", "--workspace", "--all-features"];
 
@@ -23,9 +22,6 @@ pub(crate) fn run() -> Result<()> {
 
 /// The compiler of the lints, if it is where rustup puts it.
 fn lints() -> Result<Option<PathBuf>> {
-    let output =
-        Command::new("rustc").args(["--print", "sysroot"]).output().context("rustc could not be started")?;
-    let folder = PathBuf::from(String::from_utf8(output.stdout)?.trim()).join("bin");
-    Ok(Some(folder.join(format!("clippy-driver{}", std::env::consts::EXE_SUFFIX)))
+    Ok(Some(sysroot()?.join("bin").join(format!("clippy-driver{}", std::env::consts::EXE_SUFFIX)))
         .filter(|path| path.is_file()))
 }

@@ -150,6 +150,13 @@ fn root() -> Result<PathBuf> {
     Ok(PathBuf::from(package).join(".."))
 }
 
+/// The folder of the toolchain.
+fn sysroot() -> Result<PathBuf> {
+    let output =
+        Command::new("rustc").args(["--print", "sysroot"]).output().context("rustc could not be started")?;
+    Ok(PathBuf::from(String::from_utf8(output.stdout)?.trim()))
+}
+
 /// Runs cargo in the workspace, showing what it does.
 fn cargo(name: &str, arguments: &[&str]) -> Result<()> {
     step(name, cargo_command().args(arguments).env("RUSTDOCFLAGS", "-D warnings"))

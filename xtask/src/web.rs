@@ -2,8 +2,8 @@
 //! page as one file. All of it is built, for a release and for the tests, and nothing of it is committed.
 
 use crate::explorer::{node, npm};
-use crate::{cargo_command, root, step};
-use anyhow::{Context, Result, bail};
+use crate::{cargo_command, root, step, sysroot};
+use anyhow::{Result, bail};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -59,9 +59,7 @@ fn site(node: &Path, root: &Path, web: &Path, profile: &str) -> Result<PathBuf> 
 
 /// Returns `true` if the standard library for WebAssembly is installed.
 pub(crate) fn is_installed() -> Result<bool> {
-    let output = Command::new("rustc").args(["--print", "sysroot"]).output();
-    let sysroot = String::from_utf8(output.context("rustc could not be started")?.stdout)?;
-    Ok(Path::new(sysroot.trim()).join("lib/rustlib").join(TARGET).join("lib").is_dir())
+    Ok(sysroot()?.join("lib/rustlib").join(TARGET).join("lib").is_dir())
 }
 
 /// Builds the module. No path of this machine is in it: its bytes do not depend on where the sources lie.

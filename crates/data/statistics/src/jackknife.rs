@@ -1,7 +1,7 @@
 //! Intervals by leaving out one group of units at a time.
 
 use crate::Measured;
-use motiform_dynamics::distributions::student_quantile;
+use motiform_dynamics::distributions::{student_quantile, unequal_freedom};
 
 /// Fewest groups that give an interval.
 const LEAST: usize = 8;
@@ -43,7 +43,8 @@ fn spread(without: &[f64], freedom: Option<usize>) -> Option<f64> {
     let n = groups as f64;
     let mean = without.iter().sum::<f64>() / n;
     let squares: f64 = without.iter().map(|value| (value - mean) * (value - mean)).sum();
-    Some(student_quantile(freedom.unwrap_or(groups - 1)) * ((n - 1.0) / n * squares).sqrt())
+    let half = student_quantile(freedom.unwrap_or(groups - 1)) * ((n - 1.0) / n * squares).sqrt();
+    Some(half).filter(|half| half.is_finite())
 }
 
 /// Sums over the groups of units: a mean is `sum / count`.
@@ -85,21 +86,18 @@ impl Sums {
     }
 
     /// The mean with its interval over the groups that have terms, on its logarithm where it is above 0. Degrees of freedom are those of
-    /// groups of unequal size: `(sum n)^2/sum n^2 - 1`, of n terms each.
-    ///
-    /// Source: Satterthwaite (1946), Biometrics Bull. 2, 110, for terms whose number is the inverse of the variance of their mean.
+    /// groups of unequal size ([`unequal_freedom`]).
     pub(crate) fn over_unequal(&self) -> Measured {
         let sizes: Vec<f64> = self.groups.iter().map(|group| group[1]).collect();
         let without: Vec<f64> =
             (0..sizes.len()).filter(|&k| sizes[k] > 0.0).map(|group| self.mean(Some(group))).collect();
-        let [sum, squares] = sizes.iter().fold([0.0; 2], |[s, q], n| [s + n, q + n * n]);
-        let freedom = Some((sum * sum / squares - 1.0).round() as usize);
+        let freedom = Some(unequal_freedom(sizes.iter().copied()));
         let value = self.mean(None);
         let skew = ratio(value, &without, freedom);
         if skew.interval.is_some() {
             return skew;
         }
-        let half = spread(&without, freedom).filter(|half| half.is_finite());
+        let half = spread(&without, freedom);
         Measured { value, interval: half.map(|half| [value - half, value + half]) }
     }
 }

@@ -48,6 +48,22 @@ pub fn student_quantile(freedom: usize) -> f64 {
     z * terms.iter().rev().fold(0.0, |sum, term| (sum + term) / n) + z
 }
 
+/// Degrees of freedom of the spread over groups of unequal size, `(sum n)^2/sum n^2 - 1` of n terms each, rounded down: G - 1 of G equal
+/// groups, and few where few groups have most of the terms.
+///
+/// Source: Satterthwaite (1946), Biometrics Bull. 2, 110, for terms whose number is the inverse of the variance of their mean.
+#[must_use]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a number from 0 to that of the groups"
+)]
+pub fn unequal_freedom(sizes: impl Iterator<Item = f64>) -> usize {
+    let [sum, squares] = sizes.fold([0.0; 2], |[s, q], n| [s + n, q + n * n]);
+    // equal groups have a whole number but for round-off
+    if squares > 0.0 { (sum * sum / squares - 1.0 + 1e-9).max(0.0) as usize } else { 0 }
+}
+
 /// The factor by which an error of so many degrees of freedom makes an interval of 95 % wider than a known one: [`student_quantile`] over
 /// that of the normal distribution.
 #[must_use]

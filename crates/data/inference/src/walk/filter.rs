@@ -36,8 +36,8 @@ pub(super) struct Law {
     pub(super) persistence: f64,
     /// The part of independent errors of a place in the variance of a coordinate; below 0 where places are means over a time.
     pub(super) error: f64,
-    /// The part of diffusion beside the walk in the variance of a displacement, per time.
-    pub(super) beside: f64,
+    /// The part of additional diffusion in the variance of a displacement, per time.
+    pub(super) diffusion: f64,
 }
 
 /// The transition of mean and covariance over an interval: x += g v, v *= a, and the noise.
@@ -53,7 +53,7 @@ impl Transition {
         let p = law.persistence;
         let h = interval / p;
         let (a, lost) = (libm::exp(-h), -libm::expm1(-h));
-        let place = p * p * spread(h) + law.beside * interval;
+        let place = p * p * spread(h) + law.diffusion * interval;
         Self { a, g: p * lost, q: [place, p * lost * lost, lost * (1.0 + a)] }
     }
 }

@@ -21,8 +21,8 @@ const KEEPS: f64 = 1e-3;
 /// Significance below which the changes of the velocity are not as large over the whole record.
 const UNSTEADY: f64 = 1e-3;
 
-/// Score of diffusion beside the walk from which on it is seen: p = 0.03.
-const BESIDE: f64 = 2.17;
+/// Above this score additional diffusion is significant: p = 0.03.
+const EXTRA: f64 = 2.17;
 
 /// Fewest steps among which the changes of the velocity may be shared out.
 const FEWEST: f64 = 16.0;
@@ -42,7 +42,7 @@ pub enum Misfit {
     Keeps,
     /// The changes of the velocity have another size in one part of the record than in another: slowing down, coming to rest.
     Unsteady,
-    /// Displacements from place to place scatter more than those of the walk with errors of the places: diffusion beside it.
+    /// Displacements from frame to frame scatter more than those of the walk with errors of the places: there is additional diffusion.
     Diffuses,
     /// They scatter less: places are means over a time, or were smoothed.
     Smoothed,
@@ -69,7 +69,7 @@ impl Display for Misfit {
             }
             Self::Diffuses => {
                 "displacements from frame to frame scatter more than those of the walk, and errors of the places do not explain it: the \
-                 cell diffuses beside its walk, or its velocity has a second, shorter memory"
+                 cell diffuses in addition to its walk, or its velocity has a second, shorter memory"
             }
             Self::Smoothed => {
                 "displacements from frame to frame scatter less than those of the walk: the places are means over an exposure, or smoothed"
@@ -82,8 +82,8 @@ impl Display for Misfit {
 /// Tests of the walk of highest likelihood against what it does not have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tests {
-    /// See [`super::PersistentWalk::beside_score`]; 0 before it is known.
-    pub(super) beside: f64,
+    /// See [`super::PersistentWalk::diffusion_score`]; 0 before it is known.
+    pub(super) diffusion: f64,
     /// See [`super::PersistentWalk::turning_score`].
     pub(super) turning: f64,
     /// See [`super::PersistentWalk::direction_p_value`].
@@ -123,7 +123,7 @@ impl Tests {
         let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let axis = over(direction[0] * direction[0] + direction[1] * direction[1], fourth);
         Self {
-            beside: 0.0,
+            diffusion: 0.0,
             turning: over(turning, turning_squares.sqrt()),
             direction: libm::exp(-axis),
             spread: course::spread(steps),
@@ -144,8 +144,8 @@ pub(super) fn misfit(tests: &Tests, coloured: f64) -> Option<Misfit> {
         (tests.steady < UNSTEADY, Misfit::Unsteady),
         (below < HELD, Misfit::Held),
         (above < KEEPS, Misfit::Keeps),
-        (tests.beside > BESIDE, Misfit::Diffuses),
-        (tests.beside < -BESIDE, Misfit::Smoothed),
+        (tests.diffusion > EXTRA, Misfit::Diffuses),
+        (tests.diffusion < -EXTRA, Misfit::Smoothed),
     ];
     all.into_iter().find(|one| one.0).map(|one| one.1)
 }

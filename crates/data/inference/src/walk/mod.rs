@@ -1,7 +1,7 @@
 //! The persistent random walk with errors of the positions: the first null of every law of motion.
 
-mod beside;
 mod course;
+mod extra_diffusion;
 mod filter;
 mod misfit;
 mod ridge;
@@ -9,7 +9,7 @@ mod table;
 mod together;
 
 use crate::warnings::ljung_box;
-use beside::{Beside, Number, Scores};
+use extra_diffusion::{ExtraDiffusion, Number, Scores};
 use filter::Law;
 pub use misfit::Misfit;
 use misfit::Tests;
@@ -56,9 +56,9 @@ pub struct PersistentWalk {
     /// Its variance; below 0 where the places are means over a time, such as an exposure, and so the displacements from place to place
     /// smaller than those of a walk.
     pub error_variance: Bounded,
-    /// Score of diffusion beside the walk: for a walk with errors of the places a normal number of variance 1. Above 0 displacements from
+    /// Score of additional diffusion: for a walk with errors of the places a normal number of variance 1. Above 0 displacements from
     /// place to place scatter more than those of the walk, without the return of an error; below 0 less.
-    pub beside_score: f64,
+    pub diffusion_score: f64,
     /// Log-likelihood of the places after the first of each piece.
     pub log_likelihood: f64,
     /// `true` if the places are as likely, within the intervals, without any motion: then there is no lower end to speed and diffusion
@@ -104,7 +104,7 @@ impl PersistentWalk {
     pub fn misfit(&self) -> Option<Misfit> {
         let Self { turning_score, direction_p_value, spread, steady_p_value, changes, p_value, .. } = *self;
         let tests = Tests {
-            beside: self.beside_score,
+            diffusion: self.diffusion_score,
             turning: turning_score,
             direction: direction_p_value,
             spread,
@@ -143,8 +143,8 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
     let table = Table::of(pieces)?;
     let best = table.best();
     let scores = Scores::of(pieces, best.law, best.sums.scale(), table::shortest(pieces));
-    let beside = Beside::of(scores);
-    let number = |known, number| beside.wider(number, table.bounded(known));
+    let extra = ExtraDiffusion::of(scores);
+    let number = |known, number| extra.wider(number, table.bounded(known));
     let persistence = number(Known::Persistence, Number::Persistence);
     let speed = number(Known::Speed, Number::Speed);
     let diffusion = number(Known::Diffusion, Number::Diffusion);
@@ -172,7 +172,7 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
             high: error_variance.high.map(root),
         },
         error_variance,
-        beside_score: beside.score(),
+        diffusion_score: extra.score(),
         log_likelihood: table.highest(),
         rests,
         steps,
@@ -192,6 +192,6 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
 #[must_use]
 pub fn walk_likelihood(pieces: &[Vec<Fix>], persistence: f64, speed: f64, error: f64) -> f64 {
     let variance = 0.5 * speed * speed;
-    let law = Law { persistence, error: error * error / variance, beside: 0.0 };
+    let law = Law { persistence, error: error * error / variance, diffusion: 0.0 };
     filter::sums(pieces, law).log_likelihood(variance)
 }

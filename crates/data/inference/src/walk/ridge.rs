@@ -41,7 +41,7 @@ impl Places<'_> {
     pub(super) fn walk(&self, [time, u]: [f64; 2]) -> Entry {
         let persistence = libm::exp(time);
         let error = (libm::exp(u) - SMOOTH) * step_variance(persistence, self.interval);
-        let law = Law { persistence, error, beside: 0.0 };
+        let law = Law { persistence, error, diffusion: 0.0 };
         Entry { law, sums: sums(self.pieces, law) }
     }
 

@@ -49,7 +49,7 @@ fn value_at(walk: &Entry, known: Known, variance: f64) -> f64 {
 pub(super) struct Table {
     entries: Vec<Entry>,
     best: Entry,
-    /// The likelihood of errors alone: of the largest error beside the shortest persistence time that are looked at.
+    /// The likelihood of errors alone: of the largest error and the shortest persistence time in the table.
     still: f64,
 }
 
@@ -146,13 +146,13 @@ fn times(pieces: &[Vec<Fix>]) -> Option<(f64, [f64; 2])> {
     (interval.is_finite() && longest > 0.0).then_some((interval, ends))
 }
 
-/// The walk of highest likelihood of all these pieces, from one nearby on: what many cells have in common, from the walk of a usual one.
-/// `true` beside it: the shortest persistence time that is looked at is less likely by more than the intervals.
+/// The walk of highest likelihood of all these pieces, searched from a given one, and `true` if its persistence is resolved: the shortest
+/// persistence time of the table is less likely by more than the intervals allow.
 pub(super) fn nearby(pieces: &[Vec<Fix>], persistence: f64, error: f64) -> Option<(Entry, bool)> {
     let (interval, ends) = times(pieces)?;
     let places = Places { pieces, interval };
     let least = Places::errors()[0];
-    let at = [libm::log(persistence), places.relative(Law { persistence, error, beside: 0.0 }).max(least)];
+    let at = [libm::log(persistence), places.relative(Law { persistence, error, diffusion: 0.0 }).max(least)];
     let best = refined(&places, places.walk(at), NEARBY, ends);
     let is_resolved = places.ridge(ends[0]).highest() < best.highest() - drop(best.sums.count);
     best.highest().is_finite().then_some((best, is_resolved))

@@ -1,11 +1,11 @@
 //! One persistent random walk of many cells.
 
-use super::beside::{ALLOWED, Number, Scores};
+use super::extra_diffusion::{ALLOWED, Number, Scores};
 use super::filter::{by_coordinate, steps};
 use super::table::nearby;
 use super::{Bounded, Fix, PersistentWalk};
 use crate::warnings::ljung_box;
-use motiform_dynamics::distributions::{NORMAL_95, student_quantile};
+use motiform_dynamics::distributions::{NORMAL_95, student_quantile, unequal_freedom};
 use motiform_dynamics::sample::median;
 use nalgebra::{Matrix4, Vector4};
 
@@ -25,8 +25,8 @@ pub struct WalkTogether {
     pub error_variance: Bounded,
     /// Probability of autocorrelations of the innovations as large as these, if one walk describes all paths (Ljung and Box).
     pub p_value: f64,
-    /// Score of diffusion beside the walk, from its scatter over cells: for walks a normal number of variance 1.
-    pub beside_score: f64,
+    /// Score of additional diffusion, from its scatter over cells: for walks a normal number of variance 1.
+    pub diffusion_score: f64,
 }
 
 /// The walk of highest likelihood of these cells, each with the pieces of its path and its own walk.
@@ -35,10 +35,10 @@ pub struct WalkTogether {
 /// covariance is that of the walk: `cov = I^-1 (sum over cells of u u^T) I^-1`, u the score of a cell over 1 less its share of all steps,
 /// with Student's t of `(sum n)^2/sum n^2 - 1` degrees of freedom, n the steps of a cell. From 8 cells on; of fewer `cov = I^-1`.
 ///
-/// Source: Huber (1967), Proc. 5th Berkeley Symp. 1, 221; Satterthwaite (1946), Biometrics Bull. 2, 110 (degrees of freedom).
+/// Source: Huber (1967), Proc. 5th Berkeley Symp. 1, 221; [`unequal_freedom`] for the degrees of freedom.
 ///
 /// # Units   of the places and times
-/// # Checked by  tests/all/together_walk.rs: walks of equal and of very different lengths, diffusion beside them, means over exposures
+/// # Checked by  tests/all/together_walk.rs: walks of equal and of very different lengths, additional diffusion, means over exposures
 #[must_use]
 pub fn walk_together(cells: &[(&[Vec<Fix>], &PersistentWalk)]) -> Option<WalkTogether> {
     let usual = |of: fn(&PersistentWalk) -> f64| median(cells.iter().map(|(_, walk)| of(walk)));
@@ -54,7 +54,7 @@ pub fn walk_together(cells: &[(&[Vec<Fix>], &PersistentWalk)]) -> Option<WalkTog
     let found = steps(&pieces, best.law);
     let own: Vec<f64> = of_cells.iter().map(|(score, _)| scores.own(&inverses, score)).collect();
     let squares: f64 = own.iter().map(|own| own * own).sum();
-    let beside_score = match cells.len() < CELLS {
+    let diffusion_score = match cells.len() < CELLS {
         true => scores.own(&inverses, &scores.sum()) * inverses[1][(3, 3)].sqrt(),
         false => own.iter().sum::<f64>() / squares.sqrt(),
     };
@@ -65,7 +65,7 @@ pub fn walk_together(cells: &[(&[Vec<Fix>], &PersistentWalk)]) -> Option<WalkTog
         let half =
             |which: usize| t * (gradient.transpose() * covariances[which] * gradient)[0].max(0.0).sqrt();
         let (mut low, mut high) = (-half(0), half(0));
-        if beside_score.abs() > ALLOWED {
+        if diffusion_score.abs() > ALLOWED {
             let shift = gradient.dot(&shift);
             (low, high) = (low.min(shift - half(1)), high.max(shift + half(1)));
         }
@@ -83,7 +83,7 @@ pub fn walk_together(cells: &[(&[Vec<Fix>], &PersistentWalk)]) -> Option<WalkTog
         diffusion: bounded(Number::Diffusion, variance * best.law.persistence),
         error_variance: bounded(Number::Error, variance * best.law.error),
         p_value: ljung_box(&by_coordinate(&found, pieces.len())).1,
-        beside_score,
+        diffusion_score,
     })
 }
 
@@ -97,18 +97,17 @@ fn by_cells(cells: &[(&[Vec<Fix>], &PersistentWalk)], scores: &Scores) -> Vec<(V
     cells.iter().map(cell).collect()
 }
 
-/// Covariances without and with diffusion beside the walk, and the quantile that goes with them.
+/// Covariances without and with additional diffusion, and the quantile that goes with them.
 fn covariances(cells: &[(Vector4<f64>, f64)], inverses: &[Matrix4<f64>; 2]) -> ([Matrix4<f64>; 2], f64) {
     if cells.len() < CELLS {
         return (*inverses, NORMAL_95);
     }
     let all: f64 = cells.iter().map(|(_, steps)| steps).sum();
-    let squares: f64 = cells.iter().map(|(_, steps)| steps * steps).sum();
     let scatter: Matrix4<f64> = cells
         .iter()
         .map(|(score, steps)| score / (1.0 - steps / all))
         .map(|score| score * score.transpose())
         .sum();
-    let freedom = (all * all / squares - 1.0).max(1.0) as usize;
+    let freedom = unequal_freedom(cells.iter().map(|(_, steps)| *steps));
     (inverses.map(|inverse| inverse * scatter * inverse), student_quantile(freedom))
 }

@@ -1,4 +1,4 @@
-//! Diffusion beside a walk, means over exposures, and the common walk of many cells, on processes of known numbers.
+//! Additional diffusion, means over exposures, and the common walk of many cells, on processes of known numbers.
 
 use super::walk::{found, walk};
 use crate::samples::draws;
@@ -17,7 +17,7 @@ fn exposed(truth: [f64; 3], frames: u32, seed: u64) -> Vec<Fix> {
     fine.chunks(10).map(mean).collect()
 }
 
-/// The walk beside a diffusion of this coefficient.
+/// The walk with additional diffusion of this coefficient.
 fn diffusing(coefficient: f64, frames: u32, seed: u64) -> Vec<Fix> {
     let mut normal = Normal::new(seed, 5);
     let mut at = [0.0; 2];
@@ -58,9 +58,10 @@ fn exposures_do_not_lengthen_the_persistence() {
     assert!(held >= draws(16, 85) && mean < 0.22, "{held} {mean}");
 }
 
-/// Diffusion beside the walk is seen, or it is in the intervals: those of P that are given hold it. Without this they did in a quarter.
+/// Additional diffusion is seen, or the intervals allow for it: those of P that are given contain the true value. Without this they did in
+/// a quarter.
 #[test]
-fn diffusion_beside_a_walk_is_seen_or_allowed_for() {
+fn additional_diffusion_is_seen_or_allowed_for() {
     let runs = draws(40, 200);
     let (mut seen, mut held, mut given) = (0, 0, 0);
     for seed in 0..runs {
@@ -80,7 +81,7 @@ fn diffusion_beside_a_walk_is_seen_or_allowed_for() {
     assert!(free.count() as u64 <= draws(5, 14));
 }
 
-/// Intervals of the common walk over cells of very different lengths, and of equal ones; diffusion beside the walk is seen there.
+/// Intervals of the common walk over cells of very different lengths, and of equal ones; additional diffusion is seen there.
 #[test]
 fn one_walk_of_many_cells() {
     let truth = [3.0, 1.0, 0.1];
@@ -109,5 +110,5 @@ fn one_walk_of_many_cells() {
     );
     let cells: Vec<Vec<Fix>> = (0..20).map(|seed| diffusing(0.2, 200, 40 + seed)).collect();
     let one = together(&cells).expect("a walk");
-    assert!(one.beside_score > 3.3, "{one:?}");
+    assert!(one.diffusion_score > 3.3, "{one:?}");
 }

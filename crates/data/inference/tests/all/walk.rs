@@ -319,7 +319,7 @@ fn ends_of_the_persistence_are_those_of_its_profile() {
             for end in [low, high].into_iter().flatten() {
                 let fall = below(end);
                 // an interval that allows for diffusion beside the walk is wider than the profile
-                let most = if one.beside_score.abs() > 0.5 { f64::INFINITY } else { 2.6 };
+                let most = if one.diffusion_score.abs() > 0.5 { f64::INFINITY } else { 2.6 };
                 assert!((1.6..most).contains(&fall), "seed {seed}: {fall} below at {end}, {one:?}");
             }
             assert!(low.is_some() || below(0.03 * sampling.0) < 2.2, "seed {seed}: {one:?}");

@@ -111,7 +111,7 @@ pub(crate) fn walk_of_cells(found: &[Observation]) -> WalkNumbers {
 /// Numbers of the walk that too many cells only bound, or that single cells know too poorly.
 fn withheld(found: &[Observation], refused: Option<&str>, has_common: bool) -> Vec<Withheld> {
     let walks = together::described(found);
-    let beside = together::beside(found);
+    let no_walks = together::no_walks(found);
     // what moves the centroids is why their walks are refused
     let together = wobbling(found).or_else(|| refused.map(str::to_owned));
     let all = |of: fn(&PersistentWalk) -> Bounded| walks.iter().map(|walk| of(walk)).collect::<Vec<_>>();
@@ -131,8 +131,8 @@ fn withheld(found: &[Observation], refused: Option<&str>, has_common: bool) -> V
             )
         })
     };
-    let rms = beside.clone().or_else(unresolved).map(|why| Withheld { quantity: &cell::RMS_SPEED, why });
-    let error = beside.map(|why| Withheld { quantity: &cell::POSITION_ERROR, why });
+    let rms = no_walks.clone().or_else(unresolved).map(|why| Withheld { quantity: &cell::RMS_SPEED, why });
+    let error = no_walks.map(|why| Withheld { quantity: &cell::POSITION_ERROR, why });
     all.extend(rms);
     all.extend(error.or_else(|| of_short_records(&walks)));
     all

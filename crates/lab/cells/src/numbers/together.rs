@@ -26,7 +26,7 @@ pub(super) fn refused(found: &[Observation]) -> Option<String> {
         .or_else(|| few_left(described.len(), walks(found).count() - described.len()))
         .or_else(|| turning_together(&described))
         .or_else(|| elsewhere(found))
-        .or_else(|| beside(found))
+        .or_else(|| no_walks(found))
         .or_else(|| leaving(found))
 }
 
@@ -47,11 +47,11 @@ pub(crate) fn leaving(found: &[Observation]) -> Option<String> {
     let square = |pair: &[Fix]| (0..2).map(|k| (pair[1].at[k] - pair[0].at[k]).powi(2)).sum::<f64>();
     let step = (steps().map(square).sum::<f64>() / steps().count().max(1) as f64).sqrt();
     let sides = [ends(0), ends(1)];
-    let beside = |fix: &Fix| (0..2).any(|k| (fix.at[k] - sides[k][0]).min(sides[k][1] - fix.at[k]) < step);
+    let at_side = |fix: &Fix| (0..2).any(|k| (fix.at[k] - sides[k][0]).min(sides[k][1] - fix.at[k]) < step);
     let early: Vec<&Fix> =
         tracks.iter().filter_map(|track| track.last()).filter(|end| end.t < last).collect();
-    let count = early.iter().filter(|end| beside(end)).count();
-    let part = all().filter(|fix| beside(fix)).count() as f64 / all().count().max(1) as f64;
+    let count = early.iter().filter(|end| at_side(end)).count();
+    let part = all().filter(|fix| at_side(fix)).count() as f64 / all().count().max(1) as f64;
     (early.len() >= FEWEST && tail(early.len(), count.saturating_sub(EXTREMES), part) < TOGETHER).then(|| {
         format!(
             "{count} of {} tracks that end early end at a side of the view: cells that keep their direction, or are fast, leave it first, \
@@ -114,11 +114,11 @@ pub(super) fn stated(walk: &WalkTogether) -> WalkNumbers {
 }
 
 /// The sentence that displacements from place to place are not those of walks with errors, taken together, if they are not: the score of
-/// one cell ([`PersistentWalk::beside_score`]) for all. Those that show it by themselves count.
-pub(super) fn beside(found: &[Observation]) -> Option<String> {
+/// one cell ([`PersistentWalk::diffusion_score`]) for all. Those that show it by themselves count.
+pub(super) fn no_walks(found: &[Observation]) -> Option<String> {
     let meant =
         walks(found).filter(|walk| matches!(walk.misfit(), None | Some(Misfit::Diffuses | Misfit::Smoothed)));
-    let scores: Vec<f64> = meant.map(|walk| walk.beside_score).collect();
+    let scores: Vec<f64> = meant.map(|walk| walk.diffusion_score).collect();
     let sum: f64 = scores.iter().sum();
     let p = chi_square_tail(sum * sum / scores.len() as f64, 1.0);
     (scores.len() >= FEWEST && p < TOGETHER).then(|| {

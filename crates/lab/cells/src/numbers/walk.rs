@@ -73,8 +73,8 @@ pub struct WalkTests {
     pub log_likelihood: f64,
     /// Probability of innovations as far from white as these.
     pub p_value: f64,
-    /// Score of diffusion beside the walk.
-    pub beside_score: f64,
+    /// Score of additional diffusion.
+    pub diffusion_score: f64,
     /// Score of a turn of the velocity one way.
     pub turning_score: f64,
     /// Probability of changes of the velocity with an axis as clear as these.
@@ -97,7 +97,7 @@ impl StatedWalk {
             steps: walk.steps,
             log_likelihood: walk.log_likelihood,
             p_value: walk.p_value,
-            beside_score: walk.beside_score,
+            diffusion_score: walk.diffusion_score,
             turning_score: walk.turning_score,
             direction_p_value: walk.direction_p_value,
             spread: walk.spread,

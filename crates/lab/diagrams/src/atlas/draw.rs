@@ -83,18 +83,18 @@ fn caption(folder: &AtlasFolder, paths: bool) -> Result<Vec<String>, Error> {
     let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
     let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
     let limits = match curves {
-        0 => "no limit of stability was followed".to_owned(),
-        _ => format!("limits of stability: {} by pseudo-arclength continuation", counted(curves, "curve")),
+        0 => "No stability limit was followed".to_owned(),
+        _ => format!("Stability limits: {} by pseudo-arclength continuation", counted(curves, "curve")),
     };
     let below = if paths {
-        " Below the names of wide regions: paths of the motions, of each course one, not to one scale."
+        " Below the names of wide regions: one path for each course of a motion, not to one scale."
     } else {
         ""
     };
     let mut all = vec![
         words::named(plan.info()?, &c.parameters, &varied, &c.ties),
         format!(
-            "Motions of {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions; {limits}.{below}",
+            "Motions of {} each ({}, seed {}) in {} of {} cells; the others lie between cells with the same motions. {limits}.{below}",
             counted(c.samples, "initial state"),
             c.random.words(),
             c.seed,

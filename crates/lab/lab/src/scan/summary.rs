@@ -237,6 +237,9 @@ mod tests {
             (found[1].regime, found[1].share, found[1].median("period")),
             (Regime::Straight, 0.25, None)
         );
+        for regime in Regime::ALL {
+            assert_eq!(motion_mark(regime, None).words, regime.words(), "figures and sentences");
+        }
         let turned = |mut row: Row, course| {
             row.course = Some(course);
             row

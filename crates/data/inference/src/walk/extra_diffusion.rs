@@ -1,4 +1,4 @@
-//! Changes between neighbouring places that the walk lacks: the scores of its numbers, and of diffusion beside it.
+//! Additional diffusion of a walker, which the persistent random walk does not have: score test, and wider intervals.
 
 use super::filter::{Law, Step, raw_steps, spread};
 use super::{Bounded, Fix};
@@ -6,13 +6,13 @@ use nalgebra::{Matrix4, Vector4};
 
 /// Step of the derivatives, relative.
 const STEP: f64 = 1e-4;
-/// Score from which on the intervals hold the walk with diffusion beside it as well.
+/// Above this score the intervals also include the walk with additional diffusion.
 pub(super) const ALLOWED: f64 = 0.5;
 /// Part of the information that is added to it: of steps without a memory P and S are unbounded, and D is known.
 const RIDGE: f64 = 1e-6;
 
 /// The derivatives of the log-likelihood at a walk by the logarithms of P and of the variance of its velocity, by the variance of the
-/// error, and by that of diffusion beside it (the last two relative to that of the velocity).
+/// error, and by that of additional diffusion (the last two relative to that of the velocity).
 pub(super) struct Scores {
     /// Information.
     information: Matrix4<f64>,
@@ -41,9 +41,9 @@ impl Scores {
         let by = [STEP * law.persistence, STEP * unit, STEP * unit / interval];
         let moved = |which: usize, sign: f64| {
             let by = |number: usize| if number == which { sign * by[which] } else { 0.0 };
-            let Law { persistence, error, beside } = law;
+            let Law { persistence, error, diffusion } = law;
             let other =
-                Law { persistence: persistence + by(0), error: error + by(1), beside: beside + by(2) };
+                Law { persistence: persistence + by(0), error: error + by(1), diffusion: diffusion + by(2) };
             raw_steps(pieces, other)
         };
         let scale = [2.0 * STEP, 2.0 * by[1], 2.0 * by[2]];
@@ -78,7 +78,7 @@ impl Scores {
         found
     }
 
-    /// The inverse of the information, without and with diffusion beside the walk; `None` where there is none. What the places do not tell
+    /// The inverse of the information, without and with additional diffusion; `None` where there is none. What the places do not tell
     /// apart has errors of a thousand.
     pub(super) fn inverses(&self) -> Option<[Matrix4<f64>; 2]> {
         let of = |count: usize| {
@@ -92,7 +92,7 @@ impl Scores {
         Some([of(3)?, of(4)?])
     }
 
-    /// The change of a number with those of the scores; `D = V P + beside/2` in each coordinate.
+    /// The change of a number with those of the scores; `D = V P + d/2` in each coordinate, d the additional variance per time.
     pub(super) fn gradient(&self, number: Number) -> Vector4<f64> {
         match number {
             Number::Persistence => Vector4::new(1.0, 0.0, 0.0, 0.0),
@@ -102,7 +102,7 @@ impl Scores {
         }
     }
 
-    /// The part of a score for diffusion beside the walk that its other numbers do not take up.
+    /// The part of a score for additional diffusion that the other numbers of the walk do not take up.
     pub(super) fn own(&self, [walk, _]: &[Matrix4<f64>; 2], score: &Vector4<f64>) -> f64 {
         score[3] - (self.information.row(3) * walk * score)[0]
     }
@@ -113,18 +113,18 @@ impl Scores {
     }
 }
 
-/// Diffusion beside the walk of one path.
-pub(super) struct Beside {
+/// Additional diffusion on one path.
+pub(super) struct ExtraDiffusion {
     scores: Scores,
     inverses: Option<[Matrix4<f64>; 2]>,
 }
 
-impl Beside {
+impl ExtraDiffusion {
     pub(super) fn of(scores: Scores) -> Self {
         Self { inverses: scores.inverses(), scores }
     }
 
-    /// The score of diffusion beside the walk: of a walk a normal number of variance 1; below 0 the displacements from place to place
+    /// The score of additional diffusion: for a walk a normal number of variance 1; below 0 the displacements from place to place
     /// scatter less than those of the walk, as of places that are means over a time. 0 where nothing tells it from the walk.
     pub(super) fn score(&self) -> f64 {
         let Some(inverses) = &self.inverses else { return 0.0 };
@@ -132,8 +132,8 @@ impl Beside {
         self.scores.own(inverses, &all) * inverses[1][(3, 3)].max(0.0).sqrt()
     }
 
-    /// The interval of a number; where the score leaves room for diffusion beside the walk, it also holds that of the walk with it: moved
-    /// by a step of Newton's, and wider by the ratio of the errors.
+    /// The interval of a number; above the score [`ALLOWED`] it also includes that of the walk with additional diffusion: shifted by one
+    /// Newton step, and wider by the ratio of the errors.
     pub(super) fn wider(&self, number: Number, of: Bounded) -> Bounded {
         let Some(inverses) = self.inverses.as_ref().filter(|_| self.score().abs() > ALLOWED) else {
             return of;
