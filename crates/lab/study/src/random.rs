@@ -4,6 +4,7 @@ use crate::Error;
 use crate::initial::Uniform;
 use crate::plan::check;
 use motiform_dynamics::Model;
+use motiform_dynamics::digits::given;
 use motiform_models::ModelInfo;
 use serde::{Deserialize, Serialize};
 
@@ -84,11 +85,10 @@ impl Random {
     /// The distribution as text: `uniform within ±0.01`, `of size 0.01 to 1, log-uniform`.
     #[must_use]
     pub fn words(&self) -> String {
-        let short = |x: f64| if (1e-4..1e6).contains(&x) { x.to_string() } else { format!("{x:e}") };
         match *self {
-            Self::Within(size) => format!("uniform within ±{}", short(size)),
-            Self::Sizes { min, max } if min == max => format!("of size {}", short(min)),
-            Self::Sizes { min, max } => format!("of size {} to {}, log-uniform", short(min), short(max)),
+            Self::Within(size) => format!("uniform within ±{}", given(size)),
+            Self::Sizes { min, max } if min == max => format!("of size {}", given(min)),
+            Self::Sizes { min, max } => format!("of size {} to {}, log-uniform", given(min), given(max)),
         }
     }
 

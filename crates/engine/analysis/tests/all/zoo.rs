@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use crate::common;
+use crate::samples::draws;
 
 use common::{ORDINARY, named, near};
 use motiform_analysis::regime::Settings;
@@ -158,8 +159,9 @@ fn errors_of_steps_are_no_orbit() {
         noise: std::collections::BTreeMap::new(),
     })
     .unwrap();
+    let slowest = draws(1e-5, 1e-6);
     for (slow, start) in
-        [(1e-6, [0.1, 0.2, 0.01, 0.01]), (1e-6, [0.1, 0.0, 0.5, 0.0]), (1e-4, [0.1, 0.2, 0.01, 0.01])]
+        [(slowest, [0.1, 0.2, 0.01, 0.01]), (slowest, [0.1, 0.0, 0.5, 0.0]), (1e-4, [0.1, 0.2, 0.01, 0.01])]
     {
         let values = [0.5, slow];
         let body = info.build(&values).unwrap();

@@ -19,6 +19,9 @@ use std::ops::Range;
 /// Names that no parameter can have, because they mean something else.
 pub const RESERVED: [&str; 7] = ["i", "pi", "conj", "sqrt", "sin", "cos", "exp"];
 
+/// Names of the imaginary unit, ours and those of other languages.
+const IMAGINARY_UNITS: [&str; 4] = ["i", "j", "I", "J"];
+
 /// Maximum depth of parentheses.
 const DEEPEST: usize = 64;
 
@@ -42,6 +45,9 @@ pub(super) fn parse(text: &str, names: Names<'_>, tape: &mut Tape) -> Result<Pol
     match parser.peek() {
         None => Ok(polynomial),
         Some(Token::Sign(')')) => Err(parser.wrong("this parenthesis closes none")),
+        Some(Token::Name(name)) if IMAGINARY_UNITS.contains(&name.as_str()) => {
+            Err(parser.wrong("the imaginary unit is i, and products are written with *: 2*i"))
+        }
         Some(token) => {
             let found = token.text();
             Err(parser.wrong(&format!("expected an operator before {found}: products are written with *")))
@@ -343,6 +349,9 @@ impl Parser<'_> {
             let known: Vec<String> = modes.iter().map(|n| format!("z{n}")).collect();
             let known = known.join(", ");
             return format!("there is no amplitude z{index}: modes gives {known}");
+        }
+        if IMAGINARY_UNITS.contains(&name) {
+            return format!("unknown name {name}: the imaginary unit is i");
         }
         let names = self.names.parameters.iter().map(String::as_str);
         let known: Vec<&str> = names.chain(RESERVED).chain(["re", "im"]).collect();

@@ -62,6 +62,9 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, TextError
                     rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
                 (Token::Name(rest[..length].to_owned()), length)
             }
+            '*' if rest.starts_with("**") => {
+                return Err(TextError::new(start..start + 2, "a power is written ^, as in z1^2"));
+            }
             '+' | '-' | '*' | '/' | '^' | '(' | ')' | '|' => (Token::Sign(first), 1),
             '\u{2212}' => (Token::Sign('-'), first.len_utf8()),
             '\u{b7}' | '\u{d7}' => (Token::Sign('*'), first.len_utf8()),

@@ -225,6 +225,21 @@ fn definitions_that_are_no_model_are_refused_at_their_place() {
     }
 }
 
+/// Powers and the imaginary unit as other languages write them are named with what is written here.
+#[test]
+fn notation_of_other_languages_is_refused_with_the_remedy() {
+    for (text, remedy) in [
+        ("z1**2*conj(z1)", "a power is written ^"),
+        ("-|z1|**2*z1", "a power is written ^"),
+        ("2j*z1", "the imaginary unit is i"),
+        ("2i*z1", "the imaginary unit is i"),
+        ("j*z1", "the imaginary unit is i"),
+    ] {
+        let error = info(&definition(&[1], &[text], &[])).unwrap_err();
+        assert!(error.problem.contains(remedy), "{text}: {error}");
+    }
+}
+
 /// A body without a mode 1: its velocity is read off its shape.
 #[test]
 fn a_velocity_may_be_read_off_the_shape() {
