@@ -86,6 +86,14 @@ impl Answer {
         Self::Known(Measured { value, interval })
     }
 
+    /// The same with an interval on the logarithm that also holds an independent change by this factor, if it has one.
+    pub(crate) fn or_by_the_factor(self, factor: f64) -> Self {
+        let Self::Known(Measured { value, interval }) = self else { return self };
+        let wider = |end: f64| libm::exp(libm::hypot(libm::log(end / value), libm::log(factor)));
+        let interval = interval.map(|[low, high]| [value / wider(low), value * wider(high)]);
+        Self::Known(Measured { value, interval })
+    }
+
     /// The same without a value, where there is a reason.
     pub(crate) fn unless(self, reason: Option<String>) -> Self {
         match reason {

@@ -123,7 +123,7 @@ pub(crate) fn too_coarse(
     let changed = (coarser.value - found.value).abs() > CHANGED * size;
     (found.correction > CORRECTED * size || changed).then(|| {
         let (dt, about) = (in_unit(dt, unit), in_unit(found.value, of_integral));
-        format!("sampled too coarsely: intervals of {dt} do not resolve the correlation (about {about}); record more often")
+        format!("sampled too coarsely: samples every {dt} do not resolve the correlation (about {about}); record more often")
     })
 }
 

@@ -84,8 +84,8 @@ fn refusal(best: &Damped, deviation: f64) -> Option<String> {
 /// Frequency and decay with their intervals: what every other sample changes, and what is changed without the first decay time, is in
 /// them as far as it is more than chance (as in [`Estimate`]). A correlation of more than one part has the slowest one alone at late lags.
 ///
-/// A misfit of the part d, what is chance in it included, may be one of the decay: another rate of decay, by the part 2 d, deviates by d
-/// from the nearest cosine of this one (times have the standard deviation 1/(2 lambda) under the weight e^{-2 lambda tau}).
+/// A misfit of the part d, what is chance in it included, may be one of the decay: another rate of decay, by the factor 1 + 2 d, deviates
+/// by d from the nearest cosine of this one (times have the standard deviation 1/(2 lambda) under the weight e^{-2 lambda tau}).
 fn measured(curves: &Curves, last: usize, best: &Damped, misfit: f64) -> [Answer; 2] {
     let [fine, coarse] = [1, 2].map(|step| fits(curves, last, best, (0, step)));
     let first = (1.0 / best.lambda).min(last as f64 / 3.0) as usize;
@@ -100,9 +100,7 @@ fn measured(curves: &Curves, last: usize, best: &Damped, misfit: f64) -> [Answer
     let resolution = PHASE / (TAU * last as f64 * curves.dt);
     let frequency = of(&|found| found.omega / (TAU * curves.dt)).at_least(resolution);
     if best.lambda * last as f64 > 1.0 {
-        let decay = of(&|found| curves.dt / found.lambda);
-        let half = decay.known().map_or(0.0, |found| found.half_width());
-        return [frequency, decay.at_least(libm::hypot(half, 2.0 * misfit * curves.dt / best.lambda))];
+        return [frequency, of(&|found| curves.dt / found.lambda).or_by_the_factor(1.0 + 2.0 * misfit)];
     }
     let lags = in_unit(last as f64 * curves.dt, &curves.unit);
     let reason = match best.lambda * (last as f64) < UNDIMINISHED {

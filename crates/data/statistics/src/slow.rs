@@ -51,9 +51,10 @@ impl Beyond {
 /// C_pp(tau) = C_pq(tau) C_qp(tau) / C_qq(tau),   p the quantity, q the slow one,
 ///
 /// C_pq(tau) = <p(t) q(t + tau)>. Fast parts of p have no part in C_pq, so that a slow part of p shows there long before it shows in
-/// C_pp. The factors are taken at half of the window, where it begins to fall, component by component; the lags beyond have the form of
-/// C_qq, which is continued beyond the longest by the ratio of its means over both halves of the lags. The bound is the size of
-/// the part with its error, which is that of leaving out groups and, for two factors that are both chance, the product of their errors.
+/// C_pp. The factors are taken at half of the window, where it begins to fall, component by component, if C_qq is above 0 there (else
+/// there is no such motion); the lags beyond have the form of C_qq, which is continued beyond the longest by the ratio of its means over
+/// both halves of the lags. The bound is the size of the part with its error, which is that of leaving out groups and, for two factors
+/// that are both chance, the product of their errors.
 ///
 /// # Errors    none for samples that [`Tracks`] accepts
 /// # Checked by  tests/all/slow.rs: the sum of two Ornstein-Uhlenbeck processes, one driven by the other, one of one time
@@ -64,9 +65,10 @@ pub(crate) fn beyond(
     remembered: &Remembered,
 ) -> Result<Option<Beyond>> {
     let mut largest: Option<Beyond> = None;
-    let others = remembered.slow.iter().filter(|slow| slow.quantity != *quantity);
-    for slow in others.filter(|slow| slow.quantity != Quantity::Heading) {
-        let lag = (window / 2).max(1);
+    let lag = (window / 2).max(1);
+    let others =
+        remembered.slow.iter().filter(|slow| ![quantity, &Quantity::Heading].contains(&&slow.quantity));
+    for slow in others.filter(|slow| slow.curves.values[0][lag] > 0.0) {
         let found = slow_part(tracks, [quantity, &slow.quantity], lag);
         let tail = slow.tail(window) / slow.curves.values[0][lag];
         let half = found.half_width();

@@ -2,6 +2,7 @@
 
 use crate::units::{LENGTHS, TIMES};
 use crate::{Cell, Error, FRAME, Note, Options, PIXEL, Result};
+use motiform_dynamics::digits::given;
 use motiform_store::quantity::Unit;
 use std::path::Path;
 
@@ -150,7 +151,9 @@ fn answer(said: &Said, question: &Question<'_>) -> Result<Use> {
                 file: question.file.to_owned(),
                 what: question.what,
                 key: question.key,
-                file_says: said.step.map_or_else(|| format!("already in {unit}"), |s| format!("{s} {unit}")),
+                file_says: said
+                    .step
+                    .map_or_else(|| format!("already in {unit}"), |s| format!("{} {unit}", given(s))),
                 option_says: format!("{option} {}", question.option_unit.unwrap_or(question.usual)),
             });
         }

@@ -98,6 +98,11 @@ impl Sample {
 }
 
 impl CellTrack {
+    /// Returns `true` for a track of positions, which has no outlines.
+    pub(crate) fn has_no_outlines(&self) -> bool {
+        self.modes.frames.iter().any(|frame| frame.flags.contains(&Flag::PositionAlone))
+    }
+
     /// The frames of a cell that count. The noise of a vertex is pooled over the cell: that of a frame is uncertain by itself.
     #[must_use]
     fn new(modes: CellModes, field: &FieldOfView, units: &Units) -> Self {

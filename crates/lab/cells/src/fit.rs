@@ -11,7 +11,7 @@ use motiform_inference::{
     LEAST_FRAMES, Library, Settings, Track, Warning, between_cells, senses, with_stage,
 };
 use motiform_lab::pool;
-use motiform_study::Dimension;
+use motiform_study::{Dimension, counted};
 use serde::{Deserialize, Serialize};
 
 /// Most fits after a velocity of the stage was subtracted.
@@ -155,6 +155,9 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
     if let Some(reason) = cell.modes.inconsistent() {
         return Ok(without_fit(cell, &reason));
     }
+    if cell.has_no_outlines() {
+        return Ok(without_fit(cell, &"there are positions and no outlines, which a fit needs"));
+    }
     if pieces.is_empty() {
         let long = if cell.breaks.is_empty() { "" } else { " between jumps of the stage" };
         let why = format!("{} frames count, and a fit needs at least {LEAST_FRAMES}{long}", cell.frames());
@@ -246,7 +249,13 @@ pub(crate) fn fit_in_stages(
         paths.filter(|(_, path)| path.0.len() >= LEAST_FRAMES).unzip();
     let frames = tracks.iter().map(|track| track.0.len()).sum();
     if tracks.len() < 2 {
-        let why = format!("{} cells have {LEAST_FRAMES} frames or more; give two at least", tracks.len());
+        let why = match cells.iter().find(|cell| cell.has_no_outlines()) {
+            Some(cell) => format!("cell {} has positions and no outlines, which a fit needs", cell.name),
+            None => format!(
+                "{} with {LEAST_FRAMES} frames or more that count; a fit of all together needs two at least",
+                counted(tracks.len(), "cell")
+            ),
+        };
         return Ok(refused(TOGETHER, frames, why));
     }
     let settings = Settings { library: library.seen(&tracks), ..Settings::default() };

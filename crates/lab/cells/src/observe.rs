@@ -21,7 +21,6 @@ use motiform_analysis::regime::Regime;
 use motiform_analysis::symmetry::wrap;
 use motiform_dynamics::sample::ascending;
 use motiform_statistics::{four_digits, with_error};
-use motiform_tracks::modes::Flag;
 use repeats::Repeats;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -104,7 +103,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
     if let Some(reason) = cell.modes.inconsistent() {
         return bare(reason);
     }
-    if cell.modes.frames.iter().any(|frame| frame.flags.contains(&Flag::PositionAlone)) {
+    if cell.has_no_outlines() {
         return bare("there are positions and no outlines: motions are named by path and shape".to_owned());
     }
     if frames < LEAST_FRAMES {

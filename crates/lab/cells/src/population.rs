@@ -3,6 +3,7 @@
 use crate::{CellFit, Fitted, Observation};
 use motiform_analysis::Share;
 use motiform_dynamics::Normal;
+use motiform_dynamics::distributions::student_factor;
 use motiform_dynamics::sample::{ascending, mean, median, quantile};
 use motiform_inference::{Coefficient, Fit, PValue, Pooled, pooled_fits};
 use serde::Serialize;
@@ -30,9 +31,10 @@ pub struct NameShare {
 /// A number over cells.
 ///
 /// Intervals are those of the 2.5 % and 97.5 % quantiles of 2000 resamples of whole cells with replacement; none with fewer than 8
-/// cells. Resampling `n` cells scatters by `sqrt((n - 1)/n)` too little; the distances from the value are widened by the inverse.
+/// cells. Resampling `n` cells scatters by `sqrt((n - 1)/n)` too little, and as if that scatter were known: the distances from the value
+/// are widened by the inverse, and by [`student_factor`] of n - 1 degrees of freedom.
 ///
-/// Source: Efron (1979), Ann. Stat. 7, 1; the factor: Efron and Tibshirani (1993), An Introduction to the Bootstrap, sec. 6.
+/// Source: Efron (1979), Ann. Stat. 7, 1; the factors: Hesterberg (2015), Am. Stat. 69, 371 (expanded percentile interval).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OverCells {
     /// Cells that have the number.
@@ -170,7 +172,7 @@ fn intervals(values: &[f64], estimates: [f64; 2]) -> [Option<[f64; 2]>; 2] {
         found[0].extend(mean(drawn.iter().copied()));
         found[1].extend(median(drawn.iter().copied()));
     }
-    let wider = (n as f64 / (n - 1) as f64).sqrt();
+    let wider = (n as f64 / (n - 1) as f64).sqrt() * student_factor(n - 1);
     // a length is not negative, and neither is the end of its interval
     let least = if values.iter().all(|&value| value >= 0.0) { 0.0 } else { f64::NEG_INFINITY };
     [0, 1].map(|which| {

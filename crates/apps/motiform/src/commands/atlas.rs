@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use motiform_analysis::Regime;
 use motiform_diagrams::atlas::{
     AtlasFolder, Boundary, Grid, Line, Stage, atlas_summary, boundaries, mixed_courses, regions, survey,
-    trace,
+    trace, why_no_line,
 };
 use motiform_store::Folder;
 use motiform_study::atlas::{AtlasPlan, axis, samples};
@@ -124,7 +124,12 @@ impl Display for Surveyed<'_> {
         }
         mixed_courses(grid).iter().try_for_each(|words| writeln!(f, "note       {words}"))?;
         let curves: usize = lines.iter().map(|line| line.curves.len()).sum();
-        writeln!(f, "followed   {}, {}", counted(lines.len(), "line"), counted(curves, "curve"))?;
+        match lines.is_empty() {
+            true => writeln!(f, "followed   {}", why_no_line(plan))?,
+            false => {
+                writeln!(f, "followed   {}, {}", counted(lines.len(), "line"), counted(curves, "curve"))?
+            }
+        }
         let short = lines.iter().filter(|line| line.refused.is_some()).count();
         if short > 0 {
             writeln!(

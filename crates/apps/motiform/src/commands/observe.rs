@@ -150,7 +150,7 @@ fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error
             bare.push(row.quantity.symbol);
         }
         let value = answer(&row.value, &unit);
-        writeln!(text, "{:<15}{}", row.quantity.symbol, value.trim_end())?;
+        writeln!(text, "{:<14} {}", row.quantity.symbol, value.trim_end())?;
     }
     for (reason, names) in missing {
         writeln!(text, "not given      {}: {reason}", names.join(", "))?;
@@ -250,7 +250,11 @@ fn chosen(sample: Sample, options: &CellsOptions) -> anyhow::Result<Sample> {
     if let Some(name) = options.cell.iter().find(|name| !sample.cells.iter().any(|cell| cell.name == **name))
     {
         let known: Vec<&str> = sample.cells.iter().take(12).map(|cell| cell.name.as_str()).collect();
-        anyhow::bail!("--cell {name}: there is no such cell; the cells are {}", known.join(", "));
+        let more = match sample.cells.len() - known.len() {
+            0 => String::new(),
+            rest => format!(" and {rest} more"),
+        };
+        anyhow::bail!("--cell {name}: there is no such cell; the cells are {}{more}", known.join(", "));
     }
     Ok(if options.cell.is_empty() { sample } else { sample.only(&options.cell) })
 }

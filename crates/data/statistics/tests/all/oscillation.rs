@@ -151,3 +151,25 @@ fn an_integral_of_zero_is_bounded_and_the_oscillation_known() {
         }
     }
 }
+
+/// A decay is above 0, and so is its interval, however little the record tells.
+#[test]
+fn the_interval_of_a_decay_is_above_0() {
+    let (l, w) = (0.2, 0.3);
+    let (mut known, mut held) = (0, 0);
+    for seed in 0..60 {
+        let body = |normal: &mut Normal| {
+            let mode = oscillator((l, w), 0.5, 300, normal);
+            Track { modes: vec![mode], ..along(0.5, 300, |t| ([t, 0.0], [1.0, 0.0])) }
+        };
+        let bodies = (0..8).map(|k| body(&mut Normal::new(500 + seed, k))).collect();
+        let tracks = Tracks::new(0.5, vec!["s".into()], bodies).unwrap();
+        let found = autocorrelation(&tracks, &tracks.sized("s").unwrap()).unwrap();
+        let Some(decay) = found.oscillation.and_then(|found| found.decay.known()) else { continue };
+        assert!(decay.lower() > 0.0, "{seed}: {decay:?}");
+        known += 1;
+        held += usize::from(holds(decay, 1.0 / l));
+    }
+    println!("{held} of {known}");
+    assert!(known >= 30 && 100 * held >= 90 * known, "{held} of {known}");
+}

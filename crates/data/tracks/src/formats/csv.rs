@@ -51,13 +51,13 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
     }
     let finished = gather.finish(&input.place, REMEDY);
     let (mut cells, mut notes) = finished.map_err(|error| times.in_words(error))?;
-    let rounded = times.even_clock();
+    let rounded = times.even_clock(&cells);
     notes.extend(rounded.map(|[interval, unit]| Note::RoundedTimes {
         file: file.display().to_string(),
         interval,
         unit,
     }));
-    let said = table.time(times.interval());
+    let said = table.time(times.interval(&cells));
     let given = table.frame.is_some() && options.interval.is_some();
     if given && (said.step.is_none() || said.unit.is_none() && times.repeats_frames()) {
         times.forget();

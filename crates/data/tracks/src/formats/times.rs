@@ -6,6 +6,15 @@ use crate::{Cell, Error, Note, Place, Result};
 use motiform_dynamics::sample::median;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Share of the steps of cells that are those between the times of all of them, below which cells are seen at times of their own.
+const COMMON: f64 = 0.1;
+
+/// Longest such step, in intervals.
+const ONE: f64 = 1.5;
+
+/// Part of an interval by which cells may be seen later than the first one, beyond half of it.
+const LATER: f64 = 0.4;
+
 /// Frames and times of the rows of a table.
 ///
 /// While rows are read a frame is known by a key that is in the order of its value. At the end values that
@@ -68,19 +77,34 @@ impl Times {
     }
 
     /// The interval of the times: where these stand for frames, and beside a column of frames the median time per frame.
-    pub(super) fn interval(&self) -> Option<f64> {
-        let values: Vec<f64> = self.values.values().copied().collect();
+    pub(super) fn interval(&self, cells: &[Cell]) -> Option<f64> {
         if !self.framed {
-            return median_difference(&values);
+            return self.own(cells).or_else(|| median_difference(&self.in_order(self.values.keys())));
         }
         let both: Vec<[f64; 2]> =
             self.times.iter().filter_map(|(key, time)| Some([*self.values.get(key)?, *time])).collect();
         median(both.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])))
     }
 
+    /// The values of keys in their order.
+    fn in_order<'k>(&self, keys: impl Iterator<Item = &'k i64>) -> Vec<f64> {
+        keys.filter_map(|key| self.values.get(key).copied()).collect()
+    }
+
+    /// The interval of the cells where each is seen at times of its own, as those of several positions of the stage in turn: hardly any of
+    /// their steps is that between the times of all cells. `None` where they share their times.
+    fn own(&self, cells: &[Cell]) -> Option<f64> {
+        let between = median_difference(&self.in_order(self.values.keys())).filter(|_| !self.framed)?;
+        let times = |cell: &Cell| self.in_order(cell.frames.iter().map(|outline| &outline.frame));
+        let steps = |times: Vec<f64>| times.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<f64>>();
+        let steps: Vec<f64> = cells.iter().flat_map(|cell| steps(times(cell))).collect();
+        let common = steps.iter().filter(|step| **step < ONE * between).count();
+        if common as f64 >= COMMON * steps.len() as f64 { None } else { median(steps) }
+    }
+
     /// Takes the times of an even clock for stamps that are rounded from it: its interval, and the unit of the stamps. `None` where they
-    /// stay as they are: without fractions numbers that stand for frames are counts.
-    pub(super) fn even_clock(&mut self) -> Option<[f64; 2]> {
+    /// stay as they are: without fractions numbers that stand for frames are counts, and cells with times of their own have no clock.
+    pub(super) fn even_clock(&mut self, cells: &[Cell]) -> Option<[f64; 2]> {
         let (stamps, frames): (Vec<f64>, Option<Vec<f64>>) = if self.framed {
             let both = self.times.iter().filter_map(|(key, time)| Some((*time, *self.values.get(key)?)));
             let (times, frames): (Vec<f64>, Vec<f64>) = both.unzip();
@@ -89,7 +113,7 @@ impl Times {
             (self.values.values().copied().collect(), None)
         };
         let whole = stamps.iter().all(|value| *value == value.trunc());
-        if !self.framed && whole || self.framed && self.fraction.is_some() {
+        if !self.framed && whole || self.framed && self.fraction.is_some() || self.own(cells).is_some() {
             return None;
         }
         let clock = Clock::of(&stamps, frames.as_deref())?;
@@ -130,25 +154,37 @@ impl Times {
             return Err(Error::structure(place, format!("frame is {value}"), expected));
         }
         let whole = self.values.values().all(|value| *value == value.trunc());
-        let count = whole && (self.framed || self.interval() == Some(1.0));
+        let interval = self.interval(cells);
+        let count = whole && (self.framed || interval == Some(1.0));
         let timed = if self.framed { !self.times.is_empty() } else { as_times || !count };
-        let counted = (!count).then(|| self.counted());
-        let frame = |key: &i64| match &counted {
-            Some(counted) => counted.get(key).copied().unwrap_or(*key),
-            None => self.values.get(key).map_or(*key, |value| *value as i64),
-        };
-        for outline in cells.iter_mut().flat_map(|cell| &mut cell.frames) {
-            let key = outline.frame;
-            let value = self.values.get(&key).copied().unwrap_or(0.0);
-            outline.t = self.times.get(&key).copied().unwrap_or(value);
-            outline.frame = frame(&key);
-        }
-        for note in notes {
-            if let Note::SameFrameTwice { frames, .. }
-            | Note::ConflictingFrames { frames, .. }
-            | Note::MissingVertices { frames, .. } = note
-            {
-                frames.iter_mut().for_each(|key| *key = frame(key));
+        let between = || median_difference(&self.in_order(self.values.keys()));
+        let interval = if self.framed { between() } else { interval };
+        let all = (!count).then(|| self.counted(self.values.keys(), interval, 0.0));
+        let first = self.values.values().next().copied().unwrap_or(0.0);
+        // cells that follow the first one within an interval have its frames
+        let phase = |interval: f64| first + (LATER - (first / interval).round()) * interval;
+        let phase = self.own(cells).map(phase);
+        for cell in cells {
+            let keys = cell.frames.iter().map(|outline| &outline.frame);
+            let counted = phase.map(|phase| self.counted(keys, interval, phase));
+            let frame = |key: &i64| match counted.as_ref().or(all.as_ref()) {
+                Some(counted) => counted.get(key).or_else(|| all.as_ref()?.get(key)).copied().unwrap_or(*key),
+                None => self.values.get(key).map_or(*key, |value| *value as i64),
+            };
+            for outline in &mut cell.frames {
+                let key = outline.frame;
+                let value = self.values.get(&key).copied().unwrap_or(0.0);
+                outline.t = self.times.get(&key).copied().unwrap_or(value);
+                outline.frame = frame(&key);
+            }
+            for note in notes.iter_mut() {
+                if let Note::SameFrameTwice { cell: of, frames }
+                | Note::ConflictingFrames { cell: of, frames }
+                | Note::MissingVertices { cell: of, frames } = note
+                    && *of == cell.name
+                {
+                    frames.iter_mut().for_each(|key| *key = frame(key));
+                }
             }
         }
         Ok(timed)
@@ -160,15 +196,20 @@ impl Times {
         values.len() > 2 && numbers(&values, median_difference(&values)).is_some()
     }
 
-    /// Frames counted in the median interval of all times; in order where they are no multiples of it.
-    fn counted(&self) -> BTreeMap<i64, i64> {
-        let values: Vec<f64> = self.values.values().copied().collect();
+    /// Frames counted in the interval, from a time on; in order where the times are no multiples of it.
+    fn counted<'k>(
+        &self,
+        keys: impl Iterator<Item = &'k i64> + Clone,
+        interval: Option<f64>,
+        from: f64,
+    ) -> BTreeMap<i64, i64> {
+        let values: Vec<f64> = self.in_order(keys.clone()).into_iter().map(|value| value - from).collect();
         let in_order = || (0..).take(values.len()).collect();
-        let found: Vec<i64> = numbers(&values, median_difference(&values)).unwrap_or_else(in_order);
+        let found: Vec<i64> = numbers(&values, interval).unwrap_or_else(in_order);
         // two values that are counted as one frame would be one outline
         let apart = found.iter().collect::<BTreeSet<_>>().len() == found.len();
         let found = if apart { found } else { in_order() };
-        self.values.keys().copied().zip(found).collect()
+        keys.copied().zip(found).collect()
     }
 }
 

@@ -193,3 +193,30 @@ fn rounded_times_are_those_of_their_clock() {
         assert!(notes(&tracks).contains("even clock"), "{}", notes(&tracks));
     }
 }
+
+/// Cells of several positions of the stage are seen in turn: the interval is that of each cell, not that between cells.
+#[test]
+fn cells_with_times_of_their_own_have_their_own_interval() {
+    let missing = |cell: i32, frame: i32| (7 * frame + cell) % 9 == 4;
+    for late in [0.7, 0.0013, 1.0] {
+        let mut text = "cell,t,x,y\n".to_owned();
+        for (cell, frame) in (0..8).flat_map(|cell| (0..40).map(move |frame| (cell, frame))) {
+            if !missing(cell, frame) {
+                let t = 10.0 * f64::from(frame) + late * f64::from(cell);
+                text += &format!("{cell},{t},{},{}\n", 3 * frame, cell + frame * frame);
+            }
+        }
+        let bare = read(&text).unwrap();
+        assert!(notes(&bare).contains("times, 10 from frame to frame"), "{late}: {}", notes(&bare));
+        let told = read_with(&text, &options(Some(1.0), Some(10.0))).unwrap();
+        for (k, cell) in (0..).zip(&told.cells) {
+            let frames: Vec<i64> = cell.frames.iter().map(|outline| outline.frame).collect();
+            let seen: Vec<i32> = (0..40).filter(|frame| !missing(k, *frame)).collect();
+            let expected: Vec<i64> = seen.iter().map(|frame| i64::from(*frame)).collect();
+            assert_eq!(frames, expected, "{late}");
+            let times =
+                cell.frames.iter().zip(seen).map(|(outline, frame)| outline.t - 10.0 * f64::from(frame));
+            assert!(times.into_iter().all(|off| (off - late * f64::from(k)).abs() < 1e-9), "{late}");
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! The population: names and numbers over cells.
 
 use crate::Units;
-use crate::report::numbers::{interval, plain};
+use crate::report::numbers::measured;
 use crate::report::terms::{typeset, unit};
 use crate::report::{Case, Setting, motion};
 use crate::{
@@ -10,6 +10,7 @@ use crate::{
 };
 use motiform_dynamics::in_words;
 use motiform_figures::report::{Cell, Section, Table};
+use motiform_statistics::Measured;
 use motiform_study::{Error, counted};
 
 /// Nothing for a single cell.
@@ -72,7 +73,9 @@ fn names(shares: &[NameShare], head: &str) -> Table {
 fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
     let rows = found.numbers.iter().map(|one| row(units.axis(one.quantity), &one.over));
     let withheld = found.withheld.iter().map(|one| format!("No {}: {}.", one.quantity.symbol, one.why));
-    let caption = std::iter::once("Numbers over the cells that have them.".to_owned()).chain(withheld);
+    let caption =
+        std::iter::once("Numbers over the cells that have them; in brackets 95 % intervals.".to_owned())
+            .chain(withheld);
     table(&caption.collect::<Vec<_>>().join(" "), rows.collect())
 }
 
@@ -87,7 +90,8 @@ fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Ta
     let without =
         found.no_intervals.as_ref().map_or_else(String::new, |why| format!(" No intervals: {why}."));
     let caption = format!(
-        "Coefficients {}, over the cells whose fit is {}. Cells with other motions have other laws, and are in no mean.{without}",
+        "Coefficients {}, over the cells whose fit is {}; in brackets 95 % intervals. Cells with other motions have other laws, and are in \
+         no mean.{without}",
         found.of_which_fits(),
         in_words(found.law.unwrap_or("named"))
     );
@@ -95,20 +99,16 @@ fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Ta
 }
 
 fn table(caption: &str, rows: Vec<Vec<Cell>>) -> Table {
-    let head = ["quantity", "cells", "mean over cells", "95 % interval", "median over cells"];
+    let head = ["quantity", "cells", "mean over cells", "median over cells"];
     Table { caption: caption.to_owned(), head: head.map(str::to_owned).to_vec(), rows }
 }
 
 fn row(name: String, over: &OverCells) -> Vec<Cell> {
-    let interval = over.mean_interval.map_or_else(
-        || if over.cells < 8 { "fewer than 8 cells" } else { "none (reason above)" }.to_owned(),
-        |ends| interval(over.mean, ends),
-    );
+    let number = |value, interval| Cell::number(measured(&Measured { value, interval }));
     vec![
         Cell::text(name),
         Cell::number(over.cells.to_string()),
-        Cell::number(plain(over.mean)),
-        Cell::number(interval),
-        Cell::number(plain(over.median)),
+        number(over.mean, over.mean_interval),
+        number(over.median, over.median_interval),
     ]
 }

@@ -8,7 +8,7 @@ use motiform_dynamics::Normal;
 
 #[test]
 fn intervals_over_cells_cover() {
-    let (runs, cells) = (400_u16, 16);
+    let (runs, cells) = (400_u16, 8);
     let mut random = Normal::new(5, 0);
     let mut covered = [0_u16; 2];
     for _ in 0..runs {
@@ -20,8 +20,8 @@ fn intervals_over_cells_cover() {
         }
     }
     println!("covered {covered:?} of {runs}");
-    // 95 % of 400 are 380 -+ 4.4; intervals of 16 cells by quantiles are a little short
-    assert!(covered.iter().all(|&count| (356..=396).contains(&count)), "{covered:?}");
+    // 95 % of 400 are 380 -+ 4.4; quantiles of resamples alone hold 364 of 8 cells
+    assert!(covered.iter().all(|&count| (370..=396).contains(&count)), "{covered:?}");
 }
 
 #[test]

@@ -30,7 +30,7 @@ pub use draw::{atlas_map, draw_atlas};
 pub use folder::AtlasFolder;
 pub use grid::{Found, Grid, Place};
 pub use line::{CrossingKind, EndKind, Line, LineEnd, StabilityCurve};
-pub use page::html;
+pub use page::{html, why_no_line};
 pub use region::{Region, regions};
 pub use summary::atlas_summary;
 pub use survey::{Begins, Stage, survey};

@@ -17,7 +17,7 @@ use motiform_figures::Style;
 use motiform_figures::report::{Cell, Report, ReportFigure, Section, Table};
 use motiform_lab::draw::{sheet_in, symbol};
 use motiform_study::titles::number;
-use motiform_study::{Error, counted};
+use motiform_study::{AtlasPlan, Error, counted};
 
 /// Part of the plane to which points are stated.
 const PLACE: f64 = 1e-5;
@@ -42,10 +42,6 @@ pub fn html(folder: &AtlasFolder, style: &Style) -> Result<String, Error> {
         true => "The curves and branches that were followed have none.",
         false => "No curve was followed that could have one.",
     };
-    let no_lines = match folder.plan.computation.lines {
-        0 => "No lines were asked for.",
-        _ => "No line was followed: there is no boundary that one could go through.",
-    };
     let sections = vec![
         plane,
         section("Regions", about, "No region has so many cells.", all),
@@ -64,7 +60,7 @@ pub fn html(folder: &AtlasFolder, style: &Style) -> Result<String, Error> {
         section(
             "What was followed",
             "Each line begins with a motion on one side of a boundary and goes through it, over the whole range.".to_owned(),
-            no_lines,
+            why_no_line(&folder.plan),
             line_table(folder)?,
         ),
     ];
@@ -229,4 +225,13 @@ fn line_table(folder: &AtlasFolder) -> Result<Table, Error> {
     }
     let head = heads(&["Begins at", "Along", "With", "Branches", "New curves"]);
     Ok(Table { caption: String::new(), head, rows })
+}
+
+/// The reason why there is no line across a boundary, where there is none.
+#[must_use]
+pub fn why_no_line(plan: &AtlasPlan) -> &'static str {
+    match plan.computation.lines {
+        0 => "No lines were asked for.",
+        _ => "No line was followed: there is no boundary that one could go through.",
+    }
 }

@@ -29,7 +29,7 @@ super::quantities! {
         innovations are not white: the cell is no such walk.";
     DIFFUSION "diffusion" DIFFUSION
         "D = S^2 P/2 of the same walk: at late times the mean-square displacement is 4 D *t*.";
-    POSITION_ERROR "position_error", "place error" LENGTH
+    POSITION_ERROR "position_error", "localisation error" LENGTH
         "Standard deviation of the error of a coordinate of the centroid, from the same fit: what does not last from one frame to \
         the next.";
     AREA "area" AREA "Area of the outline, its mean over the frames that are seen.";
