@@ -74,7 +74,7 @@ fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
     let rows = found.numbers.iter().map(|one| row(units.axis(one.quantity), &one.over));
     let withheld = found.withheld.iter().map(|one| format!("No {}: {}.", one.quantity.symbol, one.why));
     let caption =
-        std::iter::once("Numbers over the cells that have them; in brackets 95 % intervals.".to_owned())
+        std::iter::once("Numbers over the cells that have them; in brackets 95 % intervals, from 8 cells on.".to_owned())
             .chain(withheld);
     table(&caption.collect::<Vec<_>>().join(" "), rows.collect())
 }
@@ -90,8 +90,8 @@ fn coefficients(found: &FittedPopulation, fits: &[CellFit], units: &Units) -> Ta
     let without =
         found.no_intervals.as_ref().map_or_else(String::new, |why| format!(" No intervals: {why}."));
     let caption = format!(
-        "Coefficients {}, over the cells whose fit is {}; in brackets 95 % intervals. Cells with other motions have other laws, and are in \
-         no mean.{without}",
+        "Coefficients {}, over the cells whose fit is {}; in brackets 95 % intervals, from 8 cells on. Cells with other motions have other \
+         laws, and are in no mean.{without}",
         found.of_which_fits(),
         in_words(found.law.unwrap_or("named"))
     );
