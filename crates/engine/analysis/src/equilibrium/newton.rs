@@ -20,8 +20,8 @@ impl RelativeEquilibrium {
     /// Each step solves `(Df - omega G) du - Gu domega = -(f - omega Gu)` for the smallest `(du, domega)`: there is one
     /// solution per direction along the group orbit, and the smallest step does not move along it. Works for circles,
     /// pure modes and bodies at rest alike. Each equation is measured against its own largest coefficient: the rates of modes differ by
-    /// many powers of ten. `domega` is measured in the unit of rates over that of lengths ([`Units`]), so that the smallest step is the same one
-    /// in other units.
+    /// many powers of ten. `domega` is measured in the unit of rates over that of lengths ([`Units`]): the smallest step is the same one in
+    /// other units.
     ///
     /// # Checked by  tests/all/equilibrium.rs: the analytic states of the reduced model, eigenvalues against its formulas
     #[must_use]
@@ -86,8 +86,8 @@ fn round(body: &dyn Equivariant, shape: &mut [f64], step: &[f64]) -> bool {
     is_circle
 }
 
-/// The columns of `[Df - omega G, -turning Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation: the last
-/// unknown is `domega` in units of `turning` ([`Units::turning`]).
+/// The columns of `[Df - omega G, -turning Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation: the
+/// last unknown is `domega` in units of `turning` ([`Units::turning`]).
 pub(super) fn equations(
     body: &dyn Equivariant,
     (shape, omega): (&[f64], f64),
