@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import ctypes
 import math
 import pickle
@@ -157,6 +158,9 @@ def test_what_does_not_work_says_why(library: ctypes.CDLL) -> None:
         motiform.scan(field, {"omega": "0:1:3"})  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="pickled"):
         pickle.dumps(field)
+    assert copy.copy(field) is field and copy.deepcopy({"one": field}) == {"one": field}
+    with pytest.raises(ValueError, match="omega = nan: give a finite number"):
+        field.replace(omega=float("nan"))
     assert field.replace(omega=1.0).parameters == {"omega": 1.0} and field.parameters == {"omega": 2.0}
     with pytest.raises(TypeError, match=r"initial = \[1, 2\]: give a mapping from coordinates to values, such as \{'a': 0.1\}"):
         field.simulate(1.0, initial=[1, 2])  # type: ignore[arg-type]

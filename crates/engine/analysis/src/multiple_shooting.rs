@@ -8,7 +8,7 @@
 //! Jepson (1991), SIAM J. Numer. Anal. 28, 1446.
 
 use crate::Estimate;
-use crate::equilibrium::{along_group_and_flow, matrix_of};
+use crate::equilibrium::{Units, along_group_and_flow, matrix_of};
 use crate::linear::{add, complement, norm, solve};
 use crate::multipliers::errors_of_product;
 use crate::periodic::{Flow, PeriodicOrbit, back};
@@ -154,6 +154,7 @@ impl<'b> Nodes<'b> {
         let fixed = self.fixed(0);
         let rows = count * dim + fixed.len();
         let turns = self.body.symmetry().rotations;
+        let [time, angle] = Units::of(self.body).time_and_angle();
         let mut columns = vec![vec![0.0; rows]; count * dim + 1 + usize::from(turns)];
         for (i, part) in parts.iter().enumerate() {
             let last = i + 1 == count;
@@ -168,10 +169,14 @@ impl<'b> Nodes<'b> {
                 add(&mut columns[i * dim + j][i * dim..(i + 1) * dim], 1.0, &brought(tangent));
                 columns[(i + 1) % count * dim + j][i * dim + j] -= 1.0;
             }
-            add(&mut columns[count * dim][i * dim..(i + 1) * dim], 1.0 / count as f64, &brought(&part.slope));
+            add(
+                &mut columns[count * dim][i * dim..(i + 1) * dim],
+                time / count as f64,
+                &brought(&part.slope),
+            );
             if last && turns {
                 let by_angle = self.body.spun(&part.end);
-                add(&mut columns[count * dim + 1][i * dim..(i + 1) * dim], -1.0, &brought(&by_angle));
+                add(&mut columns[count * dim + 1][i * dim..(i + 1) * dim], -angle, &brought(&by_angle));
             }
         }
         // The first shape moves neither along the orbit nor along the group.
@@ -184,8 +189,8 @@ impl<'b> Nodes<'b> {
         for (shape, step) in self.shapes.iter_mut().zip(solution.chunks_exact(dim)) {
             add(shape, 1.0, step);
         }
-        self.time += solution[count * dim];
-        self.angle += solution.get(count * dim + 1).unwrap_or(&0.0);
+        self.time += time * solution[count * dim];
+        self.angle += angle * solution.get(count * dim + 1).unwrap_or(&0.0);
         (self.time > 0.0).then_some(())
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Source: Lust, Roose, Spence, Champneys (1998), SIAM J. Sci. Comput. 19, 1188.
 
-use crate::equilibrium::{along_group_and_flow, matrix_of};
+use crate::equilibrium::{Units, along_group_and_flow, matrix_of};
 use crate::linear::{add, basis, dot, least_squares, norm, orthonormalise};
 use crate::lyapunov::SplitMix;
 use crate::multipliers::{errors, multipliers};
@@ -27,6 +27,7 @@ pub(crate) struct Newton<'b> {
     mirrored: bool,
     /// Orthonormal tangent vectors.
     directions: Vec<Vec<f64>>,
+    units: Units,
 }
 
 /// The result of the flow over T, brought back by the inverse of the symmetry.
@@ -67,6 +68,7 @@ impl<'b> Newton<'b> {
             angle: guess.angle,
             mirrored: guess.mirrored,
             directions,
+            units: Units::of(body),
         };
         newton.orthonormalise();
         newton
@@ -75,7 +77,8 @@ impl<'b> Newton<'b> {
     /// At an orbit, following nothing yet.
     pub(crate) fn at(body: &'b dyn Equivariant, orbit: &PeriodicOrbit) -> Self {
         let PeriodicOrbit { time, angle, mirrored, .. } = *orbit;
-        Self { body, shape: orbit.shape.clone(), time, angle, mirrored, directions: Vec::new() }
+        let units = Units::of(body);
+        Self { body, shape: orbit.shape.clone(), time, angle, mirrored, directions: Vec::new(), units }
     }
 
     fn orthonormalise(&mut self) {
@@ -134,7 +137,7 @@ impl<'b> Newton<'b> {
         Some(Image { rest, directions, by_time, by_angle })
     }
 
-    /// One Newton-Picard step.
+    /// One Newton-Picard step: the smallest one, with time and angle as the lengths that they move shapes by ([`Units`]).
     pub(crate) fn step(&mut self, image: &Image) -> Option<()> {
         let inside = |x: &[f64]| self.directions.iter().map(|q| dot(q, x)).collect::<Vec<f64>>();
         let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -143,8 +146,10 @@ impl<'b> Newton<'b> {
             column[k] -= 1.0;
             columns.push(column);
         }
-        columns.push(inside(&image.by_time));
-        columns.push(inside(&image.by_angle));
+        let ([time, angle], count) = (self.units.time_and_angle(), columns.len());
+        for (by, unit) in [(&image.by_time, time), (&image.by_angle, angle)] {
+            columns.push(inside(by).iter().map(|x| unit * x).collect());
+        }
         let along = inside(&image.rest);
         let target: Vec<f64> = along.iter().map(|x| -x).collect();
         let solution = least_squares(&columns, &target)?;
@@ -152,13 +157,12 @@ impl<'b> Newton<'b> {
         for (q, r) in self.directions.iter().zip(&along) {
             add(&mut outside, -r, q);
         }
-        let count = self.directions.len();
         for (q, y) in self.directions.iter().zip(&solution) {
             add(&mut self.shape, *y, q);
         }
         add(&mut self.shape, 1.0, &outside);
-        self.time += solution[count];
-        self.angle += solution[count + 1];
+        self.time += time * solution[count];
+        self.angle += angle * solution[count + 1];
         if !self.is_whole() {
             self.directions.clone_from(&image.directions);
             self.orthonormalise();

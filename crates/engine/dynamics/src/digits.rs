@@ -38,7 +38,14 @@ fn at_most(x: f64, digits: usize) -> String {
 /// A number with six decimals, or with six digits after the first one where those would show less than four of it.
 #[must_use]
 pub fn six_decimals(x: f64) -> String {
-    if x == 0.0 || PLAIN.contains(&x.abs()) { unsigned_zero(format!("{x:.6}")) } else { format!("{x:.6e}") }
+    decimals(x, 6)
+}
+
+/// The same with so many of them.
+#[must_use]
+pub(crate) fn decimals(x: f64, count: usize) -> String {
+    let plain = x == 0.0 || PLAIN.contains(&x.abs());
+    if plain { unsigned_zero(format!("{x:.count$}")) } else { format!("{x:.count$e}") }
 }
 
 /// `0.123 ± 0.012`: the error to two digits, the value to the same place.

@@ -1,5 +1,6 @@
 //! The end of a run, as part of every result.
 
+use crate::digits::decimals;
 use serde::{Deserialize, Serialize};
 
 /// The reason why a state has no rates (see [`crate::System::obstacle`]).
@@ -118,21 +119,36 @@ impl Outcome {
 
 impl std::fmt::Display for Outcome {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let time = decimals(self.t(), 9);
         match *self {
             Self::Completed { t } => write!(f, "completed at t = {t}"),
-            Self::Escaped { t, singular: true, .. } => write!(f, "blew up at t* = {t:.9}"),
-            Self::Escaped { t, norm, .. } => write!(f, "left every bound at t = {t:.9} (norm {norm:.3e})"),
-            Self::StepUnderflow { t, step } => {
-                write!(f, "step size fell to {step:.3e} at t = {t:.9}: the solution is not smooth there")
+            Self::Escaped { singular: true, .. } => write!(f, "blew up at t* = {time}"),
+            Self::Escaped { norm, .. } => write!(f, "left every bound at t = {time} (norm {norm:.3e})"),
+            Self::StepUnderflow { step, .. } => {
+                write!(f, "step size fell to {step:.3e} at t = {time}: the solution is not smooth there")
             }
-            Self::ClosureFailed { t, residual } => {
-                write!(f, "the boundary could not be closed at t = {t:.9} (residual {residual:.3e})")
+            Self::ClosureFailed { residual, .. } => {
+                write!(f, "the boundary could not be closed at t = {time} (residual {residual:.3e})")
             }
-            Self::StepBudget { t, steps } => {
-                write!(f, "step budget used up at t = {t:.9} ({steps} steps accepted)")
+            Self::StepBudget { steps, .. } => {
+                write!(f, "step budget used up at t = {time} ({steps} steps accepted)")
             }
-            Self::Stopped { t } => write!(f, "stopped at a section at t = {t:.9}"),
-            Self::Interrupted { t } => write!(f, "interrupted at t = {t:.9}"),
+            Self::Stopped { .. } => write!(f, "stopped at a section at t = {time}"),
+            Self::Interrupted { .. } => write!(f, "interrupted at t = {time}"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_has_its_digits_in_any_unit() {
+        let said = [0.25, 3.465_735_9e-7].map(|t| Outcome::Stopped { t }.to_string());
+        assert_eq!(
+            said,
+            ["stopped at a section at t = 0.250000000", "stopped at a section at t = 3.465735900e-7"]
+        );
     }
 }

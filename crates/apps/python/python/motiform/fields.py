@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -284,6 +285,12 @@ class Field(Fixed):
     def __reduce__(self) -> NoReturn:
         raise TypeError("a Field cannot be pickled: the address of a compiled function is that of this process only")
 
+    def __copy__(self) -> Field:
+        return self  # it does not change
+
+    def __deepcopy__(self, _: dict[int, Any]) -> Field:
+        return self
+
     def __repr__(self) -> str:
         parts = [", ".join(self.coordinates), *(f"{name}={value:g}" for name, value in self.parameters.items())]
         return f"Field({', '.join(parts)})"
@@ -336,7 +343,9 @@ def _names(coordinates: int | Sequence[str]) -> list[str]:
 def _number(name: str, value: Any) -> float:
     if isinstance(value, (str, complex)) or not hasattr(value, "__float__"):
         raise TypeError(f"{name} must be a real number, not {type(value).__name__}")
-    return float(value)
+    if not math.isfinite(number := float(value)):
+        raise ValueError(f"{name} = {number}: give a finite number")
+    return number
 
 
 def _given(**settings: Any) -> dict[str, Any]:

@@ -72,7 +72,9 @@ class Spread:
 
     mean: float
     min: float
+    """Smallest value of the samples (720 of a period, in equal steps of time)."""
     max: float
+    """Largest value of the samples."""
     error: float | None = None
     """Half width of the 95 % confidence interval of the mean; None where the mean has the accuracy of the motion itself, or no error."""
 

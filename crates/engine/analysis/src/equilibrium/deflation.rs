@@ -61,8 +61,7 @@ const RESOLVED: f64 = 0.01;
 #[derive(Clone, Debug)]
 pub struct Deflation {
     known: Vec<Known>,
-    /// The unit of the equations' shapes.
-    unit: f64,
+    units: Units,
 }
 
 /// A known equilibrium.
@@ -81,7 +80,7 @@ impl Deflation {
     /// Without any known equilibrium.
     #[must_use]
     pub fn of(body: &dyn Equivariant) -> Self {
-        Self { known: Vec::new(), unit: Units::of(body).length }
+        Self { known: Vec::new(), units: Units::of(body) }
     }
 
     /// Returns `true` if two equilibria are one, up to rotations.
@@ -92,7 +91,7 @@ impl Deflation {
         one: &RelativeEquilibrium,
         other: &RelativeEquilibrium,
     ) -> bool {
-        one.is_same(body, other, self.unit)
+        one.is_same(body, other, self.units.length)
     }
 
     /// Returns `true` if a solution is nearer to a root of higher order than a known one of the same root.
@@ -104,14 +103,14 @@ impl Deflation {
         known: &RelativeEquilibrium,
     ) -> bool {
         new.residual < known.residual
-            && !near(body, new.distance(body, &known.shape), &known.shape, self.unit)
+            && !near(body, new.distance(body, &known.shape), &known.shape, self.units.length)
     }
 
     /// Adds an equilibrium to the known ones.
     pub fn add(&mut self, body: &dyn Equivariant, known: &RelativeEquilibrium) {
         let error = norm(&known.uncertainty(body).shape);
         let copies = Copies::of(body, &known.shape);
-        let isolated = known.is_isolated(error, self.unit);
+        let isolated = known.is_isolated(error, self.units.length);
         self.known.push(Known { copies, error, turning_rate: known.turning_rate, isolated });
     }
 
@@ -125,8 +124,9 @@ impl Deflation {
         let mut shape = guess.to_vec();
         let rate = body.rates(&shape);
         let mut omega = turning_of_shape(body, &shape, &rate);
+        let turning = self.units.turning();
         for _ in 0..STEPS {
-            let step = step(body, &shape, omega)?;
+            let step = step(body, (&shape, omega), turning)?;
             let (turned, step) = step.split_last()?;
             let length = norm(step);
             let (pull, nearest) = self.pull(body, &shape, step, reach);
@@ -136,7 +136,7 @@ impl Deflation {
             let most = norm(&shape).max(reach) / length;
             let part = (1.0 / (1.0 - pull)).clamp(-most, most);
             add(&mut shape, part, step);
-            omega += part * turned;
+            omega += part * turning * turned;
         }
         None
     }
@@ -165,10 +165,12 @@ impl Deflation {
             let errors = error + if known.isolated { known.error } else { 0.0 };
             let distance = found.distance(body, known.copies.shape());
             distance > APART * errors
-                && !near(body, distance, known.copies.shape(), self.unit)
-                && !is_flat(body, found, (&known.copies, known.turning_rate), self.unit)
+                && !near(body, distance, known.copies.shape(), self.units.length)
+                && !is_flat(body, found, (&known.copies, known.turning_rate), self.units.length)
         };
-        found.is_isolated(error, self.unit) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
+        found.is_isolated(error, self.units.length)
+            && self.known.iter().all(apart)
+            && is_resolved(body, &found.shape)
     }
 }
 
@@ -197,9 +199,10 @@ fn is_resolved(body: &dyn Equivariant, shape: &[f64]) -> bool {
     })
 }
 
-/// Newton's step `(du, domega)`, with du across the group orbit; the smallest step where that is not determined.
-fn step(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Option<Vec<f64>> {
-    let (unknowns, target) = equations(body, shape, omega);
+/// Newton's step `(du, domega)`, with du across the group orbit and domega in units of `turning`; the smallest step where that is not
+/// determined.
+fn step(body: &dyn Equivariant, (shape, omega): (&[f64], f64), turning: f64) -> Option<Vec<f64>> {
+    let (unknowns, target) = equations(body, (shape, omega), turning);
     let (mut square, mut rhs) = (unknowns.clone(), target.clone());
     match neutral_direction(body, shape).pop() {
         Some(neutral) => {

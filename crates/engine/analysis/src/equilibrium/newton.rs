@@ -1,7 +1,7 @@
 //! Newton's method for relative equilibria.
 
 use super::uncertainty::{residual, rounding_of};
-use super::{RelativeEquilibrium, linearisation};
+use super::{RelativeEquilibrium, Units, linearisation};
 use crate::graded::scale;
 use crate::isotropy::mean_over_rotations;
 use crate::linear::{add, least_squares, norm};
@@ -20,7 +20,8 @@ impl RelativeEquilibrium {
     /// Each step solves `(Df - omega G) du - Gu domega = -(f - omega Gu)` for the smallest `(du, domega)`: there is one
     /// solution per direction along the group orbit, and the smallest step does not move along it. Works for circles,
     /// pure modes and bodies at rest alike. Each equation is measured against its own largest coefficient: the rates of modes differ by
-    /// many powers of ten.
+    /// many powers of ten. `domega` is measured in the unit of rates over that of lengths ([`Units`]): the smallest step is the same one in
+    /// other units.
     ///
     /// # Checked by  tests/all/equilibrium.rs: the analytic states of the reduced model, eigenvalues against its formulas
     #[must_use]
@@ -28,9 +29,10 @@ impl RelativeEquilibrium {
         let mut shape = guess.to_vec();
         let rate = body.rates(&shape);
         let mut omega = turning_of_shape(body, &shape, &rate);
+        let turning = Units::of(body).turning();
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
-            let (unknowns, target) = equations(body, &shape, omega);
+            let (unknowns, target) = equations(body, (&shape, omega), turning);
             let size = norm(&target);
             if !size.is_finite() {
                 return None;
@@ -49,7 +51,7 @@ impl RelativeEquilibrium {
             let step = step?;
             let turned = step.len() - 1;
             add(&mut shape, 1.0, &step[..turned]);
-            omega += step[turned];
+            omega += turning * step[turned];
         }
         None
     }
@@ -84,8 +86,13 @@ fn round(body: &dyn Equivariant, shape: &mut [f64], step: &[f64]) -> bool {
     is_circle
 }
 
-/// The columns of `[Df - omega G, -Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation.
-pub(super) fn equations(body: &dyn Equivariant, shape: &[f64], omega: f64) -> (Vec<Vec<f64>>, Vec<f64>) {
+/// The columns of `[Df - omega G, -turning Gu]` and `-(f - omega Gu)`, each row divided by the largest coefficient of its equation: the
+/// last unknown is `domega` in units of `turning` ([`Units::turning`]).
+pub(super) fn equations(
+    body: &dyn Equivariant,
+    (shape, omega): (&[f64], f64),
+    turning: f64,
+) -> (Vec<Vec<f64>>, Vec<f64>) {
     let mut columns = linearisation(body, shape, omega);
     let spin = body.spun(shape);
     let mut target = residual(body, shape, omega);
@@ -94,7 +101,7 @@ pub(super) fn equations(body: &dyn Equivariant, shape: &[f64], omega: f64) -> (V
     let last = columns.len() - 1;
     for (i, scale) in scales.iter().enumerate() {
         columns.iter_mut().for_each(|column| column[i] *= scale);
-        columns[last][i] *= -1.0;
+        columns[last][i] *= -turning;
         target[i] *= -scale;
     }
     (columns, target)

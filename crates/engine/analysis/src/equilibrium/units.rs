@@ -77,6 +77,16 @@ impl Units {
         rays(body).into_iter().map(speed).fold(0.0, f64::max)
     }
 
+    /// The units of times and angles in which they and the shapes that they lead to are changes of one size.
+    pub(crate) fn time_and_angle(self) -> [f64; 2] {
+        [1.0 / (self.length * self.rate), 1.0 / self.length]
+    }
+
+    /// The unit of turning rates in which a shape and its rotation are changes of one size: that of rates for each unit of length.
+    pub(super) fn turning(self) -> f64 {
+        self.rate / self.length
+    }
+
     /// The size of a shape, or that of the equations for one that is as good as nothing.
     #[must_use]
     pub fn size(self, shape: f64) -> f64 {

@@ -24,6 +24,8 @@ pub(super) struct Exponents {
     pub(super) all: Vec<Estimate>,
     /// The largest multiplier over the orbit's time, and its error.
     pub(super) growth: (f64, f64),
+    /// The same as the leading exponent gives it: that of the matrix of a period may be round-off. `None` where that exponent is lost.
+    pub(super) leading: Option<f64>,
 }
 
 /// The exponents of an orbit, and its largest multiplier: in large systems that of the leading exponent, whose directions are followed
@@ -53,13 +55,14 @@ pub(super) fn exponents(
     } else if !whole {
         others = leading_exponents(body, orbit, &settings.flow(), watch).unwrap_or_default();
     }
-    others.retain(|one| one.error * time < LOST && one.value.is_finite());
-    let leading = others.iter().max_by(|a, b| a.value.total_cmp(&b.value)).filter(|_| !whole);
-    let growth = leading.map_or((orbit.growth(), orbit.growth_error()), |leading| {
+    let known = |one: &Estimate| one.error * time < LOST && one.value.is_finite();
+    let leading = others.iter().max_by(|a, b| a.value.total_cmp(&b.value)).copied().filter(known);
+    let growth = leading.filter(|_| !whole).map_or((orbit.growth(), orbit.growth_error()), |leading| {
         let growth = libm::exp(leading.value * time);
         (growth, growth * leading.error * time)
     });
+    others.retain(known);
     all.extend(others);
     all.sort_by(|a, b| b.value.total_cmp(&a.value));
-    Exponents { all, growth }
+    Exponents { all, growth, leading: leading.map(|leading| libm::exp(leading.value * time)) }
 }

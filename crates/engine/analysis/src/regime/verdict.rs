@@ -104,9 +104,9 @@ motiform_dynamics::named! {
 pub struct Spread {
     /// Time average.
     pub mean: f64,
-    /// Smallest value.
+    /// Smallest value of the samples (720 of a period, in equal steps of time).
     pub min: f64,
-    /// Largest value.
+    /// Largest value of the samples.
     pub max: f64,
     /// 95 % error of the average; absent where it has the accuracy of the motion itself, or a part of the motion is too short for one.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -167,9 +167,13 @@ pub(super) fn periodic(
     };
     let exponents = super::floquet::exponents(body, orbit, settings, watch);
     let (growth, error) = exponents.growth;
+    let largest = match exponents.leading {
+        Some(leading) => format!("{leading:.3e}"),
+        None => format!("at most {:.0e}", growth + error),
+    };
     let over = if period > orbit.time { " over half of it" } else { "" };
     let why = format!(
-        "{what}; period {period:.6}, largest multiplier {growth:.3e}{over}: stable; it closes after {returns} to its section"
+        "{what}; period {period:.6}, largest multiplier {largest}{over}: stable; it closes after {returns} to its section"
     );
     let mut verdict = Verdict::new(form.regime(), Attractor::Periodic, why, time);
     verdict.form = Some(form);

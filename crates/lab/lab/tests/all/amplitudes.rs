@@ -49,6 +49,28 @@ fn verdict(study: &Study) -> motiform_analysis::Verdict {
     analyse::classify(&RunPlan::new(study).unwrap(), 0.0, &()).unwrap().unwrap()
 }
 
+/// The Brusselator `x' = 1 - 4x + x^2 y, y' = 3x - x^2 y` for `x + iy = z2`: rates times `rate`, shapes times `length`.
+fn brusselator(rate: f64, length: f64) -> Study {
+    let equation = "s*(l - 4*re(z2) + re(z2)^2*im(z2)/l^2 + i*(3*re(z2) - re(z2)^2*im(z2)/l^2))";
+    let head = "[model.amplitudes]\nmodes = [2]\nsymmetry = \"none\"\nvelocity = \"z2\"\n";
+    let parameters = format!("[model.amplitudes.parameters]\ns = {rate:?}\nl = {length:?}\n");
+    let start = format!("[initial]\nz2_re = {:?}\nz2_im = {:?}\n", 1.2 * length, 3.0 * length);
+    let text = format!("{head}{parameters}[model.amplitudes.equations]\nz2 = \"{equation}\"\n{start}");
+    Study::parse(&text, "text", "test").unwrap()
+}
+
+/// Its period by SciPy's DOP853 with rtol 1e-12. Newton's method on periodic orbits solves for a time beside a shape: in these units one is
+/// larger than the other by up to 1e15.
+#[test]
+fn a_period_is_found_in_any_units() {
+    for (rate, length) in [(1.0, 1.0), (1e-3, 1e-6), (1e-6, 1.0), (1.0, 1e-9), (1e-6, 1e-6), (1e3, 1e6)] {
+        let verdict = verdict(&brusselator(rate, length));
+        let period = rate * verdict.period.unwrap_or_else(|| panic!("{rate} {length}: {}", verdict.why));
+        assert!((period - 7.156_919_921_2).abs() < 2e-9, "{rate} {length}: {period}");
+        assert_eq!(verdict.regime.name(), "zigzag");
+    }
+}
+
 /// Straight below gamma_c = kappa^2/(a b) + kappa/2 = 0.75, circular above it: Ohta and Ohkuma (2009).
 #[test]
 fn an_elliptic_body_turns_above_its_critical_gamma() {

@@ -96,3 +96,35 @@ fn seeds_change_no_list_of_the_models() {
         }
     }
 }
+
+/// The ellipse and the triangle of the full model, which zigzags: rates times `rate`, shapes times `length`.
+fn zigzag(rate: f64, length: f64) -> Study {
+    let equations = "z1 = \"s*((1 - |z1|^2/l^2)*z1 + 2/l*conj(z1)*z2)\"\n\
+        z2 = \"s*(-0.9*z2 - 0.125/l*z1^2 + 0.3/l*conj(z1)*z3)\"\n\
+        z3 = \"s*(-0.1*z3 + 0.0125/l^2*z1^3 + 0.4/l*z1*z2)\"";
+    let parameters = format!("[model.amplitudes.parameters]\ns = {rate:?}\nl = {length:?}\n");
+    study(&format!(
+        "[model.amplitudes]\nmodes = [1, 2, 3]\n{parameters}[model.amplitudes.equations]\n{equations}"
+    ))
+}
+
+/// A rotation is a change of shape by the unit of length, whatever that is, and the smallest step of Newton's method is the same one.
+#[test]
+fn units_change_no_list_of_motions_that_turn() {
+    let wanted = motions(&zigzag(1.0, 1.0), 0);
+    assert_eq!(wanted.len(), 5, "{wanted:?}");
+    for (rate, length) in [(1e-3, 1e6), (1e3, 1e-6), (1.0, 1e-6), (1e-6, 1.0), (1e3, 1e6)] {
+        let found = list(&zigzag(rate, length));
+        let mut found: Vec<_> =
+            found.iter().map(|one| [one.speed / length, one.turning_rate / rate]).collect();
+        found.sort_by(|a, b| a.partial_cmp(b).unwrap());
+        assert_eq!(found.len(), wanted.len(), "rate {rate}, length {length}: {found:?}");
+        for (found, wanted) in found.iter().zip(&wanted) {
+            let near = |(found, &wanted): (&f64, &i64)| (1e8 * found - wanted as f64).abs() < 2.0;
+            assert!(
+                found.iter().zip(wanted).all(near),
+                "rate {rate}, length {length}: {found:?}, not {wanted:?}"
+            );
+        }
+    }
+}
