@@ -43,7 +43,7 @@ pub fn six_decimals(x: f64) -> String {
 
 /// The same with so many of them.
 #[must_use]
-pub(crate) fn decimals(x: f64, count: usize) -> String {
+pub fn decimals(x: f64, count: usize) -> String {
     let plain = x == 0.0 || PLAIN.contains(&x.abs());
     if plain { unsigned_zero(format!("{x:.count$}")) } else { format!("{x:.count$e}") }
 }

@@ -24,6 +24,9 @@ pub(crate) trait Plain {
     fn refused(&self, error: Error) -> Error;
 }
 
+/// A number that JSON cannot have, and has as `null`.
+const NOT_FINITE: &str = "inf or nan";
+
 /// The value of a setting as JSON.
 pub(crate) struct Json<'v> {
     /// The setting.
@@ -40,7 +43,11 @@ impl Json<'_> {
 
 impl Plain for Json<'_> {
     fn number(&self) -> Result<f64, Error> {
-        self.known(self.value.as_f64().filter(|number| number.is_finite()), "give a finite number")
+        let remedy = "give a finite number";
+        if self.value.is_null() {
+            return Err(Error::Setting { key: self.key, value: NOT_FINITE.to_owned(), remedy });
+        }
+        self.known(self.value.as_f64().filter(|number| number.is_finite()), remedy)
     }
 
     fn whole(&self) -> Result<u64, Error> {

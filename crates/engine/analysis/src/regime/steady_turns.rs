@@ -6,6 +6,7 @@ use crate::SteadyMotion;
 use crate::equilibrium::RelativeEquilibrium;
 use crate::symmetry::{align, reduced_speed};
 use motiform_dynamics::Equivariant;
+use motiform_dynamics::digits::decimals;
 
 /// Number of turns in a row: by chance, all have one sense with a probability of 2^-12.
 const TURNS: usize = 12;
@@ -81,11 +82,11 @@ impl SteadyTurns {
         };
         let why = format!(
             "turns by {:.3} degrees {sense}, {TURNS} times in a row, after rests near motionless shapes \
-            that are saddles; lambda_+ = {:.4} and lambda_- = {:.4} have a positive sum, so the rests stay \
+            that are saddles; lambda_+ = {} and lambda_- = {} have a positive sum, so the rests stay \
             bounded; round-off decides how long they are ({:.1} to {:.1} from turn to turn)",
             self.angle.to_degrees(),
-            self.rates.0,
-            self.rates.1,
+            decimals(self.rates.0, 4),
+            decimals(self.rates.1, 4),
             self.times.0,
             self.times.1
         );

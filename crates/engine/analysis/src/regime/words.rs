@@ -12,6 +12,7 @@ use super::verdict::{Attractor, Regime, Spread, Verdict};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::periodic::PeriodicOrbit;
 use crate::{Estimate, Result, SteadyMotion};
+use motiform_dynamics::digits::{decimals, six_decimals};
 use motiform_dynamics::{Equivariant, Watch};
 
 /// Samples of a period: enough for the legs of its path.
@@ -22,10 +23,11 @@ pub(super) const NO_TURN: f64 = 1e-6;
 
 /// A run that left every bound at time `t`.
 pub(super) fn blow_up(singular: bool, t: f64, time: f64) -> Verdict {
+    let when = six_decimals(t);
     let why = if singular {
-        format!("the shape grows like a singularity of finite time, t* = {t:.6}")
+        format!("the shape grows like a singularity of finite time, t* = {when}")
     } else {
-        format!("the shape left every bound at t = {t:.6}; its law of growth gives no finite time t*")
+        format!("the shape left every bound at t = {when}; its law of growth gives no finite time t*")
     };
     let mut verdict = Verdict::new(Regime::BlowUp, Attractor::Escape, why, time);
     verdict.escape_time = Some(t);
@@ -123,8 +125,9 @@ pub(super) fn rectangular(
     watch: &dyn Watch,
 ) -> Result<Verdict> {
     let (out, inward) = (cycle.saddle.out, cycle.saddle.inward);
+    let [growth, decay] = [out, inward].map(|rate| decimals(rate, 4));
     let why = format!(
-        "rests near motionless shapes that are saddles, reached to {:.0e}; lambda_+ = {out:.4} and lambda_- = {inward:.4} \
+        "rests near motionless shapes that are saddles, reached to {:.0e}; lambda_+ = {growth} and lambda_- = {decay} \
          have a negative sum: a heteroclinic cycle that attracts",
         cycle.closest
     );
@@ -173,7 +176,8 @@ pub(super) fn periodic(
     };
     let over = if period > orbit.time { " over half of it" } else { "" };
     let why = format!(
-        "{what}; period {period:.6}, largest multiplier {largest}{over}: stable; it closes after {returns} to its section"
+        "{what}; period {}, largest multiplier {largest}{over}: stable; it closes after {returns} to its section",
+        six_decimals(period)
     );
     let mut verdict = Verdict::new(form.regime(), Attractor::Periodic, why, time);
     verdict.form = Some(form);

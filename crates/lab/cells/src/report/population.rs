@@ -73,9 +73,10 @@ fn names(shares: &[NameShare], head: &str) -> Table {
 fn numbers(found: &PopulationNumbers, units: &Units) -> Table {
     let rows = found.numbers.iter().map(|one| row(units.axis(one.quantity), &one.over));
     let withheld = found.withheld.iter().map(|one| format!("No {}: {}.", one.quantity.symbol, one.why));
-    let caption =
-        std::iter::once("Numbers over the cells that have them; in brackets 95 % intervals, from 8 cells on.".to_owned())
-            .chain(withheld);
+    let caption = std::iter::once(
+        "Numbers over the cells that have them; in brackets 95 % intervals, from 8 cells on.".to_owned(),
+    )
+    .chain(withheld);
     table(&caption.collect::<Vec<_>>().join(" "), rows.collect())
 }
 

@@ -99,6 +99,7 @@ fn a_value_of_another_type_is_refused_by_its_key() {
     for (key, value, says) in [
         ("points", json!(-1), "points = -1: give a whole number of at least 0"),
         ("first_step", json!("x"), "first_step = \"x\": give a finite number"),
+        ("first_step", json!(f64::INFINITY), "first_step = inf or nan: give a finite number"),
         ("steady", json!(1), "steady = 1: give true or false"),
         ("along", json!(2), "along = 2: give a text"),
         ("curve", json!([1]), "curve = [1]: give a list of texts"),

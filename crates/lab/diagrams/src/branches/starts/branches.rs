@@ -3,6 +3,7 @@
 use super::{Asked, StartPoint};
 use crate::{BranchFolder, Followed, Sample};
 use motiform_continuation::Motion;
+use motiform_dynamics::digits::six_decimals;
 use motiform_study::plan::Named;
 use motiform_study::{Error, Given};
 use std::path::Path;
@@ -71,8 +72,10 @@ fn listed(asked: &Asked<'_>, branches: &[Followed]) -> String {
         let motion = followed.named().map_or("", |part| part.motion.name());
         let last = last(followed);
         format!(
-            "\n  {}:{number}:0 to {number}:{last}  {motion}, {low:.6} to {high:.6}{}",
+            "\n  {}:{number}:0 to {number}:{last}  {motion}, {} to {}{}",
             asked.shown(),
+            six_decimals(low),
+            six_decimals(high),
             specials(followed)
         )
     };
@@ -87,7 +90,7 @@ const LISTED: usize = 6;
 fn specials(followed: &Followed) -> String {
     let all = followed.samples().enumerate().filter_map(|(number, sample)| {
         let special = sample.point.special?;
-        Some(format!("{number} {} at {:.6}", special.name(), sample.point.parameter))
+        Some(format!("{number} {} at {}", special.name(), six_decimals(sample.point.parameter)))
     });
     let some: Vec<String> = all.take(LISTED).collect();
     if some.is_empty() { String::new() } else { format!("; special: {}", some.join(", ")) }
