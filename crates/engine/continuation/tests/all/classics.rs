@@ -131,7 +131,12 @@ impl<T: Scalar> VectorField<T> for Forked {
 fn a_pitchfork_of_a_cycle_is_found_in_every_range() {
     let family = |p: f64| -> Body { Ok(Box::new(Forked(p))) };
     for (low, high) in [(-0.5, 0.5), (-0.5, 0.3), (-0.6, 0.4), (-0.55, 0.45), (-1.0, 0.5)] {
-        let found = special_points(&family, -0.5, &[1.0, 0.0, 0.0], (3.1416, Settings::over(low, high)));
+        let found = special_points(
+            &family,
+            -0.5,
+            &[1.0, 0.0, 0.0],
+            (std::f64::consts::PI, Settings::over(low, high)),
+        );
         let [only] = &found[..] else { unreachable!("{low} to {high}: {} points", found.len()) };
         assert_eq!(only.special, Some(Special::BranchPoint), "{low} to {high}");
         near(only.parameter, 0.0, 1e-9);
