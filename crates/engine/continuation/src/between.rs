@@ -10,6 +10,10 @@ use motiform_dynamics::Watch;
 /// Part of a step that solutions keep from a place where the equations are singular: what the branch bends on it is below [`TIGHT`].
 pub(super) const APART: f64 = 1e-4;
 
+/// Multiples of this distance at which solutions are looked for: round-off fills the more of a step, the longer the orbits are and the more
+/// slowly deviations grow beyond the place. (What is found has to solve the equations.)
+const WIDER: [f64; 3] = [1.0, 10.0, 100.0];
+
 /// Errors of solutions by which the equations may be off in the middle of two of them.
 const UNSOLVED: f64 = 10.0;
 
@@ -44,8 +48,16 @@ pub(super) fn between_exact<P: Problem>(
     watch: &dyn Watch,
 ) -> Result<(Place<P::Local>, bool), Failure> {
     match solution(problem, step, s, watch) {
-        Err(Failure::Obstructed(Obstruction::Newton | Obstruction::Singular)) => {
-            middle(problem, step, s, watch).map(|found| (found, false))
+        // a step of Newton's method that nothing bounds leads where there is no flow, either
+        Err(Failure::Obstructed(why)) => {
+            let mut found = Err(Failure::Obstructed(why));
+            for wider in WIDER {
+                found = middle(problem, step, (s, wider * APART * step.length), watch);
+                if !matches!(found, Err(Failure::Obstructed(_))) {
+                    break;
+                }
+            }
+            found.map(|found| (found, false))
         }
         found => found.map(|found| (found, true)),
     }
@@ -55,10 +67,10 @@ pub(super) fn between_exact<P: Problem>(
 fn middle<P: Problem>(
     problem: &P,
     step: &Step<'_, P::Local>,
-    s: f64,
+    (s, apart): (f64, f64),
     watch: &dyn Watch,
 ) -> Result<Place<P::Local>, Failure> {
-    let side = |sign: f64| solution(problem, step, s + sign * APART * step.length, watch);
+    let side = |sign: f64| solution(problem, step, s + sign * apart, watch);
     let (low, high) = (side(-1.0)?, side(1.0)?);
     let mean = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect::<Vec<f64>>();
     let broken = || Failure::Obstructed(Obstruction::Singular);

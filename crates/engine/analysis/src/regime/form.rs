@@ -78,11 +78,12 @@ impl Form {
         if !path.moves() {
             return Self::PulsatingAtRest;
         }
-        // equations without the mirror, or modes that do not act on the motion, may leave no axis: the velocity tells
-        // over one period; the next one is on the same line only if the net rotation maps the line to itself
+        // equations without the mirror, or modes that do not act on the motion, may leave no axis: the velocity tells over one period. The
+        // next one is on the same line only if the net rotation maps the line to itself: beside a cycle of saddles shapes are
+        // as good as symmetric at all times, about one axis before a rest and about another one after it
         let same_line = libm::sin(orbit.net_rotation()).abs() < no_turn;
         let straight =
-            symmetry.mirror.is_some() || !orbit.mirrored && same_line && path.keeps_to_a_line(no_turn);
+            same_line && (symmetry.mirror.is_some() || !orbit.mirrored && path.keeps_to_a_line(no_turn));
         // a line that is turned into itself, or a path along it that closes
         let returns = turns || path.displacement(no_turn) == [0.0; 2];
         match (straight, orbit.mirrored, turns) {
@@ -117,7 +118,7 @@ mod tests {
     use super::*;
 
     /// A body that goes along one line for a period and returns turned by `angle`.
-    fn form_of_legs(angle: f64) -> Form {
+    fn form_of_legs(mirror: Option<f64>, angle: f64) -> Form {
         let speeds = [0.0, 1.0, 2.0, 1.0, 0.0];
         let path = Path {
             times: vec![0.0, 1.0, 2.0, 3.0, 4.0],
@@ -135,17 +136,19 @@ mod tests {
             multipliers: Vec::new(),
             errors: Vec::new(),
         };
-        let isotropy = Isotropy { folds: 1, circle: false, mirror: None };
+        let isotropy = Isotropy { folds: 1, circle: false, mirror };
         Form::of(&isotropy, &orbit, &path, 1e-6)
     }
 
-    /// The legs of a rectangle, with corners at rest, are no motion along a line, straight as each of them is.
+    /// The legs of a rectangle, with corners at rest, are no motion along a line, straight and symmetric as each of them is.
     #[test]
     fn legs_that_are_turned_against_each_other_are_on_no_line() {
-        assert_eq!(form_of_legs(0.0), Form::PulsatingStraight);
-        assert_eq!(form_of_legs(std::f64::consts::PI), Form::BackAndForth);
-        for angle in [0.5 * std::f64::consts::PI, 0.1, -2.0] {
-            assert_eq!(form_of_legs(angle).regime(), Regime::QuasiPeriodic, "{angle}");
+        for mirror in [None, Some(0.0)] {
+            assert_eq!(form_of_legs(mirror, 0.0), Form::PulsatingStraight);
+            assert_eq!(form_of_legs(mirror, std::f64::consts::PI), Form::BackAndForth);
+            for angle in [0.5 * std::f64::consts::PI, 0.1, -2.0] {
+                assert_eq!(form_of_legs(mirror, angle).regime(), Regime::QuasiPeriodic, "{angle}");
+            }
         }
     }
 }

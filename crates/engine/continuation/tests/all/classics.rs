@@ -5,9 +5,9 @@
 use crate::common::near;
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
-use motiform_continuation::{Branch, End, Point, Settings, Special, switch};
+use motiform_continuation::{Branch, End, Family, Point, Settings, Special, switch};
 use motiform_dynamics::drive::{Request, drive};
-use motiform_dynamics::{Equivariant, VectorField};
+use motiform_dynamics::{Equivariant, Scalar, VectorField};
 use motiform_models::zoo::{Lorenz, Rossler};
 
 type Body = Result<Box<dyn Equivariant>>;
@@ -78,4 +78,67 @@ fn lorenzs_cycle_ends_on_the_homoclinic_orbit() {
     assert!(cycles.by_ref().all(|point| point.unstable > 0 || point.special.is_some()));
     let Some(End::Homoclinic(connection)) = cycles.end() else { unreachable!("{:?}", cycles.end()) };
     near(connection.parameter, reference("lorenz", "homoclinic"), 1e-4);
+}
+
+/// The special points of the orbits from the one that the flow settles on from `start`.
+fn special_points(
+    family: &dyn Family,
+    at: f64,
+    start: &[f64],
+    (time, settings): (f64, Settings),
+) -> Vec<Point> {
+    let (body, flow) = (family.at(at).unwrap(), settings.flow);
+    let mut orbit = flow.method.shape_orbit(body.as_ref(), flow.control, 0.0, start).unwrap();
+    drive(orbit.as_mut(), &Request::until(200.0, start.len()), &mut ()).unwrap();
+    let guess = PeriodicGuess { shape: orbit.state(), time, angle: 0.0, mirrored: false };
+    let found = PeriodicOrbit::find(body.as_ref(), &guess, &flow, &()).unwrap();
+    let branch = Branch::of_orbits(family, at, &found, &settings, &()).unwrap();
+    branch.filter(|point| point.special.is_some()).collect()
+}
+
+/// The symmetric cycle at large rho loses its symmetry at 312.97 (Sparrow 1982: about 313), from whichever range and with whichever steps
+/// the place is reached: beside it the cycle is known to the round-off divided by the growth.
+#[test]
+fn lorenzs_symmetric_cycle_loses_its_symmetry_in_every_range() {
+    for low in [290.0, 295.0, 300.0, 305.0, 310.0, 312.0] {
+        let settings = Settings { first_step: -0.005, ..Settings::over(low, 350.0) };
+        let found = special_points(&lorenz, 350.0, &[10.0, 20.0, 300.0], (0.3885, settings));
+        let [only] = &found[..] else { unreachable!("from {low}: {} points", found.len()) };
+        assert_eq!(only.special, Some(Special::BranchPoint), "from {low}");
+        near(only.parameter, 312.973533, 3e-7);
+        let ends = |leg: Branch<'_>| leg.last().unwrap().parameter;
+        let crossing: Vec<f64> =
+            switch(&lorenz, only, &settings, &()).unwrap().into_iter().flatten().map(ends).collect();
+        assert_eq!(crossing, [low; 2], "both orbits that begin go to the other side");
+    }
+}
+
+/// `r' = r (1 - r^2)`, `theta' = 2`, `z' = p z - z^3`: the cycle has a pitchfork at 0.
+struct Forked(f64);
+motiform_models::plain!(Forked, 3);
+impl<T: Scalar> VectorField<T> for Forked {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let (x, y, z) = (u[0], u[1], u[2]);
+        let growth = x.constant(1.0) - x * x - y * y;
+        du[0] = growth * x - y * 2.0;
+        du[1] = growth * y + x * 2.0;
+        du[2] = z * self.0 - z * z * z;
+    }
+}
+
+/// Also where a step or a guess meets the place exactly, so that Newton's method has nothing to go by.
+#[test]
+fn a_pitchfork_of_a_cycle_is_found_in_every_range() {
+    let family = |p: f64| -> Body { Ok(Box::new(Forked(p))) };
+    for (low, high) in [(-0.5, 0.5), (-0.5, 0.3), (-0.6, 0.4), (-0.55, 0.45), (-1.0, 0.5)] {
+        let found = special_points(
+            &family,
+            -0.5,
+            &[1.0, 0.0, 0.0],
+            (std::f64::consts::PI, Settings::over(low, high)),
+        );
+        let [only] = &found[..] else { unreachable!("{low} to {high}: {} points", found.len()) };
+        assert_eq!(only.special, Some(Special::BranchPoint), "{low} to {high}");
+        near(only.parameter, 0.0, 1e-9);
+    }
 }

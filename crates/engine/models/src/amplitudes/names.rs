@@ -8,7 +8,8 @@ use motiform_dynamics::model::{Coordinate, Observable};
 use motiform_dynamics::sample::ascending;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Bundle, Model, Scalar, System, VectorField};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::linalg::Schur;
+use nalgebra::{Complex, DMatrix, DVector};
 use std::fmt::Write;
 use std::sync::{Mutex, PoisonError};
 
@@ -85,41 +86,53 @@ fn make(equations: Equations) -> ModelInfo {
 /// amplitude does not make the others slow, unless it is faster by more than steps can bridge.
 pub(crate) fn look(known: &'static Known, values: &[f64]) -> f64 {
     let model = Amplitudes::new(known, values);
-    let all = at_rest(&model).unwrap_or_else(|| model.linear.to_vec());
     let mut rates: Vec<f64> =
-        all.iter().map(|rate| rate.abs()).filter(|rate| *rate > 0.0 && rate.is_finite()).collect();
+        rates(&model).unwrap_or_else(|| model.linear.iter().map(|rate| rate.abs()).collect());
+    rates.retain(|rate| rate.is_finite());
     ascending(&mut rates);
+    let fastest = rates.last().copied().unwrap_or(0.0);
+    rates.retain(|rate| *rate > ROUNDED * fastest);
     let Some(&median) = rates.get(rates.len() / 2) else { return 200.0 };
-    let fastest = rates[rates.len() - 1];
     rounded(20.0 / rates[0].max(LEAST * median).max(fastest / STIFFEST)).clamp(1e-3, 1e6)
 }
 
-/// Least rate that counts, as a part of the median one.
+/// Least rate that counts, as a part of the median one; of an oscillation that grows or decays, as a part of its angular frequency.
 const LEAST: f64 = 0.05;
 /// Ratio of the fastest rate to the slowest one that counts: a look takes some steps for each of its times.
 const STIFFEST: f64 = 2e4;
+/// Rates that are 0 but for round-off, as a part of the fastest one.
+const ROUNDED: f64 = 1e-12;
 
-/// Where the origin does not rest, its linear part says nothing of the motions: the rates at the equilibrium that Newton's method finds
-/// from there, each unknown by itself. `None` where the origin rests, or none is found.
-fn at_rest(model: &Amplitudes) -> Option<Vec<f64>> {
+/// The linear rates where the model rests. `None` where it has rotations: amplitudes at rest then do not act on each other, and the
+/// frequency with which one turns says nothing of its shape.
+fn rates(model: &Amplitudes) -> Option<Vec<f64>> {
+    if model.known.equations.symmetry().rotations {
+        return None;
+    }
+    let schur = Schur::try_new(at_rest(model), f64::EPSILON, 100 * model.dim())?;
+    let rate = |value: &Complex<f64>| value.re.abs().max(LEAST * libm::hypot(value.re, value.im));
+    Some(schur.complex_eigenvalues().iter().map(rate).collect())
+}
+
+/// The linear part at the equilibrium that Newton's method finds from the origin; at the origin where it finds none.
+fn at_rest(model: &Amplitudes) -> DMatrix<f64> {
     let dim = model.dim();
+    let linear = |shape: &[f64]| DMatrix::from_vec(dim, dim, jacobian(model, shape));
     let mut shape = vec![0.0; dim];
     let mut rate = vec![0.0; dim];
-    for step in 0..NEWTON {
+    for _ in 0..NEWTON {
         VectorField::<f64>::eval(model, 0.0, &shape, &mut rate);
-        let matrix = DMatrix::from_vec(dim, dim, jacobian(model, &shape));
-        let diagonal = matrix.diagonal().iter().copied().collect();
-        let change = matrix.lu().solve(&DVector::from_column_slice(&rate))?;
-        let size = shape.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if step == 0 && change.norm() == 0.0 {
-            return None;
+        let matrix = linear(&shape);
+        if rate.iter().all(|rate| *rate == 0.0) {
+            return matrix;
         }
-        if change.norm() <= 1e-6 * size {
-            return Some(diagonal);
+        let Some(change) = matrix.clone().lu().solve(&DVector::from_column_slice(&rate)) else { break };
+        if change.norm() <= 1e-6 * DVector::from_column_slice(&shape).norm() {
+            return matrix;
         }
         shape.iter_mut().zip(change.iter()).for_each(|(x, change)| *x -= change);
     }
-    None
+    linear(&vec![0.0; dim])
 }
 
 /// Steps of Newton's method that are tried.

@@ -281,6 +281,28 @@ fn noise_is_a_part_of_the_equations() {
     assert!(info(&with).unwrap_err().problem.contains("turn differently"));
 }
 
+/// In other units of time a look is as many times as long, also of an oscillator, whose linear part acts across its unknowns.
+#[test]
+fn a_look_lasts_as_long_in_every_unit_of_time() {
+    let look = |rate: f64, equation: &str| {
+        let mut own = definition(&[2], &[&*format!("r*({equation})")], &[("r", rate)]);
+        (own.symmetry, own.velocity) = (Some("none".to_owned()), Some("z2".to_owned()));
+        info(&own).unwrap().look
+    };
+    for (equation, expected) in [
+        ("im(z2) - i*re(z2)", 400.0),                       // a centre
+        ("im(z2) - i*(re(z2) + 0.02*im(z2))", 400.0),       // an oscillator of weak damping
+        ("im(z2) - i*(re(z2) + 0.2*im(z2))", 200.0),        // its rate of decay is 0.1
+        ("im(z2) + i*re(z2) - i*re(z2)^3", 20.0),           // a saddle
+        ("im(z2) - i*re(z2) + 0.02*re(z2) - 0.3*i", 400.0), // it rests elsewhere
+    ] {
+        for unit in [1e-2, 1.0, 1e2] {
+            let found = look(1.0 / unit, equation) / unit;
+            assert!((found / expected - 1.0).abs() < 1e-9, "{equation} in units of {unit}: {found}");
+        }
+    }
+}
+
 /// The length of a look follows the slow amplitudes, not one fast one beside them, and not the place of the origin.
 #[test]
 fn a_look_lasts_as_the_slow_amplitudes_ask() {
