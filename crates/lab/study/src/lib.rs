@@ -26,6 +26,7 @@ pub mod presets;
 mod random;
 mod remarks;
 mod run_settings;
+mod scales;
 pub mod scan;
 mod stride;
 pub mod study;

@@ -57,7 +57,7 @@ impl Study {
         }
         let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let size = self.perturb * if largest > 0.0 { largest } else { 1.0 };
-        let corners = self.corners()?;
+        let corners = self.values_over(&self.scan.axes)?;
         let mut random = Uniform::new(self.run.seed, STREAM);
         let (mut study, mut names) = (self.clone(), Vec::new());
         for coordinate in coordinates {
@@ -70,26 +70,5 @@ impl Study {
         }
         let perturbation = (!names.is_empty()).then_some(Perturbation { names, size });
         Ok((study, perturbation))
-    }
-
-    /// All parameters at the ends of the scan's axes, or those of the study if it has none.
-    fn corners(&self) -> Result<Vec<Vec<f64>>, Error> {
-        let specs = self.info()?.parameters();
-        let mut corners = vec![self.values()?];
-        for axis in &self.scan.axes {
-            let Some(place) = specs.iter().position(|spec| spec.name == axis.name) else { continue };
-            let ends = [axis.values.first(), axis.values.last()];
-            corners = corners
-                .iter()
-                .flat_map(|values| {
-                    ends.into_iter().flatten().map(|&end| {
-                        let mut values = values.clone();
-                        values[place] = end;
-                        values
-                    })
-                })
-                .collect();
-        }
-        Ok(corners)
     }
 }

@@ -1,35 +1,7 @@
 //! Settings of a run, as typed.
 
-use crate::Error;
 use crate::described::settings;
-use crate::study::Study;
-use motiform_analysis::equilibrium::{Units, largest_balance, prefix};
-use motiform_models::amplitudes::NAME;
 use serde::Serialize;
-
-/// The unit of the shapes of a study ([`Units`]); 1 for the models of this program, whose defaults are those of their sizes.
-///
-/// # Errors
-/// Values that the model rejects.
-pub(crate) fn unit(study: &Study) -> Result<f64, Error> {
-    let info = study.info()?;
-    if info.name != NAME {
-        return Ok(1.0);
-    }
-    Ok(Units::of(info.build(&study.values()?)?.as_ref()).length)
-}
-
-/// The unit of the largest size at which terms of a study's equations balance; 1 for the models of this program.
-///
-/// # Errors
-/// Values that the model rejects.
-pub(crate) fn largest_unit(study: &Study) -> Result<f64, Error> {
-    let info = study.info()?;
-    if info.name != NAME {
-        return Ok(1.0);
-    }
-    Ok(prefix(largest_balance(info.build(&study.values()?)?.as_ref())))
-}
 
 settings! {
     /// Settings of a run.

@@ -6,11 +6,10 @@ pub use crate::follow_settings::FollowSettings;
 use crate::input;
 use crate::random::Random;
 pub use crate::run_settings::RunSettings;
-use crate::run_settings::unit;
+use crate::scales::Scales;
 use crate::scan::Axis;
 pub use crate::study_reader::schema;
 use crate::{Error, Ties, presets};
-use motiform_analysis::equilibrium::balance;
 use motiform_dynamics::Model;
 use motiform_models::registry::Display;
 use motiform_models::spelling::canonical;
@@ -200,15 +199,18 @@ impl Study {
     /// # Errors
     /// Values that the model rejects.
     pub fn starts(&self, samples: u64) -> Result<Random, Error> {
-        if let Some(random) = self.random {
-            return Ok(random);
+        self.starts_over(samples, &[])
+    }
+
+    /// The same where axes replace parameters: terms balance at the ends of the axes, whatever the values that these replace.
+    ///
+    /// # Errors
+    /// Values that the model rejects.
+    pub fn starts_over(&self, samples: u64, axes: &[Axis]) -> Result<Random, Error> {
+        match self.random {
+            Some(random) => Ok(random),
+            None => Ok(Scales::of(self, axes)?.starts(samples > 1, self.info()?.size)),
         }
-        let (several, unit) = (samples > 1, unit(self)?);
-        if unit == 1.0 {
-            return Ok(if several { Random::basins(self.info()?.size) } else { Random::SMALL });
-        }
-        let size = one_digit(2.0 * balance(&[self.info()?.build(&self.values()?)?.as_ref()]));
-        Ok(if several { Random::basins(size) } else { Random::Within(0.01 * size) })
     }
 
     /// All parameter values, in registry order.
@@ -221,6 +223,24 @@ impl Study {
         let mut values: Vec<_> = specs.iter().map(|spec| given(spec.name).unwrap_or(spec.default)).collect();
         self.ties.apply(specs, &mut values);
         Ok(values)
+    }
+
+    /// The same at the ends of these axes, for those that replace parameters; those of the study without any.
+    pub(crate) fn values_over(&self, axes: &[Axis]) -> Result<Vec<Vec<f64>>, Error> {
+        let specs = self.info()?.parameters();
+        let mut corners = vec![self.values()?];
+        for axis in axes {
+            let Some(place) = specs.iter().position(|spec| spec.name == axis.name) else { continue };
+            let ends = || axis.values.first().into_iter().chain(axis.values.last());
+            let at = |values: &Vec<f64>, end: f64| {
+                let mut values = values.clone();
+                values[place] = end;
+                self.ties.apply(specs, &mut values);
+                values
+            };
+            corners = corners.iter().flat_map(|values| ends().map(move |&end| at(values, end))).collect();
+        }
+        Ok(corners)
     }
 
     /// The body that it describes: its model at its parameters.
@@ -308,11 +328,6 @@ impl Study {
         replace(&mut self.initial, (name, value), &order);
         Ok(())
     }
-}
-
-/// A positive number to one digit.
-fn one_digit(x: f64) -> f64 {
-    format!("{x:.0e}").parse().unwrap_or(x)
 }
 
 /// Inserts a value at the position that `order` gives its name, independent of the order of typing.

@@ -116,7 +116,7 @@ fn plan(options: &LifetimesOptions) -> Result<(ScanPlan, Shown), Error> {
     study.scan.budget = options.until.unwrap_or(0.0);
     study.initial.clear();
     study.random = options.random.or(study.random);
-    study.random = Some(study.starts(2)?); // those that sample basins, also of one start
+    study.random = Some(study.starts_over(2, &study.scan.axes)?); // those that sample basins, also of one start
     options.run.apply(&mut study.run)?;
     ties(&study, &of_scan(&study))?;
     let units = options.units.of(&mut study)?;

@@ -1,8 +1,9 @@
 //! Random starts that sample basins: sizes, directions, text; what scans and single runs draw.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use motiform_dynamics::model::velocity;
+use motiform_lab::scan::Axis;
 use motiform_models::{MODELS, ModelInfo};
 use motiform_study::{Random, RunPlan, ScanPlan, Study};
 
@@ -139,4 +140,28 @@ fn many_starts_sample_basins_and_one_stays_small() {
         .collect();
     assert!(sizes.iter().all(|size| (0.01..=1.0 + 1e-12).contains(size)), "{sizes:?}");
     assert!(sizes.iter().any(|size| *size > 0.1), "{sizes:?}");
+}
+
+/// Lorenz's equations, whose sizes grow from 1 to 30 with r: the value that an axis replaces is in no number of the plan.
+#[test]
+fn a_value_that_an_axis_replaces_changes_no_plan() {
+    let plan = |r: f64, axis: &str| {
+        let mut study = Study::parse(
+            "[model.amplitudes]\nmodes = [2, 3]\nsymmetry = \"none\"\nvelocity = \"z2\"\n\
+             [model.amplitudes.parameters]\nr = 0.5\n[model.amplitudes.equations]\n\
+             z2 = \"10*(im(z2) - re(z2)) + i*(r*re(z2) - im(z2) - re(z2)*re(z3))\"\n\
+             z3 = \"re(z2)*im(z2) - 8/3*re(z3) - i*im(z3)\"",
+            "text",
+            "lorenz",
+        )
+        .unwrap();
+        study.set("r", r).unwrap();
+        study.scan.axes = vec![Axis::parse(axis).unwrap()];
+        study.scan.samples = 6;
+        ScanPlan::new(&study).unwrap()
+    };
+    let [small, large] = [0.5, 1e4].map(|r| plan(r, "r=22:24:3"));
+    assert_eq!((small.hash(), small.computation.random), (large.hash(), large.computation.random));
+    let Random::Sizes { max, .. } = small.computation.random else { panic!("{:?}", small.computation) };
+    assert!((20.0..=100.0).contains(&max), "{max}");
 }

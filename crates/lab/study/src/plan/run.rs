@@ -3,7 +3,7 @@
 use super::{Control, Named, NoiseSettings, Plan, Question};
 use crate::checks::{check, check_figure, check_stability, check_start, check_steps};
 use crate::error::nearest_of;
-use crate::run_settings::{largest_unit, unit};
+use crate::scales::Scales;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, initial};
 use motiform_dynamics::steppers::Method;
@@ -133,7 +133,8 @@ impl RunPlan {
             check("return_map.x_max", map.x_max, map.x_min < map.x_max, "give a number above x_min")?;
         }
         check_figure(&study.figure)?;
-        let control = control(study, method)?;
+        let scales = Scales::of(study, &[])?;
+        let control = control(study, method, &scales)?;
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
         let parameters = Named(names.zip(study.values()?).collect());
         let model = info.build(&parameters.values())?;
@@ -154,7 +155,7 @@ impl RunPlan {
             stepper: method.name().to_owned(),
             control,
             max_steps: run.max_steps,
-            escape_norm: run.escape_norm_in(largest_unit(study)?),
+            escape_norm: run.escape_norm_in(scales.largest()),
             return_map: study.return_map.clone(),
             noise,
         };
@@ -226,14 +227,14 @@ pub fn stepper(name: &str) -> Result<Method, Error> {
 ///
 /// # Errors
 /// [`Error::Setting`]; a step and a tolerance together.
-pub fn control(study: &Study, method: Method) -> Result<Control, Error> {
+pub(crate) fn control(study: &Study, method: Method, scales: &Scales) -> Result<Control, Error> {
     let run = &study.run;
     let control = match run.step {
         None if method.is_adaptive() => {
             let info = study.info()?;
             let atol = match run.atol {
                 Some(atol) => atol,
-                None => info.absolute_tolerance(run.rtol) * unit(study)?.min(1.0),
+                None => info.absolute_tolerance(run.rtol) * scales.smallest(),
             };
             Control::Adaptive { rtol: run.rtol, atol }
         }

@@ -6,7 +6,7 @@ use crate::plan::{
     stepper,
 };
 use crate::random::Random;
-use crate::run_settings::largest_unit;
+use crate::scales::Scales;
 use crate::{Error, Perturbation, Study, Ties, UnitSettings};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, ModelName, parameters};
@@ -115,6 +115,7 @@ impl ScanPlan {
         let free = |name: &str| scan.axes.iter().any(|axis| axis.name == name);
         study.ties.check_free(scan.axes.iter().map(|axis| axis.name.as_str()))?;
         let varies = |name: &str| free(name) || study.ties.get(name).is_some();
+        let scales = Scales::of(study, &scan.axes)?;
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
         let fixed = names.zip(study.values()?).filter(|(name, _)| !varies(name)).collect();
         // Nothing that a row tells depends on the position, and the axes give what they vary.
@@ -129,12 +130,12 @@ impl ScanPlan {
             axes: scan.axes.clone(),
             samples: usize::try_from(scan.samples).unwrap_or(usize::MAX),
             seed: run.seed,
-            random: study.starts(scan.samples)?,
+            random: study.starts_over(scan.samples, &scan.axes)?,
             initial: Named(initial),
             stepper: method.name().to_owned(),
-            control: control(study, method)?,
+            control: control(study, method, &scales)?,
             max_steps: run.max_steps,
-            escape_norm: run.escape_norm_in(largest_unit(study)?),
+            escape_norm: run.escape_norm_in(scales.largest()),
             budget: scan.budget,
         };
         let title = crate::titles::of_scan(study, info);

@@ -34,6 +34,9 @@ fn texts() -> u64 {
 const ONCE_WRONG: [u64; 19] =
     [17, 29, 58, 67, 97, 120, 123, 140, 146, 147, 158, 166, 195, 295, 296, 335, 388, 420, 440];
 
+/// Those of them whose many branches take the oracle seconds: with the whole sample.
+const LONG: [u64; 6] = [17, 67, 97, 123, 146, 147];
+
 /// The same for branches of orbits: where a Hopf bifurcation breaks rotations of a shape the orbit was followed over a multiple of its
 /// period.
 const ONCE_WRONG_ORBITS: [u64; 1] = [31];
@@ -56,7 +59,8 @@ fn steady_branches_of_random_texts_have_the_points_of_a_brute_force_scan() {
 #[test]
 fn texts_on_which_the_program_was_wrong_have_the_points_of_a_brute_force_scan() {
     let mut all = Tally::default();
-    for seed in ONCE_WRONG {
+    let long = draws(LONG.as_slice(), &[]);
+    for seed in ONCE_WRONG.into_iter().filter(|seed| !long.contains(seed)) {
         all += compare(seed, &text(seed));
     }
     all.judge(60);
