@@ -62,11 +62,11 @@ fn a_change_is_seen() {
         let whole = fit(&tracks, &Settings::default(), &()).unwrap();
         change(&tracks, &select(&tracks, &whole, &()).unwrap().fit, &()).unwrap()
     };
-    let kept = |seed| {
+    let kept = |seed: u64| {
         let law = Experiment::new(full(0.9, 0.1), 0.01, 7400 + seed);
         p(&Experiment { errors: vertex_noise(1.2), frames: 300, ..law })
     };
-    let changed = |seed| {
+    let changed = |seed: u64| {
         p(&Experiment { frames: 300, change: 0.3, ..Experiment::new(full(0.5, 0.1), 0.01, 7500 + seed) })
     };
     let (kept, changed): (Vec<_>, Vec<_>) = ((0..8).map(kept).collect(), (0..4).map(changed).collect());
