@@ -10,6 +10,7 @@
 //! Knows no file. Method and measurements: docs/inference.md.
 
 mod between;
+mod change;
 mod definition;
 mod draws;
 mod error;
@@ -36,6 +37,7 @@ mod warnings;
 mod weak;
 
 pub use between::{BetweenCells, between_cells};
+pub use change::{CHANGED, change, handed_beside_change};
 pub use definition::equations;
 pub use draws::draws;
 pub use error::{Error, Result};

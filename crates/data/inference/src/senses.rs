@@ -4,7 +4,8 @@
 //! mirror-symmetric law that circles either way may take their place. Here each cell has coefficients of its own.
 
 use crate::{
-    Beside, Fit, HANDED_RATE, Handedness, Result, Settings, Symmetry, Track, handed_beside, handedness,
+    Beside, Fit, HANDED_RATE, Handedness, Result, Settings, Symmetry, Track, handed_beside,
+    handed_beside_change, handedness,
 };
 use crate::{fit::refit, observation};
 use motiform_dynamics::Watch;
@@ -30,7 +31,7 @@ pub struct HandedCell {
     /// Its number.
     pub cell: usize,
     /// Probability of such tests in one of so many mirror-symmetric cells: the largest one of likelihood ratio, robust Wald statistic, and
-    /// the ratios beside a velocity of the stage and beside stretched images, times the number of cells.
+    /// the ratios beside a velocity of the stage, stretched images and a change of the law, times the number of cells.
     pub p_value: f64,
     /// `true` if its sense is not that of the clearest one: the mirror image of its imaginary parts is nearer to those.
     pub opposite: bool,
@@ -69,6 +70,9 @@ pub fn senses(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Senses> 
             if p * count < HANDED_RATE {
                 p = p.max(handed_beside(beside, own, [&real, &test.fit], watch)?);
             }
+        }
+        if p * count < HANDED_RATE {
+            p = p.max(handed_beside_change(own, [&real, &test.fit], watch)?);
         }
         if p * count < HANDED_RATE {
             found.push((HandedCell { cell, p_value: p * count, opposite: false }, test));

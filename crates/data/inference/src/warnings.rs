@@ -71,6 +71,11 @@ pub enum Warning {
         /// Their names.
         names: Vec<String>,
     },
+    /// Coefficients of the first half of the record are not those of the second.
+    Changing {
+        /// The significance.
+        p_value: f64,
+    },
     /// Outlines are elongated along one direction whatever the heading, as [`Stretch`] says of one cell: no
     /// equations that keep their form under rotations do this.
     Stretched {
@@ -139,6 +144,11 @@ impl std::fmt::Display for Warning {
                     names.join(", ")
                 )
             }
+            Self::Changing { p_value } => write!(
+                f,
+                "coefficients of the first half of the record are not those of the second ({}): the cell changes",
+                PValue(*p_value)
+            ),
             Self::Drifting { names } => {
                 write!(f, "coefficients change with the sampling interval: {}", names.join(", "))
             }

@@ -132,6 +132,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["stage"] = json!(fitted.stage);
     object["handed_beside_stage"] = json!(fitted.beside_stage);
     object["handed_beside_stretch"] = json!(fitted.beside_stretch);
+    object["handed_beside_change"] = json!(fitted.beside_change);
     object["handed_robust_p_value"] = json!(fitted.handedness.robust_p_value);
     object["coefficients"] = coefficients(fitted);
     object["no_weak_form"] = json!(fitted.checks.no_weak());

@@ -122,6 +122,8 @@ pub(crate) struct Experiment {
     pub(crate) eta: [f64; 2],
     /// Rate at which the noise of the velocity forgets, of models without z4, whose place it takes; 0: white noise.
     pub(crate) memory: f64,
+    /// What is added to kappa2 in the course of the record.
+    pub(crate) change: f64,
     /// Standard deviations of the errors of x and y, and of the parts of the modes.
     pub(crate) errors: [f64; 2],
     pub(crate) seed: u64,
@@ -154,6 +156,7 @@ impl Experiment {
             frames,
             eta: [eta, 0.5 * eta],
             memory: 0.0,
+            change: 0.0,
             errors: VERTEX_NOISE,
             seed,
         }
@@ -174,11 +177,21 @@ impl Experiment {
         r = [0.0; 2];
         for frame in 0..self.frames {
             frames.push(self.observe(frame as f64 * self.interval, r, z, &mut slips));
+            let now = self.changed(frame as f64 / self.frames as f64);
             for _ in 0..steps as usize {
-                self.step(&mut r, &mut z, h, &mut kicks);
+                now.step(&mut r, &mut z, h, &mut kicks);
             }
         }
         Track(frames)
+    }
+
+    /// The law after this share of the record.
+    fn changed(&self, share: f64) -> Self {
+        let mut now = self.clone();
+        for (_, c, _) in now.equations.iter_mut().filter(|(equation, _, of)| *equation == 2 && of == &[2]) {
+            c.re -= share * self.change;
+        }
+        now
     }
 
     /// Heun's method: of second order in the drift, and the noise is additive.

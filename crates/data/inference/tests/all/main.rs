@@ -1,6 +1,7 @@
 //! All integration tests of this crate, in one program: what is generic is compiled once.
 
 mod average;
+mod change;
 mod common;
 mod converge;
 mod definition;

@@ -3,12 +3,12 @@
 use crate::regime::FittedRegime;
 use motiform_inference::{COLOURED, HANDED_RATE, Handedness, PValue, Symmetry, Warning};
 
-/// Serious warnings, and what speaks against the test of handedness; `beside`: its p-values beside a velocity of the stage, and in
-/// stretched images.
+/// Serious warnings, and what speaks against the test of handedness; `beside`: its p-values beside a velocity of the stage, in
+/// stretched images, and beside a change of the law.
 pub(super) fn doubts(
     warnings: &[Warning],
     handedness: &Handedness,
-    [beside_stage, beside_stretch]: [Option<f64>; 2],
+    [beside_stage, beside_stretch, beside_change]: [Option<f64>; 3],
 ) -> Vec<String> {
     let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
     let handed = handedness.symmetry == Symmetry::Handed;
@@ -28,19 +28,21 @@ pub(super) fn doubts(
             PValue(handedness.p_value)
         ));
     }
-    if let Some(p) = beside_stage.filter(|p| *p >= HANDED_RATE) {
-        doubts.push(format!(
-            "it is handed, or the stage drifts: beside a velocity that does not turn with the cell, a \
-         mirror-symmetric one has such a likelihood ratio with {}",
-            PValue(p)
-        ));
-    }
-    if let Some(p) = beside_stretch.filter(|p| *p >= HANDED_RATE) {
-        doubts.push(format!(
-            "it is handed, or the images are stretched: beside a strain of the path and an elongation \
-         that do not turn with the cell, a mirror-symmetric one has such a likelihood ratio with {}",
-            PValue(p)
-        ));
+    let others = [
+        (beside_stage, "the stage drifts: beside a velocity that does not turn with the cell"),
+        (
+            beside_stretch,
+            "the images are stretched: beside a strain of the path and an elongation that do not turn with the cell",
+        ),
+        (beside_change, "it changes: where parts of the record have coefficients of their own"),
+    ];
+    for (p, other) in others {
+        if let Some(p) = p.filter(|p| *p >= HANDED_RATE) {
+            doubts.push(format!(
+                "it is handed, or {other}, a mirror-symmetric one has such a likelihood ratio with {}",
+                PValue(p)
+            ));
+        }
     }
     doubts
 }
@@ -58,6 +60,9 @@ fn bias(warnings: &[Warning]) -> Option<&'static str> {
         }
         Warning::Drifting { .. } => Some(
             "coefficients change with the sampling interval: they have a bias that intervals from the noise do not hold",
+        ),
+        Warning::Changing { .. } => Some(
+            "coefficients of the first half of the record are not those of the second: one set of them does not describe the cell",
         ),
         Warning::UnequalNoise(_) => Some(
             "modes of the shape have different noise, and the model has one amplitude for all of them: errors of coefficients are wrong",

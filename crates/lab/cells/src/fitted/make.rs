@@ -9,9 +9,9 @@ use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
 use motiform_dynamics::distributions::student_factor;
 use motiform_inference::{
-    Beside, Fit, Ladder, PValue, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE, Warning,
-    averaged, between_cells, carried_cells, drift, fit, handed_beside, handedness, identifiability, ladder,
-    place_among, select, walk_p_value, warnings,
+    Beside, CHANGED, Fit, Ladder, PValue, Placement, Plane, Selection, Settings, Symmetry, Track, WALK_RATE,
+    Warning, averaged, between_cells, carried_cells, change, drift, fit, handed_beside, handed_beside_change,
+    handedness, identifiability, ladder, place_among, select, walk_p_value, warnings,
 };
 
 /// Several tracks: pieces of one record, or cells.
@@ -77,6 +77,11 @@ pub(crate) fn fitted(
     })?;
     let checks = Checks::of(tracks, model)?;
     let mut warnings = warnings(tracks, model, drift.as_ref())?;
+    let changed = stages.get("change", watch, |watch| match model.converged() {
+        true => Ok(change(tracks, model, watch)?),
+        false => Ok(None),
+    })?;
+    warnings.extend(changed.filter(|p| *p < CHANGED).map(|p_value| Warning::Changing { p_value }));
     let is_carried = |warning: &Warning| matches!(warning, Warning::Carried { .. });
     if let (Members::Cells(false), Some(place)) = (members, warnings.iter().position(is_carried)) {
         warnings.splice(place..=place, carried_cells(tracks, model, watch)?);
@@ -88,7 +93,11 @@ pub(crate) fn fitted(
         false => Ok(None),
     };
     let (beside_stage, beside_stretch) = (beside(Beside::Stage)?, beside(Beside::Stretch)?);
-    let mut doubts = doubts(&warnings, &handedness, [beside_stage, beside_stretch]);
+    let beside_change = match handed {
+        true => Some(handed_beside_change(tracks, [&selection.fit, &handedness.fit], watch)?),
+        false => None,
+    };
+    let mut doubts = doubts(&warnings, &handedness, [beside_stage, beside_stretch, beside_change]);
     let mut regime = stages.get("regime", watch, |watch| {
         if !known.identifiable || !doubts.is_empty() {
             return Ok(None);
@@ -131,6 +140,7 @@ pub(crate) fn fitted(
         ladder,
         beside_stage,
         beside_stretch,
+        beside_change,
         between: None,
     }))
 }

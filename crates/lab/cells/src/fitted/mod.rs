@@ -60,6 +60,9 @@ pub struct Fitted {
     /// The same beside a small strain of the path and a constant elongation of the outlines, as images have that are stretched.
     #[serde(default)]
     pub beside_stretch: Option<f64>,
+    /// The same where parts of the record have coefficients of their own, as those of a cell that changes.
+    #[serde(default)]
+    pub beside_change: Option<f64>,
     /// Models from a random walk on, compared by frames that their fits did not see, or why they are not; `None` where this was not
     /// asked for.
     #[serde(default)]
