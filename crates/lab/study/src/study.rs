@@ -6,10 +6,9 @@ pub use crate::follow_settings::FollowSettings;
 use crate::input;
 use crate::random::Random;
 pub use crate::run_settings::RunSettings;
-use crate::run_settings::unit;
 use crate::scan::Axis;
 pub use crate::study_reader::schema;
-use crate::{Error, Ties, presets};
+use crate::{Error, Scales, Ties, presets};
 use motiform_analysis::equilibrium::balance;
 use motiform_dynamics::Model;
 use motiform_models::registry::Display;
@@ -203,11 +202,12 @@ impl Study {
         if let Some(random) = self.random {
             return Ok(random);
         }
-        let (several, unit) = (samples > 1, unit(self)?);
-        if unit == 1.0 {
-            return Ok(if several { Random::basins(self.info()?.size) } else { Random::SMALL });
+        let (several, info, values) = (samples > 1, self.info()?, self.values()?);
+        if Scales::of_model(info, &values)?.length == 1.0 {
+            return Ok(if several { Random::basins(info.size) } else { Random::SMALL });
         }
-        let size = one_digit(2.0 * balance(&[self.info()?.build(&self.values()?)?.as_ref()]));
+        let measured = || Ok::<_, Error>(one_digit(2.0 * balance(&[info.build(&values)?.as_ref()])));
+        let size = if info.size == 1.0 { measured()? } else { info.size };
         Ok(if several { Random::basins(size) } else { Random::Within(0.01 * size) })
     }
 

@@ -12,7 +12,7 @@ pub use crate::named::Named;
 pub use motiform_store::sha256_hex;
 pub use provenance::{Provenance, pretty};
 pub use run::{
-    Computation, DEFAULT_STEP, LONGEST, MOST_IN_MEMORY, MOST_ROWS, PLAN_FORMAT, RunPlan, control, stepper,
+    Computation, DEFAULT_STEP, MOST_IN_MEMORY, MOST_ROWS, PLAN_FORMAT, RunPlan, control, escape_norm, stepper,
 };
 
 use crate::Error;

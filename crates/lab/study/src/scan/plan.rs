@@ -2,12 +2,11 @@
 
 use super::Axis;
 use crate::plan::{
-    Control, LONGEST, Named, Plan, Question, check, check_no_noise, check_stability, check_steps, control,
-    stepper,
+    Control, Named, Plan, Question, check, check_no_noise, check_stability, check_steps, control,
+    escape_norm, stepper,
 };
 use crate::random::Random;
-use crate::run_settings::largest_unit;
-use crate::{Error, Perturbation, Study, Ties, UnitSettings};
+use crate::{Error, Perturbation, Scales, Study, Ties, UnitSettings};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, ModelName, parameters};
 use motiform_store::Kind;
@@ -109,7 +108,8 @@ impl ScanPlan {
         let study = &started(study, &starts)?.perturbed()?.0;
         let method = stepper(&study.run.stepper)?;
         let (run, scan) = (&study.run, &study.scan);
-        check_settings(study)?;
+        let scales = Scales::of_model(info, &study.values()?)?;
+        check_settings(study, scales)?;
         check_no_noise(run.largest_noise())?;
         check_axes(study)?;
         let free = |name: &str| scan.axes.iter().any(|axis| axis.name == name);
@@ -132,9 +132,9 @@ impl ScanPlan {
             random: study.starts(scan.samples)?,
             initial: Named(initial),
             stepper: method.name().to_owned(),
-            control: control(study, method)?,
+            control: control(study, method, scales)?,
             max_steps: run.max_steps,
-            escape_norm: run.escape_norm_in(largest_unit(study)?),
+            escape_norm: escape_norm(study, scales)?,
             budget: scan.budget,
         };
         let title = crate::titles::of_scan(study, info);
@@ -250,11 +250,10 @@ impl ScanPlan {
 }
 
 /// The numbers that a scan uses in addition to its axes.
-fn check_settings(study: &Study) -> Result<(), Error> {
+fn check_settings(study: &Study, scales: Scales) -> Result<(), Error> {
     let (run, scan) = (&study.run, &study.scan);
-    check("escape_norm", run.escape_norm_in(1.0), run.escape_norm_in(1.0) > 0.0, "give a number above 0")?;
     study.starts(1)?.check()?;
-    let budget = scan.budget >= 0.0 && scan.budget <= LONGEST;
+    let budget = (0.0..=scales.longest()).contains(&scan.budget);
     check("budget", scan.budget, budget, "give a model time above 0, at most 1e9, or 0 for the default")?;
     let counts = [("samples", scan.samples, MOST.1), ("max_steps", run.max_steps, u64::MAX)];
     for (key, value, most) in counts {

@@ -1,0 +1,75 @@
+//! The scales of equations, in which settings that are not given are measured.
+
+use crate::Error;
+use crate::checks::check;
+use motiform_analysis::equilibrium::{Units, largest_balance, prefix};
+use motiform_dynamics::Equivariant;
+use motiform_models::ModelInfo;
+
+/// Maximum model time of equations with rates of ordinary size: beyond it, the time has too few digits for steps of order 1.
+const LONGEST: f64 = 1e9;
+
+/// The scales of equations, from the sizes at which their terms balance: powers of 1000, 1 for equations of ordinary size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// The median size of shapes ([`Units::of`]).
+    pub length: f64,
+    /// The largest size of shapes.
+    pub largest: f64,
+    /// Rates of shapes of that median size.
+    pub rate: f64,
+}
+
+impl Scales {
+    /// The scales of a field, measured from its values alone.
+    #[must_use]
+    pub fn of(body: &dyn Equivariant) -> Self {
+        let Units { length, rate } = Units::of(body);
+        Self { length, largest: prefix(largest_balance(body)), rate }
+    }
+
+    /// The scales of a model at these parameters, in registry order. The models of this program have no dimensions: their sizes are
+    /// ordinary.
+    ///
+    /// # Errors
+    /// Values that the model rejects.
+    pub fn of_model(info: &ModelInfo, values: &[f64]) -> Result<Self, Error> {
+        if info.is_built_in() {
+            return Ok(Self { length: 1.0, largest: 1.0, rate: 1.0 });
+        }
+        Ok(Self::of(info.build(values)?.as_ref()))
+    }
+
+    /// The absolute tolerance of equations whose shapes have the size 1, for these.
+    #[must_use]
+    pub fn absolute_tolerance(self, ordinary: f64) -> f64 {
+        ordinary * self.length.min(1.0)
+    }
+
+    /// The norm beyond which a shape has escaped.
+    #[must_use]
+    pub fn escape_norm(self) -> f64 {
+        1e6 * self.largest.max(1.0)
+    }
+
+    /// The longest model time.
+    #[must_use]
+    pub fn longest(self) -> f64 {
+        LONGEST / self.rate.min(1.0)
+    }
+
+    /// Rejects a time above the longest one, and one of 0 where `positive`.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the key, the value and the remedy.
+    pub fn check_time(self, key: &'static str, time: f64, positive: bool) -> Result<(), Error> {
+        let usable = time <= self.longest() && if positive { time > 0.0 } else { time >= 0.0 };
+        let remedy = match (positive, self.rate < 1.0) {
+            (true, false) => "give a time above 0, at most 1e9",
+            (false, false) => "give a time from 0 to 1e9",
+            (true, true) => "give a time above 0, at most 1e9 over the rate of these slow equations",
+            (false, true) => "give a time from 0 to 1e9 over the rate of these slow equations",
+        };
+        check(key, time, usable, remedy)
+    }
+}
