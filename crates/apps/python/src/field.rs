@@ -35,13 +35,6 @@ pub(crate) struct Field {
     _owners: Py<PyAny>,
 }
 
-/// The settings of `run`, and its times.
-fn settings(run: &Bound<'_, PyDict>) -> PyResult<(RunSettings, Settings)> {
-    let typed: RunSettings = table(run)?;
-    let settings = Settings::new(&typed).map_err(python)?;
-    Ok((typed, settings))
-}
-
 fn span(run: &RunSettings) -> Span {
     Span { transient: run.transient, t_end: run.t_end, dt_out: run.dt_out }
 }
@@ -106,7 +99,7 @@ impl Field {
         run: &Bound<'_, PyDict>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Rows> {
-        let (run, settings) = settings(run)?;
+        let (run, settings) = self.settings(run)?;
         let (found, raised) = Caller::here(py, progress, |watch| {
             record(&self.flow(), &start, &span(&run), &settings, &[], watch)
         });
@@ -130,7 +123,7 @@ impl Field {
         run: &Bound<'_, PyDict>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(TableArrays, End)> {
-        let (run, settings) = settings(run)?;
+        let (run, settings) = self.settings(run)?;
         let (place, value, direction) = section;
         let direction = crate::analyse::direction(direction)?;
         let found = answer(Caller::here(py, progress, |watch| {
@@ -156,7 +149,7 @@ impl Field {
         threads: usize,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, String)> {
-        let settings = settings(run)?.1;
+        let settings = self.settings(run)?.1;
         let members: Vec<_> = parameters.into_iter().zip(starts).collect();
         let (found, raised) = Caller::beside(py, progress, |watch| {
             tracks(&self.given, &members, &times, &settings, threads.max(1), watch)
@@ -181,7 +174,7 @@ impl Field {
         run: &Bound<'_, PyDict>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<String> {
-        let settings = settings(run)?.1;
+        let settings = self.settings(run)?.1;
         let found = answer(Caller::here(py, progress, |watch| {
             exponents(&self.flow(), &start, count, times, &settings, watch).map(Some)
         }))?;
@@ -192,6 +185,13 @@ impl Field {
 impl Field {
     fn flow(&self) -> Flow<'_> {
         Flow::new(&self.given, self.parameters.clone())
+    }
+
+    /// The settings of `run`, and its times.
+    fn settings(&self, run: &Bound<'_, PyDict>) -> PyResult<(RunSettings, Settings)> {
+        let typed: RunSettings = table(run)?;
+        let settings = Settings::new(&typed, &self.flow()).map_err(python)?;
+        Ok((typed, settings))
     }
 
     fn crossings(&self, found: &Recording) -> Table {

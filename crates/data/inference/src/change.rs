@@ -36,7 +36,7 @@ pub fn change(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Option<f
     Ok(if known { ps.into_iter().reduce(|a, b| Some(a?.max(b?))).flatten() } else { None })
 }
 
-/// How often parts are cut in two.
+/// Times that each part is cut in two.
 const LEVELS: usize = 2;
 
 /// The p-value of the likelihood ratio of complex against real coefficients where parts of the record have coefficients and noise of their

@@ -75,16 +75,41 @@ pub fn semilinear_defect<F: Semilinear<f64>>(field: &F, u: &[f64]) -> f64 {
     largest_difference(&split, &whole) / whole.iter().fold(1.0, |scale: f64, x| scale.max(x.abs()))
 }
 
+/// A symmetry that is declared must be one up to this part of the rates.
+const DECLARED: f64 = 1e-6;
+
+/// A sentence on what contradicts the symmetry that a model declares, at a shape where its rates are numbers; in any units.
+pub fn contradiction<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> Option<&'static str> {
+    let differs = |(difference, scale): (f64, f64)| difference > DECLARED * scale && difference.is_finite();
+    let symmetry = model.symmetry();
+    if symmetry.rotations && differs(spin_difference(model, shape)) {
+        return Some("`spin` is not the derivative of `rotate`, or `rotate` changes the norm of a shape");
+    }
+    if symmetry.rotations && differs(rotation_difference(model, shape, 1.0)) {
+        return Some("its rates or its velocity do not turn with its shape, which `rotate` turns");
+    }
+    (symmetry.mirror && differs(mirror_difference(model, shape)))
+        .then_some("its rates or its velocity are not mirrored with its shape, which `mirror` reflects")
+}
+
 /// Relative deviation of a model's flow and velocity from commuting with a rotation by `angle`.
 pub fn rotation_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64], angle: f64) -> f64 {
+    relative(rotation_difference(model, shape, angle))
+}
+
+fn rotation_difference<M: Equivariant + ?Sized>(model: &M, shape: &[f64], angle: f64) -> (f64, f64) {
     let (sin, cos) = libm::sincos(angle);
     let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
-    symmetry_defect(model, shape, &|state: &mut [f64]| model.rotate(angle, state), &turn)
+    symmetry_difference(model, shape, &|state: &mut [f64]| model.rotate(angle, state), &turn)
 }
 
 /// Deviation of [`Equivariant::spin`] from the derivative of [`Equivariant::rotate`] (central differences of step 1e-5), and
 /// of rotations from preserving the length of a state.
 pub fn spin_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> f64 {
+    relative(spin_difference(model, shape))
+}
+
+fn spin_difference<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> (f64, f64) {
     let h = 1e-5;
     let turned = |angle: f64| {
         let mut state = shape.to_vec();
@@ -95,34 +120,45 @@ pub fn spin_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> f64 {
     let difference: Vec<f64> = ahead.iter().zip(&behind).map(|(a, b)| (a - b) / (2.0 * h)).collect();
     let mut spin = shape.to_vec();
     model.spin(shape, &mut spin);
-    let scale = spin.iter().fold(1.0, |scale: f64, x| scale.max(x.abs()));
     let length = |state: &[f64]| state.iter().map(|x| x * x).sum::<f64>().sqrt();
     let stretched = (length(&turned(1.0)) - length(shape)).abs();
-    largest_difference(&spin, &difference).max(stretched) / scale
+    (largest_difference(&spin, &difference).max(stretched), largest(&spin).max(largest(shape)))
 }
 
 /// Relative deviation of a model's flow and velocity from commuting with the reflection y -> -y.
 pub fn mirror_defect<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> f64 {
-    symmetry_defect(model, shape, &|state: &mut [f64]| model.mirror(state), &|[x, y]| [x, -y])
+    relative(mirror_difference(model, shape))
 }
 
-/// The defect of `f(g u) = g f(u)` and `v(g u) = g v(u)` for a linear symmetry `g` of shapes and of the plane.
-fn symmetry_defect<M: Equivariant + ?Sized>(
+fn mirror_difference<M: Equivariant + ?Sized>(model: &M, shape: &[f64]) -> (f64, f64) {
+    symmetry_difference(model, shape, &|state: &mut [f64]| model.mirror(state), &|[x, y]| [x, -y])
+}
+
+/// The defect of `f(g u) = g f(u)` and `v(g u) = g v(u)` for a linear symmetry `g` of shapes and of the plane, and the largest rate.
+fn symmetry_difference<M: Equivariant + ?Sized>(
     model: &M,
     shape: &[f64],
     act: &dyn Fn(&mut [f64]),
     act_plane: &dyn Fn([f64; 2]) -> [f64; 2],
-) -> f64 {
+) -> (f64, f64) {
     let mut moved = shape.to_vec();
     act(&mut moved);
     let (mut rate, mut rate_moved) = (shape.to_vec(), shape.to_vec());
     VectorField::<f64>::eval(model, 0.0, shape, &mut rate);
     VectorField::<f64>::eval(model, 0.0, &moved, &mut rate_moved);
     act(&mut rate);
-    let scale = rate.iter().fold(1.0, |scale: f64, x| scale.max(x.abs()));
     let expected = act_plane(crate::model::velocity(model, shape));
     let got = crate::model::velocity(model, &moved);
-    largest_difference(&rate, &rate_moved).max(largest_difference(&expected, &got)) / scale
+    (largest_difference(&rate, &rate_moved).max(largest_difference(&expected, &got)), largest(&rate))
+}
+
+/// A difference over its scale, or over 1 where that is larger.
+fn relative((difference, scale): (f64, f64)) -> f64 {
+    difference / scale.max(1.0)
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
 }
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {

@@ -4,7 +4,7 @@
 use crate::registry::{Display, Source};
 use crate::{Error, MODELS, ModelInfo, ParameterSpec, Parameters, amplitudes};
 use motiform_dynamics::model::Coordinate;
-use motiform_dynamics::{Model, Shape, VectorField};
+use motiform_dynamics::{Model, Shape, conformance};
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
@@ -75,8 +75,8 @@ static ALL: Mutex<Vec<&'static ModelInfo>> = Mutex::new(Vec::new());
 /// The same name with the same equations, parameters and description gives the same entry again.
 ///
 /// # Errors
-/// [`Error::OwnModel`]: a name that is not usable or taken, a time or size that is not above 0, or a model
-/// that `build` refuses at its default parameters.
+/// [`Error::OwnModel`]: a name that is not usable or taken, a time or size that is not above 0, a model that `build` refuses at its
+/// default parameters, or one whose equations do not have the symmetry that it declares, there or at other parameters.
 pub fn register<P, M>(
     about: &About,
     build: impl Fn(&P) -> Result<M, Error> + Send + Sync + 'static,
@@ -104,7 +104,12 @@ where
     };
     let defaults = P::default().values();
     let body = make(&defaults).map_err(|error| refuse(format!("at its default parameters: {error}")))?;
-    let field = fingerprint(P::specs(), &defaults, &make);
+    let bodies = [defaults, others(P::specs())].map(|values| make(&values).ok());
+    let probes = probes(&bodies, about.size);
+    if let Some(wrong) = probes.iter().find_map(|(body, state)| conformance::contradiction(*body, state)) {
+        return Err(refuse(format!("{wrong}: correct it, or declare less in `symmetry`")));
+    }
+    let field = fingerprint(&probes);
     let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(known) = all.iter().find(|info| info.name == about.name) {
         let is_this = |own: &Own| own.about == *about && own.parameters == P::specs() && own.field == field;
@@ -155,34 +160,40 @@ fn info(own: Own) -> ModelInfo {
     }
 }
 
-/// Digits that change with the equations: a hash of the bits of the field and the velocity at a few states,
-/// for the default parameters and for others. A result states them, so that it is not continued with other
-/// equations of the same name.
-fn fingerprint(
-    specs: &[ParameterSpec],
-    defaults: &[f64],
-    make: &impl Fn(&[f64]) -> Result<Box<dyn Model>, Error>,
-) -> String {
+/// Values of parameters other than the defaults.
+fn others(specs: &[ParameterSpec]) -> Vec<f64> {
     let other = |spec: &ParameterSpec| {
         let value = spec.range.0 + 0.618 * (spec.range.1 - spec.range.0);
         if spec.whole { spec.default } else { value }
     };
-    let others: Vec<f64> = specs.iter().map(other).collect();
+    specs.iter().map(other).collect()
+}
+
+/// A few states of this size for each body.
+fn probes(bodies: &[Option<Box<dyn Model>>], size: f64) -> Vec<(&dyn Model, Vec<f64>)> {
+    let state = |dim: usize, k: u8| -> Vec<f64> {
+        (1..=dim).map(|i| size * (0.3 * f64::from(k) / i as f64 - 0.2)).collect()
+    };
+    let mut all = Vec::new();
+    for body in bodies.iter().flatten() {
+        all.extend((1..=3).map(|k| (body.as_ref(), state(body.dim(), k))));
+    }
+    all
+}
+
+/// Digits that change with the equations: a hash of the bits of the field and the velocity at a few states,
+/// for the default parameters and for others. A result states them, so that it is not continued with other
+/// equations of the same name.
+fn fingerprint(probes: &[(&dyn Model, Vec<f64>)]) -> String {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a
     let mut add = |value: f64| {
         for byte in value.to_bits().to_le_bytes() {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
     };
-    for values in [defaults, &others] {
-        let Ok(body) = make(values) else { continue };
-        let mut rate = vec![0.0; body.dim()];
-        for k in 1..=3 {
-            let state: Vec<f64> = (1..=body.dim()).map(|i| 0.3 * f64::from(k) / i as f64 - 0.2).collect();
-            VectorField::<f64>::eval(body.as_ref(), 0.0, &state, &mut rate);
-            let velocity = Shape::<f64>::velocity(body.as_ref(), &state);
-            rate.iter().chain(&velocity).copied().for_each(&mut add);
-        }
+    for (body, state) in probes {
+        let velocity = Shape::<f64>::velocity(*body, state);
+        body.rates(state).iter().chain(&velocity).copied().for_each(&mut add);
     }
     format!("{hash:016x}")
 }

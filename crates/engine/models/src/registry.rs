@@ -251,6 +251,12 @@ impl ModelInfo {
         }
     }
 
+    /// `true` for the models of this library.
+    #[must_use]
+    pub fn is_built_in(&self) -> bool {
+        matches!(self.inner, Source::BuiltIn { .. })
+    }
+
     /// The equations, if they were given as text.
     #[must_use]
     pub fn definition(&self) -> Option<&'static Definition> {

@@ -6,8 +6,8 @@ use motiform_dynamics::Watch;
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, StopOnly};
 use motiform_models::ModelInfo;
-use motiform_study::plan::{Control, LONGEST, check, check_no_noise};
-use motiform_study::{Error, Plan};
+use motiform_study::plan::{Control, check, check_no_noise};
+use motiform_study::{Error, Plan, Scales};
 
 /// Classifies the motion that starts from the plan's initial state, within at most `budget` model time (the model's
 /// default, if 0); `None` if the watch stopped it. Where the model has a number of modes, the motion is found again with half as many
@@ -81,13 +81,18 @@ struct Finer {
     value: f64,
 }
 
+/// The scales of a plan's equations.
+fn scales(plan: &Plan) -> Result<Scales, Error> {
+    Scales::of_model(plan.info()?, &plan.computation.parameters.values())
+}
+
 /// The classifier's settings for a plan.
 ///
 /// # Errors
 /// A budget below 0, an unknown model or stepper.
 pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
     let (info, c) = (plan.info()?, &plan.computation);
-    let allowed = (0.0..=LONGEST).contains(&budget);
+    let allowed = (0.0..=scales(plan)?.longest()).contains(&budget);
     check("budget", budget, allowed, "give a model time above 0, at most 1e9, or 0 for the model's default")?;
     let bounds = (c.escape_norm, c.max_steps);
     Ok(settings_of((info, &c.parameters.values()), plan.method()?, c.control, bounds, budget))
@@ -149,8 +154,9 @@ pub(crate) fn lyapunov_settings(
         return Err(Error::Count { count, dim });
     }
     let (transient, span) = (transient.unwrap_or(4.0 * look), t_end.unwrap_or(20.0 * look));
-    check("transient", transient, transient <= LONGEST, "give a time of at most 1e9")?;
-    check("t_end", span, span <= LONGEST, "give a time of at most 1e9")?;
+    let scales = scales(plan)?;
+    scales.check_time("transient", transient, false)?;
+    scales.check_time("t_end", span, true)?;
     Ok(LyapunovSettings {
         count,
         method: plan.method()?,

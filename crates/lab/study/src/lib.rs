@@ -52,6 +52,7 @@ pub use perturbation::Perturbation;
 pub use plan::{Plan, Provenance, Question, RunPlan};
 pub use random::Random;
 pub use remarks::{idle_ties, remarks};
+pub use scales::Scales;
 pub use scan::ScanPlan;
 pub use stride::{DOUBLINGS, Stride, Towards};
 pub use study::Study;

@@ -21,7 +21,7 @@ settings! {
         /// cell, otherwise 1e-9.
         pub rtol: f64,
         /// Absolute tolerance of adaptive steppers. By default a tenth of `rtol` for cell, otherwise a thousandth; for
-        /// equations given as text in their unit where that is below 1.
+        /// equations of your own in their unit where that is below 1.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub atol: Option<f64>,
         /// Fixed step. By default adaptive steppers control their step, and the others use 1e-3.
@@ -30,7 +30,7 @@ settings! {
         pub seed: u64,
         /// Maximum number of steps of a run; by default 1e8.
         pub max_steps: u64,
-        /// A shape whose norm exceeds this has escaped; by default 1e6, for equations given as text in their unit where that is above 1
+        /// A shape whose norm exceeds this has escaped; by default 1e6, for equations of your own in their unit where that is above 1
         /// (a power of 1000, from the largest size at which their terms balance).
         #[serde(skip_serializing_if = "Option::is_none")]
         pub escape_norm: Option<f64>,
@@ -59,12 +59,6 @@ impl RunSettings {
             Some(velocity) if own.largest_noise() > 0.0 => (part * own.noise, Some(part * velocity)),
             _ => (amplitude, None),
         };
-    }
-
-    /// The size beyond which a shape has escaped: what is given, or 1e6 units of the equations, at least 1e6.
-    #[must_use]
-    pub fn escape_norm_in(&self, unit: f64) -> f64 {
-        self.escape_norm.unwrap_or(1e6 * unit.max(1.0))
     }
 
     /// Removes the noise.

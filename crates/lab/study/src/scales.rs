@@ -1,55 +1,100 @@
-//! The sizes at which terms of a study's equations balance, from which its defaults follow.
+//! The scales of equations, in which settings that are not given are measured.
 
-use crate::random::Random;
-use crate::scan::Axis;
-use crate::{Error, Study};
+use crate::Error;
+use crate::checks::check;
 use motiform_analysis::equilibrium::{Units, balance, largest_balance, prefix};
 use motiform_dynamics::{Equivariant, Model};
-use motiform_models::amplitudes::NAME;
+use motiform_models::ModelInfo;
 
-/// The bodies whose scales those of a study are: one at its values or, where axes replace some of these, those at the ends of the axes.
-/// None for the models of this program, whose defaults are those of their sizes.
-pub(crate) struct Scales(Vec<Box<dyn Model>>);
+/// Maximum model time of equations with rates of ordinary size: beyond it, the time has too few digits for steps of order 1.
+const LONGEST: f64 = 1e9;
+
+/// The scales of equations, from the sizes at which their terms balance: powers of 1000, 1 for equations of ordinary size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// The median size of shapes ([`Units::of`]).
+    pub length: f64,
+    /// The largest size of shapes.
+    pub largest: f64,
+    /// Rates of shapes of that median size.
+    pub rate: f64,
+}
 
 impl Scales {
-    /// Of a study whose values these axes replace.
+    /// The scales of a field, measured from its values alone.
+    #[must_use]
+    pub fn of(body: &dyn Equivariant) -> Self {
+        let Units { length, rate } = Units::of(body);
+        Self { length, largest: prefix(largest_balance(body)), rate }
+    }
+
+    /// Those of ordinary equations.
+    pub(crate) const ORDINARY: Self = Self { length: 1.0, largest: 1.0, rate: 1.0 };
+
+    /// The scales for all of some bodies: the smallest length and rate, and the largest size. (There is one at least.)
+    pub(crate) fn of_all(bodies: &[Box<dyn Model>]) -> Self {
+        let both = |one: Self, other: Self| Self {
+            length: one.length.min(other.length),
+            largest: one.largest.max(other.largest),
+            rate: one.rate.min(other.rate),
+        };
+        bodies.iter().map(|body| Self::of(body.as_ref())).reduce(both).unwrap_or(Self::ORDINARY)
+    }
+
+    /// The size of random starts of these bodies: that of their model, if it says one other than 1, or twice that at which their terms
+    /// balance. `None` where shapes have ordinary sizes.
+    pub(crate) fn starts(bodies: &[Box<dyn Model>], size: f64) -> Option<f64> {
+        if bodies.iter().all(|body| Units::of(body.as_ref()).length == 1.0) {
+            return None;
+        }
+        let all: Vec<&dyn Equivariant> =
+            bodies.iter().map(|body| body.as_ref() as &dyn Equivariant).collect();
+        Some(if size == 1.0 { one_digit(2.0 * balance(&all)) } else { size })
+    }
+
+    /// The scales of a model at these parameters, in registry order. The models of this program have no dimensions: their sizes are
+    /// ordinary.
     ///
     /// # Errors
     /// Values that the model rejects.
-    pub(crate) fn of(study: &Study, axes: &[Axis]) -> Result<Self, Error> {
-        let info = study.info()?;
-        if info.name != NAME {
-            return Ok(Self(Vec::new()));
+    pub fn of_model(info: &ModelInfo, values: &[f64]) -> Result<Self, Error> {
+        if info.is_built_in() {
+            return Ok(Self::ORDINARY);
         }
-        let bodies =
-            study.values_over(axes)?.iter().map(|values| info.build(values)).collect::<Result<_, _>>();
-        Ok(Self(bodies?))
+        Ok(Self::of(info.build(values)?.as_ref()))
     }
 
-    fn lengths(&self) -> impl Iterator<Item = f64> {
-        self.0.iter().map(|body| Units::of(body.as_ref()).length)
+    /// The absolute tolerance of equations whose shapes have the size 1, for these.
+    #[must_use]
+    pub fn absolute_tolerance(self, ordinary: f64) -> f64 {
+        ordinary * self.length.min(1.0)
     }
 
-    /// The smallest unit of shapes ([`Units`]), at most 1.
-    pub(crate) fn smallest(&self) -> f64 {
-        self.lengths().fold(1.0, f64::min)
+    /// The norm beyond which a shape has escaped.
+    #[must_use]
+    pub fn escape_norm(self) -> f64 {
+        1e6 * self.largest.max(1.0)
     }
 
-    /// The largest unit at which terms balance, at least 1.
-    pub(crate) fn largest(&self) -> f64 {
-        self.0.iter().map(|body| prefix(largest_balance(body.as_ref()))).fold(1.0, f64::max)
+    /// The longest model time.
+    #[must_use]
+    pub fn longest(self) -> f64 {
+        LONGEST / self.rate.min(1.0)
     }
 
-    /// The distribution of several random starts, or of one: twice the size at which terms balance, where their unit is not 1.
-    pub(crate) fn starts(&self, several: bool, size: f64) -> Random {
-        let bodies: Vec<&dyn Equivariant> =
-            self.0.iter().map(|body| body.as_ref() as &dyn Equivariant).collect();
-        match (self.lengths().all(|length| length == 1.0), several) {
-            (true, true) => Random::basins(size),
-            (true, false) => Random::SMALL,
-            (false, true) => Random::basins(one_digit(2.0 * balance(&bodies))),
-            (false, false) => Random::Within(0.01 * one_digit(2.0 * balance(&bodies))),
-        }
+    /// Rejects a time above the longest one, and one of 0 where `positive`.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] naming the key, the value and the remedy.
+    pub fn check_time(self, key: &'static str, time: f64, positive: bool) -> Result<(), Error> {
+        let usable = time <= self.longest() && if positive { time > 0.0 } else { time >= 0.0 };
+        let remedy = match (positive, self.rate < 1.0) {
+            (true, false) => "give a time above 0, at most 1e9",
+            (false, false) => "give a time from 0 to 1e9",
+            (true, true) => "give a time above 0, at most 1e9 over the rate of these slow equations",
+            (false, true) => "give a time from 0 to 1e9 over the rate of these slow equations",
+        };
+        check(key, time, usable, remedy)
     }
 }
 

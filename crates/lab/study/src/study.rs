@@ -6,10 +6,9 @@ pub use crate::follow_settings::FollowSettings;
 use crate::input;
 use crate::random::Random;
 pub use crate::run_settings::RunSettings;
-use crate::scales::Scales;
 use crate::scan::Axis;
 pub use crate::study_reader::schema;
-use crate::{Error, Ties, presets};
+use crate::{Error, Scales, Ties, presets};
 use motiform_dynamics::Model;
 use motiform_models::registry::Display;
 use motiform_models::spelling::canonical;
@@ -207,10 +206,36 @@ impl Study {
     /// # Errors
     /// Values that the model rejects.
     pub fn starts_over(&self, samples: u64, axes: &[Axis]) -> Result<Random, Error> {
-        match self.random {
-            Some(random) => Ok(random),
-            None => Ok(Scales::of(self, axes)?.starts(samples > 1, self.info()?.size)),
+        if let Some(random) = self.random {
+            return Ok(random);
         }
+        let (several, info) = (samples > 1, self.info()?);
+        let size = match info.is_built_in() {
+            true => None,
+            false => Scales::starts(&self.bodies_over(axes)?, info.size),
+        };
+        Ok(match (size, several) {
+            (Some(size), true) => Random::basins(size),
+            (Some(size), false) => Random::Within(0.01 * size),
+            (None, true) => Random::basins(info.size),
+            (None, false) => Random::SMALL,
+        })
+    }
+
+    /// Its scales where axes replace parameters: those of the equations at the ends of the axes.
+    pub(crate) fn scales_over(&self, axes: &[Axis]) -> Result<Scales, Error> {
+        match self.info()?.is_built_in() {
+            true => Ok(Scales::ORDINARY),
+            false => Ok(Scales::of_all(&self.bodies_over(axes)?)),
+        }
+    }
+
+    /// The bodies at the ends of these axes.
+    fn bodies_over(&self, axes: &[Axis]) -> Result<Vec<Box<dyn Model>>, Error> {
+        let info = self.info()?;
+        let bodies =
+            self.values_over(axes)?.iter().map(|values| info.build(values)).collect::<Result<_, _>>();
+        Ok(bodies?)
     }
 
     /// All parameter values, in registry order.

@@ -127,7 +127,7 @@ impl Display for Surveyed<'_> {
         match lines.is_empty() {
             true => writeln!(f, "followed   {}", why_no_line(plan))?,
             false => {
-                writeln!(f, "followed   {}, {}", counted(lines.len(), "line"), counted(curves, "curve"))?
+                writeln!(f, "followed   {}, {}", counted(lines.len(), "line"), counted(curves, "curve"))?;
             }
         }
         let short = lines.iter().filter(|line| line.refused.is_some()).count();

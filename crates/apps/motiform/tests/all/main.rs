@@ -36,6 +36,7 @@ mod new_files;
 mod observe;
 mod outcomes;
 mod own_model;
+mod own_units;
 mod ownership;
 mod planes;
 mod quantities;

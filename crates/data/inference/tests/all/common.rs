@@ -122,7 +122,7 @@ pub(crate) struct Experiment {
     pub(crate) eta: [f64; 2],
     /// Rate at which the noise of the velocity forgets, of models without z4, whose place it takes; 0: white noise.
     pub(crate) memory: f64,
-    /// What is added to kappa2 in the course of the record.
+    /// Change of kappa2 over the record.
     pub(crate) change: f64,
     /// Standard deviations of the errors of x and y, and of the parts of the modes.
     pub(crate) errors: [f64; 2],

@@ -10,6 +10,9 @@ use motiform_dynamics::{Equivariant, StepControl, model};
 /// Rays along which sizes are looked for.
 const RAYS: usize = 2;
 
+/// Coordinates that may have sizes of their own; of more than these, as of a field on a grid, all have one.
+const ALONE: usize = 32;
+
 /// A shape of no more than this part of the unit is no size.
 const NOTHING: f64 = 1e-6;
 
@@ -103,13 +106,14 @@ pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
     sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// The largest of these sizes, also along each coordinate alone; 1 where no terms balance. Equations that do not act on each other may have
-/// sizes of their own, and at the size of one the rates of another exceed it by so much that its terms do not show. A shape has left every
-/// bound only where it is beyond all sizes.
+/// The largest of these sizes, also along each of at most 32 coordinates alone; 1 where no terms balance. Equations that do not act on
+/// each other may have sizes of their own, and at the size of one the rates of another exceed it by so much that its terms do not show.
+/// A shape has left every bound only where it is beyond all sizes.
 #[must_use]
 pub fn largest_balance(body: &dyn Equivariant) -> f64 {
+    let alone = if body.dim() <= ALONE { body.dim() } else { 0 };
     let axis = |i: usize| (0..body.dim()).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
-    let directions: Vec<Vec<f64>> = rays(body).into_iter().chain((0..body.dim()).map(axis)).collect();
+    let directions: Vec<Vec<f64>> = rays(body).into_iter().chain((0..alone).map(axis)).collect();
     balances(body, &directions).last().copied().unwrap_or(1.0)
 }
 

@@ -88,18 +88,20 @@ pub(crate) fn look(known: &'static Known, values: &[f64]) -> f64 {
     let model = Amplitudes::new(known, values);
     let mut rates: Vec<f64> =
         rates(&model).unwrap_or_else(|| model.linear.iter().map(|rate| rate.abs()).collect());
-    rates.retain(|rate| rate.is_finite());
+    rates.retain(|rate| RATES.contains(rate));
     ascending(&mut rates);
     let fastest = rates.last().copied().unwrap_or(0.0);
     rates.retain(|rate| *rate > ROUNDED * fastest);
     let Some(&median) = rates.get(rates.len() / 2) else { return 200.0 };
-    rounded(20.0 / rates[0].max(LEAST * median).max(fastest / STIFFEST)).clamp(1e-3, 1e6)
+    rounded(20.0 / rates[0].max(LEAST * median).max(fastest / STIFFEST))
 }
 
 /// Least rate that counts, as a part of the median one; of an oscillation that grows or decays, as a part of its angular frequency.
 const LEAST: f64 = 0.05;
 /// Ratio of the fastest rate to the slowest one that counts: a look takes some steps for each of its times.
 const STIFFEST: f64 = 2e4;
+/// Rates whose times, and some thousands of them, are numbers.
+const RATES: std::ops::Range<f64> = 1e-280..1e280;
 /// Rates that are 0 but for round-off, as a part of the fastest one.
 const ROUNDED: f64 = 1e-12;
 

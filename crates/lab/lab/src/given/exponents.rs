@@ -4,7 +4,6 @@ use super::{Flow, Settings, check_start};
 use motiform_analysis::{Lyapunov, LyapunovSettings};
 use motiform_dynamics::Watch;
 use motiform_study::Error;
-use motiform_study::plan::{LONGEST, check};
 
 /// The `count` largest exponents of the orbit from `start`, averaged over `t_end` after `transient`, by the tangent flow: exact with a
 /// Jacobian, otherwise with differences of an error of about 1e-12. The number of neutral exponents is that
@@ -26,10 +25,10 @@ pub fn exponents(
     if count == 0 || count > start.len() {
         return Err(Error::Count { count, dim: start.len() });
     }
-    check("transient", transient, (0.0..=LONGEST).contains(&transient), "give a time from 0 to 1e9")?;
-    check("t_end", t_end, t_end > 0.0 && t_end <= LONGEST, "give a time above 0, at most 1e9")?;
+    settings.scales.check_time("transient", transient, false)?;
+    settings.scales.check_time("t_end", t_end, true)?;
     check_autonomous(flow, start, t_end)?;
-    let Settings { method, control, max_steps, escape_norm } = *settings;
+    let Settings { method, control, max_steps, escape_norm, .. } = *settings;
     let settings =
         LyapunovSettings { count, method, control, transient, span: t_end, escape_norm, max_steps };
     let found = motiform_analysis::lyapunov(flow, start, &settings, watch)?;

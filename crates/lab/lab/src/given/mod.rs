@@ -11,7 +11,7 @@ use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{StepControl, System, VectorField};
 use motiform_study::plan::{check, stepper};
 use motiform_study::study::RunSettings;
-use motiform_study::{Error, plan};
+use motiform_study::{Error, Scales, plan};
 use std::sync::Mutex;
 
 pub use exponents::exponents;
@@ -77,17 +77,21 @@ pub struct Settings {
     pub max_steps: u64,
     /// A state beyond this norm has escaped.
     pub escape_norm: f64,
+    /// The scales of the function at the parameters of the flow that they were made for.
+    pub scales: Scales,
 }
 
 /// Absolute tolerance over relative tolerance, where it is not given: as for the tensor model.
 const ABSOLUTE: f64 = 1e-3;
 
 impl Settings {
-    /// The settings of `run` (its stepper, tolerances or step, and bounds); its times are not used.
+    /// The settings of `run` (its stepper, tolerances or step, and bounds); its times are not used. Those that are not given are
+    /// in the units of the function, by its values at time 0.
     ///
     /// # Errors
     /// An unknown or exponential stepper, a value out of range.
-    pub fn new(run: &RunSettings) -> Result<Self, Error> {
+    pub fn new(run: &RunSettings, flow: &Flow<'_>) -> Result<Self, Error> {
+        let scales = Scales::of(flow);
         let method = stepper(&run.stepper)?;
         if let Method::Exponential(_) = method {
             let remedy = "exponential methods need the linear part of the equations, which a function does not tell: give dop853, \
@@ -95,18 +99,19 @@ impl Settings {
             return Err(Error::Setting { key: "stepper", value: run.stepper.clone(), remedy });
         }
         let control = match run.step {
-            None if method.is_adaptive() => {
-                StepControl::Adaptive { rtol: run.rtol, atol: run.atol.unwrap_or(ABSOLUTE * run.rtol) }
-            }
+            None if method.is_adaptive() => StepControl::Adaptive {
+                rtol: run.rtol,
+                atol: run.atol.unwrap_or(scales.absolute_tolerance(ABSOLUTE * run.rtol)),
+            },
             step => StepControl::Fixed { step: step.unwrap_or(plan::DEFAULT_STEP) },
         };
         method.validate(control)?;
-        let escape_norm = run.escape_norm_in(1.0);
+        let escape_norm = run.escape_norm.unwrap_or(scales.escape_norm());
         check("escape_norm", escape_norm, escape_norm > 0.0, "give a number above 0")?;
         if run.max_steps == 0 {
             return Err(Error::Setting { key: "max_steps", value: "0".into(), remedy: "give at least 1" });
         }
-        Ok(Self { method, control, max_steps: run.max_steps, escape_norm })
+        Ok(Self { method, control, max_steps: run.max_steps, escape_norm, scales })
     }
 }
 

@@ -5,8 +5,8 @@ use crate::ensemble::{Track, check_times};
 use crate::pool::spread;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::{Outcome, Part, Request, Section, StopOnly, Trajectory, Watch};
-use motiform_study::plan::{LONGEST, MOST_IN_MEMORY, check};
-use motiform_study::{Ending, Error};
+use motiform_study::plan::{MOST_IN_MEMORY, check};
+use motiform_study::{Ending, Error, Scales};
 
 /// The times of a run. The function is asked for times from `-transient` to `t_end`.
 #[derive(Clone, Copy, Debug)]
@@ -21,10 +21,10 @@ pub struct Span {
 
 impl Span {
     /// Checks the times; the time between rows, if there are rows.
-    fn checked(&self) -> Result<Option<f64>, Error> {
+    fn checked(&self, scales: Scales) -> Result<Option<f64>, Error> {
         let Self { transient, t_end, dt_out } = *self;
-        check("t_end", t_end, t_end > 0.0 && t_end <= LONGEST, "give a time above 0, at most 1e9")?;
-        check("transient", transient, (0.0..=LONGEST).contains(&transient), "give a time from 0 to 1e9")?;
+        scales.check_time("t_end", t_end, true)?;
+        scales.check_time("transient", transient, false)?;
         if dt_out == f64::INFINITY {
             return Ok(None);
         }
@@ -61,7 +61,7 @@ pub fn record(
     sections: &[Section<'_>],
     watch: &dyn Watch,
 ) -> Result<Recording, Error> {
-    let every = span.checked()?;
+    let every = span.checked(settings.scales)?;
     check_start(flow, start)?;
     let mut orbit = settings.method.shape_orbit(flow, settings.control, 0.0 - span.transient, start)?;
     let mut trajectory = Trajectory::new(start.len());

@@ -63,11 +63,29 @@ fn brusselator(rate: f64, length: f64) -> Study {
 /// larger than the other by up to 1e15.
 #[test]
 fn a_period_is_found_in_any_units() {
-    for (rate, length) in [(1.0, 1.0), (1e-3, 1e-6), (1e-6, 1.0), (1.0, 1e-9), (1e-6, 1e-6), (1e3, 1e6)] {
-        let verdict = verdict(&brusselator(rate, length));
+    for (rate, length) in [
+        (1.0, 1.0),
+        (1e-3, 1e-6),
+        (1e-6, 1.0),
+        (1.0, 1e-9),
+        (1e-6, 1e-6),
+        (1e3, 1e6),
+        (1e-8, 1.0),
+        (1e-9, 1e-3),
+    ] {
+        let mut study = brusselator(rate, length);
+        let verdict = verdict(&study);
         let period = rate * verdict.period.unwrap_or_else(|| panic!("{rate} {length}: {}", verdict.why));
         assert!((period - 7.156_919_921_2).abs() < 2e-9, "{rate} {length}: {period}");
         assert_eq!(verdict.regime.name(), "zigzag");
+        (study.run.t_end, study.run.transient) = (200.0 / rate, 40.0 / rate);
+        let plan = RunPlan::new(&study).unwrap();
+        let found = analyse::lyapunov(&plan, 2, (None, None), &()).unwrap();
+        assert!(
+            (found.exponents[1].value / rate + 1.1579).abs() < 0.01,
+            "{rate} {length}: {:?}",
+            found.exponents
+        );
     }
 }
 

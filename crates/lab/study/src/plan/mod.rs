@@ -11,8 +11,9 @@ pub use crate::control::{Control, NoiseSettings};
 pub use crate::named::Named;
 pub use motiform_store::sha256_hex;
 pub use provenance::{Provenance, pretty};
-pub(crate) use run::control;
-pub use run::{Computation, DEFAULT_STEP, LONGEST, MOST_IN_MEMORY, MOST_ROWS, PLAN_FORMAT, RunPlan, stepper};
+pub use run::{
+    Computation, DEFAULT_STEP, MOST_IN_MEMORY, MOST_ROWS, PLAN_FORMAT, RunPlan, control, escape_norm, stepper,
+};
 
 use crate::Error;
 use motiform_models::{ModelInfo, ModelName};

@@ -3,9 +3,8 @@
 use super::{Control, Named, NoiseSettings, Plan, Question};
 use crate::checks::{check, check_figure, check_stability, check_start, check_steps};
 use crate::error::nearest_of;
-use crate::scales::Scales;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
-use crate::{Error, initial};
+use crate::{Error, Scales, initial};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::{Model, Noise, Semilinear};
 use motiform_models::ModelName;
@@ -20,9 +19,6 @@ pub const MOST_ROWS: f64 = 2e10;
 
 /// Maximum number of rows of a trajectory in memory (about 2 GB).
 pub const MOST_IN_MEMORY: f64 = 2e7;
-
-/// Maximum model time: beyond it, the time has too few digits for steps of order 1.
-pub const LONGEST: f64 = 1e9;
 
 /// Default step of steppers without step control: that of the paper.
 pub const DEFAULT_STEP: f64 = 1e-3;
@@ -103,14 +99,9 @@ impl RunPlan {
         let info = study.info()?;
         let method = stepper(&study.run.stepper)?;
         let run = &study.run;
-        check(
-            "t_end",
-            run.t_end,
-            run.t_end > 0.0 && run.t_end <= LONGEST,
-            "give a time above 0, at most 1e9",
-        )?;
-        let transient = run.transient >= 0.0 && run.transient <= LONGEST;
-        check("transient", run.transient, transient, "give a time from 0 to 1e9")?;
+        let scales = study.scales_over(&[])?;
+        scales.check_time("t_end", run.t_end, true)?;
+        scales.check_time("transient", run.transient, false)?;
         let dt_out = if run.dt_out == 0.0 { run.t_end / 2000.0 } else { run.dt_out };
         check("dt_out", dt_out, dt_out > 0.0, "give a time above 0")?;
         check(
@@ -119,12 +110,7 @@ impl RunPlan {
             run.t_end / dt_out <= MOST_ROWS,
             "this gives more than 20 thousand million rows: give a longer time",
         )?;
-        check(
-            "escape_norm",
-            run.escape_norm_in(1.0),
-            run.escape_norm_in(1.0) > 0.0,
-            "give a number above 0",
-        )?;
+        let escape_norm = escape_norm(study, scales)?;
         study.starts(1)?.check()?;
         if run.max_steps == 0 {
             return Err(Error::Setting { key: "max_steps", value: "0".into(), remedy: "give at least 1" });
@@ -133,8 +119,7 @@ impl RunPlan {
             check("return_map.x_max", map.x_max, map.x_min < map.x_max, "give a number above x_min")?;
         }
         check_figure(&study.figure)?;
-        let scales = Scales::of(study, &[])?;
-        let control = control(study, method, &scales)?;
+        let control = control(study, method, scales)?;
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
         let parameters = Named(names.zip(study.values()?).collect());
         let model = info.build(&parameters.values())?;
@@ -155,7 +140,7 @@ impl RunPlan {
             stepper: method.name().to_owned(),
             control,
             max_steps: run.max_steps,
-            escape_norm: run.escape_norm_in(scales.largest()),
+            escape_norm,
             return_map: study.return_map.clone(),
             noise,
         };
@@ -223,18 +208,28 @@ pub fn stepper(name: &str) -> Result<Method, Error> {
     })
 }
 
+/// The norm beyond which a shape of a study has escaped.
+///
+/// # Errors
+/// [`Error::Setting`].
+pub fn escape_norm(study: &Study, scales: Scales) -> Result<f64, Error> {
+    let norm = study.run.escape_norm.unwrap_or(scales.escape_norm());
+    check("escape_norm", norm, norm > 0.0, "give a number above 0")?;
+    Ok(norm)
+}
+
 /// The step control of a study.
 ///
 /// # Errors
 /// [`Error::Setting`]; a step and a tolerance together.
-pub(crate) fn control(study: &Study, method: Method, scales: &Scales) -> Result<Control, Error> {
+pub fn control(study: &Study, method: Method, scales: Scales) -> Result<Control, Error> {
     let run = &study.run;
     let control = match run.step {
         None if method.is_adaptive() => {
             let info = study.info()?;
             let atol = match run.atol {
                 Some(atol) => atol,
-                None => info.absolute_tolerance(run.rtol) * scales.smallest(),
+                None => scales.absolute_tolerance(info.absolute_tolerance(run.rtol)),
             };
             Control::Adaptive { rtol: run.rtol, atol }
         }

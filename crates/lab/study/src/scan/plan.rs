@@ -2,12 +2,11 @@
 
 use super::Axis;
 use crate::plan::{
-    Control, LONGEST, Named, Plan, Question, check, check_no_noise, check_stability, check_steps, control,
-    stepper,
+    Control, Named, Plan, Question, check, check_no_noise, check_stability, check_steps, control,
+    escape_norm, stepper,
 };
 use crate::random::Random;
-use crate::scales::Scales;
-use crate::{Error, Perturbation, Study, Ties, UnitSettings};
+use crate::{Error, Perturbation, Scales, Study, Ties, UnitSettings};
 use motiform_dynamics::steppers::Method;
 use motiform_models::{ModelInfo, ModelName, parameters};
 use motiform_store::Kind;
@@ -16,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change
 /// (tests/all/scan/bits.rs notices), so that no
 /// folder ever contains rows of two programs that compute differently.
-pub const SCAN_FORMAT: u32 = 11;
+pub const SCAN_FORMAT: u32 = 12;
 
 /// Maximum number of cells of a scan, and of initial states per cell.
 const MOST: (usize, u64) = (100_000_000, 100_000);
@@ -109,13 +108,13 @@ impl ScanPlan {
         let study = &started(study, &starts)?.perturbed()?.0;
         let method = stepper(&study.run.stepper)?;
         let (run, scan) = (&study.run, &study.scan);
-        check_settings(study)?;
-        check_no_noise(run.largest_noise())?;
         check_axes(study)?;
+        let scales = study.scales_over(&scan.axes)?;
+        check_settings(study, scales)?;
+        check_no_noise(run.largest_noise())?;
         let free = |name: &str| scan.axes.iter().any(|axis| axis.name == name);
         study.ties.check_free(scan.axes.iter().map(|axis| axis.name.as_str()))?;
         let varies = |name: &str| free(name) || study.ties.get(name).is_some();
-        let scales = Scales::of(study, &scan.axes)?;
         let names = info.parameters().iter().map(|spec| spec.name.to_owned());
         let fixed = names.zip(study.values()?).filter(|(name, _)| !varies(name)).collect();
         // Nothing that a row tells depends on the position, and the axes give what they vary.
@@ -133,9 +132,9 @@ impl ScanPlan {
             random: study.starts_over(scan.samples, &scan.axes)?,
             initial: Named(initial),
             stepper: method.name().to_owned(),
-            control: control(study, method, &scales)?,
+            control: control(study, method, scales)?,
             max_steps: run.max_steps,
-            escape_norm: run.escape_norm_in(scales.largest()),
+            escape_norm: escape_norm(study, scales)?,
             budget: scan.budget,
         };
         let title = crate::titles::of_scan(study, info);
@@ -251,11 +250,10 @@ impl ScanPlan {
 }
 
 /// The numbers that a scan uses in addition to its axes.
-fn check_settings(study: &Study) -> Result<(), Error> {
+fn check_settings(study: &Study, scales: Scales) -> Result<(), Error> {
     let (run, scan) = (&study.run, &study.scan);
-    check("escape_norm", run.escape_norm_in(1.0), run.escape_norm_in(1.0) > 0.0, "give a number above 0")?;
     study.starts(1)?.check()?;
-    let budget = scan.budget >= 0.0 && scan.budget <= LONGEST;
+    let budget = (0.0..=scales.longest()).contains(&scan.budget);
     check("budget", scan.budget, budget, "give a model time above 0, at most 1e9, or 0 for the default")?;
     let counts = [("samples", scan.samples, MOST.1), ("max_steps", run.max_steps, u64::MAX)];
     for (key, value, most) in counts {
