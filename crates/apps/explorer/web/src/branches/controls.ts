@@ -1,6 +1,7 @@
 /** The controls of the branches: which side of the panel is shown, along which parameter, what is drawn, start and stop, progress. */
 
 import { byId, setText } from "../dom";
+import { typeset } from "../numbers";
 import type { Parameter } from "../protocol";
 import { symbolOption } from "../symbols";
 import type { Ordinate } from "./set";
@@ -61,7 +62,7 @@ export class BranchControls {
   /** What is said where there is nothing to draw. */
   explain(empty: boolean): void {
     this.note.hidden = !empty;
-    setText(this.note, this.why ? `Not followed: ${this.why}` : this.under ? "" : EXPLAINED);
+    setText(this.note, this.why ? `Not followed: ${typeset(this.why)}` : this.under ? "" : EXPLAINED);
   }
 
   private state(under: boolean, text: string, done: number): void {
