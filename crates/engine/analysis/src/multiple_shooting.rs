@@ -154,7 +154,7 @@ impl<'b> Nodes<'b> {
         let fixed = self.fixed(0);
         let rows = count * dim + fixed.len();
         let turns = self.body.symmetry().rotations;
-        let [time, angle] = Units::of(self.body).time_and_angle();
+        let [time, angle] = Units::of_shape(self.body, &self.shapes[0]).time_and_angle();
         let mut columns = vec![vec![0.0; rows]; count * dim + 1 + usize::from(turns)];
         for (i, part) in parts.iter().enumerate() {
             let last = i + 1 == count;

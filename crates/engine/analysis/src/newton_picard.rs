@@ -68,7 +68,7 @@ impl<'b> Newton<'b> {
             angle: guess.angle,
             mirrored: guess.mirrored,
             directions,
-            units: Units::of(body),
+            units: Units::of_shape(body, &guess.shape),
         };
         newton.orthonormalise();
         newton
@@ -77,7 +77,7 @@ impl<'b> Newton<'b> {
     /// At an orbit, following nothing yet.
     pub(crate) fn at(body: &'b dyn Equivariant, orbit: &PeriodicOrbit) -> Self {
         let PeriodicOrbit { time, angle, mirrored, .. } = *orbit;
-        let units = Units::of(body);
+        let units = Units::of_shape(body, &orbit.shape);
         Self { body, shape: orbit.shape.clone(), time, angle, mirrored, directions: Vec::new(), units }
     }
 

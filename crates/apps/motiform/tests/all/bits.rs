@@ -27,7 +27,7 @@ const RECORDED: [(&str, &str); 15] = [
     ("classify tensor --preset fig1 --set kappa2=-0.06 --set gamma=0.02", "19750d4d56db8e45"),
     ("classify tensor --preset fig5a", "7c1202f532df06b7"),
     ("classify tensor --preset fig5b --samples 8", "38c74b21bf9588b9"),
-    ("classify cell --set length=29.2", "6c30af8facd8a875"),
+    ("classify cell --set length=29.2", "32f57218504d59f2"),
     ("lyapunov tensor --preset fig5b --t-end 300", "5c73329ab624b31c"),
     ("lyapunov tensor --preset fig5b --t-end 300 --samples 9", "c206c76add686dce"),
     ("lyapunov cell --set length=21.75 --transient 200 --t-end 200", "d3d2570f233ef44f"),

@@ -61,7 +61,8 @@ const RESOLVED: f64 = 0.01;
 #[derive(Clone, Debug)]
 pub struct Deflation {
     known: Vec<Known>,
-    units: Units,
+    /// The unit of the equations' shapes.
+    unit: f64,
 }
 
 /// A known equilibrium.
@@ -80,7 +81,7 @@ impl Deflation {
     /// Without any known equilibrium.
     #[must_use]
     pub fn of(body: &dyn Equivariant) -> Self {
-        Self { known: Vec::new(), units: Units::of(body) }
+        Self { known: Vec::new(), unit: Units::of(body).length }
     }
 
     /// Returns `true` if two equilibria are one, up to rotations.
@@ -91,7 +92,7 @@ impl Deflation {
         one: &RelativeEquilibrium,
         other: &RelativeEquilibrium,
     ) -> bool {
-        one.is_same(body, other, self.units.length)
+        one.is_same(body, other, self.unit)
     }
 
     /// Returns `true` if a solution is nearer to a root of higher order than a known one of the same root.
@@ -103,14 +104,14 @@ impl Deflation {
         known: &RelativeEquilibrium,
     ) -> bool {
         new.residual < known.residual
-            && !near(body, new.distance(body, &known.shape), &known.shape, self.units.length)
+            && !near(body, new.distance(body, &known.shape), &known.shape, self.unit)
     }
 
     /// Adds an equilibrium to the known ones.
     pub fn add(&mut self, body: &dyn Equivariant, known: &RelativeEquilibrium) {
         let error = norm(&known.uncertainty(body).shape);
         let copies = Copies::of(body, &known.shape);
-        let isolated = known.is_isolated(error, self.units.length);
+        let isolated = known.is_isolated(error, self.unit);
         self.known.push(Known { copies, error, turning_rate: known.turning_rate, isolated });
     }
 
@@ -124,7 +125,7 @@ impl Deflation {
         let mut shape = guess.to_vec();
         let rate = body.rates(&shape);
         let mut omega = turning_of_shape(body, &shape, &rate);
-        let turning = self.units.turning();
+        let turning = Units::of_shape(body, guess).turning();
         for _ in 0..STEPS {
             let step = step(body, (&shape, omega), turning)?;
             let (turned, step) = step.split_last()?;
@@ -165,12 +166,10 @@ impl Deflation {
             let errors = error + if known.isolated { known.error } else { 0.0 };
             let distance = found.distance(body, known.copies.shape());
             distance > APART * errors
-                && !near(body, distance, known.copies.shape(), self.units.length)
-                && !is_flat(body, found, (&known.copies, known.turning_rate), self.units.length)
+                && !near(body, distance, known.copies.shape(), self.unit)
+                && !is_flat(body, found, (&known.copies, known.turning_rate), self.unit)
         };
-        found.is_isolated(error, self.units.length)
-            && self.known.iter().all(apart)
-            && is_resolved(body, &found.shape)
+        found.is_isolated(error, self.unit) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
     }
 }
 

@@ -20,7 +20,7 @@ impl RelativeEquilibrium {
     /// Each step solves `(Df - omega G) du - Gu domega = -(f - omega Gu)` for the smallest `(du, domega)`: there is one
     /// solution per direction along the group orbit, and the smallest step does not move along it. Works for circles,
     /// pure modes and bodies at rest alike. Each equation is measured against its own largest coefficient: the rates of modes differ by
-    /// many powers of ten. `domega` is measured in the unit of rates over that of lengths ([`Units`]): the smallest step is the same one in
+    /// many powers of ten. `domega` is measured in the unit of rates over the size of the guess ([`Units`]): the smallest step is the same one in
     /// other units.
     ///
     /// # Checked by  tests/all/equilibrium.rs: the analytic states of the reduced model, eigenvalues against its formulas
@@ -29,7 +29,7 @@ impl RelativeEquilibrium {
         let mut shape = guess.to_vec();
         let rate = body.rates(&shape);
         let mut omega = turning_of_shape(body, &shape, &rate);
-        let turning = Units::of(body).turning();
+        let turning = Units::of_shape(body, guess).turning();
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
             let (unknowns, target) = equations(body, (&shape, omega), turning);

@@ -90,6 +90,12 @@ impl Units {
         self.rate / self.length
     }
 
+    /// The same with the length of a shape, which may be far smaller than that at which terms balance.
+    pub(crate) fn of_shape(body: &dyn Equivariant, shape: &[f64]) -> Self {
+        let units = Self::of(body);
+        Self { length: prefix(units.size(norm(shape))), ..units }
+    }
+
     /// The size of a shape, or that of the equations for one that is as good as nothing.
     #[must_use]
     pub fn size(self, shape: f64) -> f64 {
