@@ -20,8 +20,8 @@ impl RelativeEquilibrium {
     /// Each step solves `(Df - omega G) du - Gu domega = -(f - omega Gu)` for the smallest `(du, domega)`: there is one
     /// solution per direction along the group orbit, and the smallest step does not move along it. Works for circles,
     /// pure modes and bodies at rest alike. Each equation is measured against its own largest coefficient: the rates of modes differ by
-    /// many powers of ten. `domega` is measured in the unit of rates over the size of the guess ([`Units`]): the smallest step is the same one in
-    /// other units.
+    /// many powers of ten. `domega` is measured in the unit of rates over the size of the guess ([`Units`]): the smallest step is the same
+    /// one in other units.
     ///
     /// # Checked by  tests/all/equilibrium.rs: the analytic states of the reduced model, eigenvalues against its formulas
     #[must_use]
