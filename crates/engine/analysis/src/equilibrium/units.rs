@@ -90,10 +90,11 @@ impl Units {
         self.rate / self.length
     }
 
-    /// The same with the length of a shape, which may be far smaller than that at which terms balance.
+    /// The length of a shape, which may be far from that at which terms balance, and the rate of shapes of that length.
     pub(crate) fn of_shape(body: &dyn Equivariant, shape: &[f64]) -> Self {
-        let units = Self::of(body);
-        Self { length: prefix(units.size(norm(shape))), ..units }
+        let length = prefix(Self::of(body).size(norm(shape)));
+        let centre = vec![0.0; body.dim()];
+        Self { length, rate: prefix(fastest(&[body], &centre, length)) }
     }
 
     /// The size of a shape, or that of the equations for one that is as good as nothing.
