@@ -1,4 +1,4 @@
-//! A change of the law in the course of the record, and the test of handedness beside it.
+//! Tests for coefficients that change during the record, and the test of handedness that allows for such changes.
 //!
 //! A cell that turns one way while its coefficients change needs a different real coefficient at each time. One complex coefficient may
 //! describe it better than one real coefficient does, and the cell is called handed. Where the law of each part of the record has real

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::checks::check;
 use motiform_analysis::equilibrium::{Units, balance, largest_balance, prefix};
-use motiform_dynamics::{Equivariant, Model};
+use motiform_dynamics::Equivariant;
 use motiform_models::ModelInfo;
 
 /// Maximum model time of equations with rates of ordinary size: beyond it, the time has too few digits for steps of order 1.
@@ -29,27 +29,39 @@ impl Scales {
     }
 
     /// Those of ordinary equations.
-    pub(crate) const ORDINARY: Self = Self { length: 1.0, largest: 1.0, rate: 1.0 };
+    pub const ORDINARY: Self = Self { length: 1.0, largest: 1.0, rate: 1.0 };
 
-    /// The scales for all of some bodies: the smallest length and rate, and the largest size. (There is one at least.)
-    pub(crate) fn of_all(bodies: &[Box<dyn Model>]) -> Self {
-        let both = |one: Self, other: Self| Self {
-            length: one.length.min(other.length),
-            largest: one.largest.max(other.largest),
-            rate: one.rate.min(other.rate),
-        };
-        bodies.iter().map(|body| Self::of(body.as_ref())).reduce(both).unwrap_or(Self::ORDINARY)
+    /// The scales of a model at all of these parameters: the smallest length and rate, and the largest size.
+    pub(crate) fn over(info: &ModelInfo, all: &[Vec<f64>]) -> Result<Self, Error> {
+        let mut scales = all.iter().map(|values| Self::of_model(info, values));
+        let first = scales.next().unwrap_or(Ok(Self::ORDINARY))?;
+        scales.try_fold(first, |one, other| {
+            let other = other?;
+            Ok(Self {
+                length: one.length.min(other.length),
+                largest: one.largest.max(other.largest),
+                rate: one.rate.min(other.rate),
+            })
+        })
     }
 
-    /// The size of random starts of these bodies: that of their model, if it says one other than 1, or twice that at which their terms
+    /// The size of random starts of a model at all of these parameters: its own, if that is not 1, or twice the size at which terms
     /// balance. `None` where shapes have ordinary sizes.
-    pub(crate) fn starts(bodies: &[Box<dyn Model>], size: f64) -> Option<f64> {
-        if bodies.iter().all(|body| Units::of(body.as_ref()).length == 1.0) {
-            return None;
+    pub(crate) fn starts(info: &ModelInfo, all: &[Vec<f64>]) -> Result<Option<f64>, Error> {
+        let lengths: Vec<f64> = all
+            .iter()
+            .map(|values| Ok(Self::of_model(info, values)?.length))
+            .collect::<Result<_, Error>>()?;
+        if lengths.iter().all(|length| *length == 1.0) {
+            return Ok(None);
         }
-        let all: Vec<&dyn Equivariant> =
+        if info.size != 1.0 {
+            return Ok(Some(info.size));
+        }
+        let bodies: Vec<_> = all.iter().map(|values| info.build(values)).collect::<Result<_, _>>()?;
+        let bodies: Vec<&dyn Equivariant> =
             bodies.iter().map(|body| body.as_ref() as &dyn Equivariant).collect();
-        Some(if size == 1.0 { one_digit(2.0 * balance(&all)) } else { size })
+        Ok(Some(one_digit(2.0 * balance(&bodies))))
     }
 
     /// The scales of a model at these parameters, in registry order. The models of this program have no dimensions: their sizes are

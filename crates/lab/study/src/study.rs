@@ -209,12 +209,8 @@ impl Study {
         if let Some(random) = self.random {
             return Ok(random);
         }
-        let (several, info) = (samples > 1, self.info()?);
-        let size = match info.is_built_in() {
-            true => None,
-            false => Scales::starts(&self.bodies_over(axes)?, info.size),
-        };
-        Ok(match (size, several) {
+        let info = self.info()?;
+        Ok(match (Scales::starts(info, &self.values_over(axes)?)?, samples > 1) {
             (Some(size), true) => Random::basins(size),
             (Some(size), false) => Random::Within(0.01 * size),
             (None, true) => Random::basins(info.size),
@@ -224,18 +220,7 @@ impl Study {
 
     /// Its scales where axes replace parameters: those of the equations at the ends of the axes.
     pub(crate) fn scales_over(&self, axes: &[Axis]) -> Result<Scales, Error> {
-        match self.info()?.is_built_in() {
-            true => Ok(Scales::ORDINARY),
-            false => Ok(Scales::of_all(&self.bodies_over(axes)?)),
-        }
-    }
-
-    /// The bodies at the ends of these axes.
-    fn bodies_over(&self, axes: &[Axis]) -> Result<Vec<Box<dyn Model>>, Error> {
-        let info = self.info()?;
-        let bodies =
-            self.values_over(axes)?.iter().map(|values| info.build(values)).collect::<Result<_, _>>();
-        Ok(bodies?)
+        Scales::over(self.info()?, &self.values_over(axes)?)
     }
 
     /// All parameter values, in registry order.

@@ -90,9 +90,9 @@ impl Units {
         self.rate / self.length
     }
 
-    /// The length of a shape, which may be far from that at which terms balance, and the rate of shapes of that length.
+    /// The size of a shape, which may be far from that at which terms balance, and the rate of shapes of that size.
     pub(crate) fn of_shape(body: &dyn Equivariant, shape: &[f64]) -> Self {
-        let length = prefix(Self::of(body).size(norm(shape)));
+        let length = prefix(norm(shape));
         let centre = vec![0.0; body.dim()];
         Self { length, rate: prefix(fastest(&[body], &centre, length)) }
     }

@@ -96,8 +96,8 @@ fn special_points(
     branch.filter(|point| point.special.is_some()).collect()
 }
 
-/// The symmetric cycle at large rho loses its symmetry at 312.97 (Sparrow 1982: about 313), from whichever range and with whichever steps
-/// the place is reached: beside it the cycle is known to the round-off divided by the growth.
+/// The symmetric cycle at large rho loses its symmetry at 312.97 (Sparrow 1982: about 313), for every range and
+/// step size. Close to that point the error of the cycle is the round-off divided by the growth rate.
 #[test]
 fn lorenzs_symmetric_cycle_loses_its_symmetry_in_every_range() {
     for low in [290.0, 295.0, 300.0, 305.0, 310.0, 312.0] {

@@ -85,33 +85,36 @@ pub struct Settings {
 const ABSOLUTE: f64 = 1e-3;
 
 impl Settings {
-    /// The settings of `run` (its stepper, tolerances or step, and bounds); its times are not used. Those that are not given are
-    /// in the units of the function, by its values at time 0.
+    /// The settings of `run` (its stepper, tolerances or step, and bounds). Those that are not given are in the units of the function,
+    /// by its values at time 0; what is wrong whatever the units, of its times too, is refused before the function is called.
     ///
     /// # Errors
     /// An unknown or exponential stepper, a value out of range.
     pub fn new(run: &RunSettings, flow: &Flow<'_>) -> Result<Self, Error> {
-        let scales = Scales::of(flow);
         let method = stepper(&run.stepper)?;
         if let Method::Exponential(_) = method {
             let remedy = "exponential methods need the linear part of the equations, which a function does not tell: give dop853, \
                           dopri5, rk4, heun or euler";
             return Err(Error::Setting { key: "stepper", value: run.stepper.clone(), remedy });
         }
-        let control = match run.step {
+        let control = |scales: Scales| match run.step {
             None if method.is_adaptive() => StepControl::Adaptive {
                 rtol: run.rtol,
                 atol: run.atol.unwrap_or(scales.absolute_tolerance(ABSOLUTE * run.rtol)),
             },
             step => StepControl::Fixed { step: step.unwrap_or(plan::DEFAULT_STEP) },
         };
-        method.validate(control)?;
-        let escape_norm = run.escape_norm.unwrap_or(scales.escape_norm());
-        check("escape_norm", escape_norm, escape_norm > 0.0, "give a number above 0")?;
+        method.validate(control(Scales::ORDINARY))?;
+        check("t_end", run.t_end, run.t_end > 0.0, "give a time above 0")?;
+        check("transient", run.transient, run.transient >= 0.0, "give a time of at least 0")?;
+        let given = run.escape_norm.unwrap_or(1.0);
+        check("escape_norm", given, given > 0.0, "give a number above 0")?;
         if run.max_steps == 0 {
             return Err(Error::Setting { key: "max_steps", value: "0".into(), remedy: "give at least 1" });
         }
-        Ok(Self { method, control, max_steps: run.max_steps, escape_norm, scales })
+        let scales = Scales::of(flow);
+        let escape_norm = run.escape_norm.unwrap_or(scales.escape_norm());
+        Ok(Self { method, control: control(scales), max_steps: run.max_steps, escape_norm, scales })
     }
 }
 

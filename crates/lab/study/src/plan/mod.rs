@@ -11,9 +11,8 @@ pub use crate::control::{Control, NoiseSettings};
 pub use crate::named::Named;
 pub use motiform_store::sha256_hex;
 pub use provenance::{Provenance, pretty};
-pub use run::{
-    Computation, DEFAULT_STEP, MOST_IN_MEMORY, MOST_ROWS, PLAN_FORMAT, RunPlan, control, escape_norm, stepper,
-};
+pub use run::{Computation, DEFAULT_STEP, MOST_IN_MEMORY, MOST_ROWS, PLAN_FORMAT, RunPlan, stepper};
+pub(crate) use run::{control, escape_norm};
 
 use crate::Error;
 use motiform_models::{ModelInfo, ModelName};

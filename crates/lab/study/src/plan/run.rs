@@ -212,7 +212,7 @@ pub fn stepper(name: &str) -> Result<Method, Error> {
 ///
 /// # Errors
 /// [`Error::Setting`].
-pub fn escape_norm(study: &Study, scales: Scales) -> Result<f64, Error> {
+pub(crate) fn escape_norm(study: &Study, scales: Scales) -> Result<f64, Error> {
     let norm = study.run.escape_norm.unwrap_or(scales.escape_norm());
     check("escape_norm", norm, norm > 0.0, "give a number above 0")?;
     Ok(norm)
@@ -222,7 +222,7 @@ pub fn escape_norm(study: &Study, scales: Scales) -> Result<f64, Error> {
 ///
 /// # Errors
 /// [`Error::Setting`]; a step and a tolerance together.
-pub fn control(study: &Study, method: Method, scales: Scales) -> Result<Control, Error> {
+pub(crate) fn control(study: &Study, method: Method, scales: Scales) -> Result<Control, Error> {
     let run = &study.run;
     let control = match run.step {
         None if method.is_adaptive() => {
