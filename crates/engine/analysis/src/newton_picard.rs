@@ -68,7 +68,7 @@ impl<'b> Newton<'b> {
             angle: guess.angle,
             mirrored: guess.mirrored,
             directions,
-            units: Units::of_shape(body, &guess.shape),
+            units: Units::of_shape(body, guess.shape),
         };
         newton.orthonormalise();
         newton
