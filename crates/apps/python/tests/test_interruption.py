@@ -53,10 +53,15 @@ def test_ctrl_c_is_answered(name: str) -> None:
 
 
 FIRST = """
-import motiform, sys
-print("ready", "dask" in sys.modules, flush=True)
+import motiform, signal, sys
+def press(event, arguments, names=[]):
+    if event == "import" and not names:
+        names.append(arguments[0])
+        print("imports", names[0], flush=True)
+        signal.raise_signal(signal.SIGINT)
+sys.addaudithook(press)
 try:
-    motiform.scan(motiform.preset("fig5b"), {axes}, samples={samples}, out={out!r})
+    motiform.scan(motiform.preset("fig5b"), {{'kappa2': '0.4:0.6:2000'}}, samples=50, out={out!r})
 except motiform.Interrupted as stop:
     print("stopped", *stop.result.regime.shape, int((stop.result.regime < 0).sum()), flush=True)
 """
@@ -64,13 +69,10 @@ except motiform.Interrupted as stop:
 
 @pytest.mark.parametrize("out", [None, "line"])
 def test_ctrl_c_at_the_first_scan_waits_for_its_imports(out: str | None, tmp_path: Path) -> None:
-    program = FIRST.format(axes="{'kappa2': '0.4:0.6:2000'}", samples=50, out=out)
-    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True, cwd=tmp_path) as process:
-        assert process.stdout is not None and process.stdout.readline().startswith("ready")
-        time.sleep(0.1)
-        process.send_signal(signal.SIGINT)
-        words = process.stdout.read().split()
-    assert words[:3] == ["stopped", "2000", "50"] and int(words[3]) > 0, words
+    program = FIRST.format(out=out)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path)
+    words = done.stdout.split()
+    assert words[:1] + words[2:5] == ["imports", "stopped", "2000", "50"] and int(words[5]) > 0, done
 
 
 def test_ctrl_c_is_not_lost_if_the_scan_is_over_at_once(monkeypatch: pytest.MonkeyPatch) -> None:

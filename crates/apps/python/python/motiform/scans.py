@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import warnings
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from threading import Thread
+from threading import current_thread, main_thread
 from typing import Any
 
 import numpy as np
@@ -125,18 +126,21 @@ def scan(
 
 
 def _first_dataset() -> KeyboardInterrupt | None:
-    """Makes a first dataset, for which xarray imports much for seconds: in a thread of its own, where Ctrl-C does not end an import halfway.
+    """Makes a first dataset, for which xarray imports much for seconds. Ctrl-C does not end an import halfway.
 
-    Ctrl-C is kept: the scan then ends with the rows that it has.
+    It is kept: the scan then ends with the rows that it has.
     """
-    thread = Thread(target=lambda: xr.Dataset({"first": ("x", [0])}))
-    thread.start()
+    pressed: list[KeyboardInterrupt] = []
+    # In other threads, and with a handler of the program's own, Ctrl-C raises nothing here.
+    raises = current_thread() is main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if raises:
+        signal.signal(signal.SIGINT, lambda *_: pressed.append(KeyboardInterrupt()))
     try:
-        thread.join()
-    except KeyboardInterrupt as stop:
-        thread.join()
-        return stop
-    return None
+        xr.Dataset({"first": ("x", [0])})
+    finally:
+        if raises:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+    return pressed[0] if pressed else None
 
 
 def _stop(_: float) -> None:

@@ -105,9 +105,6 @@ pub trait Bundle: Scalar<Real = Self> {
     /// Writes the lanes to the front of `lanes`.
     fn store(self, lanes: &mut [f64]);
 
-    /// Square root.
-    fn sqrt(self) -> Self;
-
     /// Absolute value.
     fn abs(self) -> Self;
 
@@ -196,11 +193,6 @@ impl Bundle for f64 {
     #[inline(always)]
     fn store(self, lanes: &mut [f64]) {
         lanes[0] = self;
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> f64 {
-        f64::sqrt(self)
     }
 
     #[inline(always)]

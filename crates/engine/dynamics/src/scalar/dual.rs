@@ -116,6 +116,26 @@ impl<T: Scalar, const K: usize> Scalar for Dual<T, K> {
         let (sin, cos) = self.value.sin_cos();
         (self.map(sin, |d| cos * d), self.map(cos, |d| -(sin * d)))
     }
+
+    /// `(exp x)' = exp x x'`.
+    #[inline]
+    fn exp(self) -> Self {
+        let exp = self.value.exp();
+        self.map(exp, |d| exp * d)
+    }
+
+    /// `(ln x)' = x' / x`.
+    #[inline]
+    fn ln(self) -> Self {
+        self.map(self.value.ln(), |d| d / self.value)
+    }
+
+    /// `(sqrt x)' = x' / (2 sqrt x)`.
+    #[inline]
+    fn sqrt(self) -> Self {
+        let sqrt = self.value.sqrt();
+        self.map(sqrt, |d| d / (sqrt * 2.0))
+    }
 }
 
 impl<T: Scalar, const K: usize> Add for Dual<T, K> {

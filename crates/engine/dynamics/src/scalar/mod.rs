@@ -88,6 +88,15 @@ pub trait Scalar:
     /// Sine and cosine (`self` in rad), by `libm` lane by lane: the same bits on every machine.
     fn sin_cos(self) -> (Self, Self);
 
+    /// The exponential, by `libm` lane by lane.
+    fn exp(self) -> Self;
+
+    /// The natural logarithm, by `libm` lane by lane: not a number below 0.
+    fn ln(self) -> Self;
+
+    /// The square root, rounded correctly: not a number below 0. Its derivative is not finite at 0.
+    fn sqrt(self) -> Self;
+
     /// Zero, of the same kind as `self`.
     #[inline(always)]
     fn zero(self) -> Self {
@@ -134,5 +143,20 @@ impl Scalar for f64 {
     #[inline]
     fn sin_cos(self) -> (f64, f64) {
         libm::sincos(self)
+    }
+
+    #[inline]
+    fn exp(self) -> f64 {
+        libm::exp(self)
+    }
+
+    #[inline]
+    fn ln(self) -> f64 {
+        libm::log(self)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
     }
 }

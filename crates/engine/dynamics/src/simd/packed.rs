@@ -51,6 +51,19 @@ pub trait Registers: Copy + Send + Sync + 'static {
 #[repr(transparent)]
 pub struct Packed<R>(R);
 
+impl<R: Registers> Packed<R> {
+    /// A function of one number, lane by lane.
+    #[inline(always)]
+    fn each(self, function: impl Fn(f64) -> f64) -> Self {
+        let mut lanes = [0.0; MOST_LANES];
+        self.0.store(&mut lanes);
+        for x in &mut lanes[..R::LANES] {
+            *x = function(*x);
+        }
+        Self(R::load(&lanes))
+    }
+}
+
 impl<R: Registers> fmt::Debug for Packed<R> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut lanes = [0.0; MOST_LANES];
@@ -104,6 +117,21 @@ impl<R: Registers> Scalar for Packed<R> {
         }
         (Self(R::load(&sin)), Self(R::load(&cos)))
     }
+
+    #[inline(always)]
+    fn exp(self) -> Self {
+        self.each(libm::exp)
+    }
+
+    #[inline(always)]
+    fn ln(self) -> Self {
+        self.each(libm::log)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
 }
 
 impl<R: Registers> Bundle for Packed<R> {
@@ -122,11 +150,6 @@ impl<R: Registers> Bundle for Packed<R> {
     #[inline(always)]
     fn store(self, lanes: &mut [f64]) {
         self.0.store(lanes);
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
     }
 
     #[inline(always)]

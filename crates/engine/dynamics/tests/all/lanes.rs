@@ -5,7 +5,7 @@ use motiform_dynamics::simd::{InstructionSet, LaneKernel, run_lanes_on};
 use motiform_dynamics::{Bundle, Mask};
 use proptest::prelude::*;
 
-const NUMBERS: usize = 19;
+const NUMBERS: usize = 21;
 const MASKS: usize = 7;
 
 /// The results of one bundle: numbers lane by lane, and masks.
@@ -41,6 +41,8 @@ impl LaneKernel for Operations<'_> {
             a.scale(b),
             a.abs(),
             a.abs().sqrt(),
+            a.exp(),
+            a.abs().ln(),
             a.max(b),
             a.min(b),
             B::select(mask, a, b),
@@ -76,6 +78,8 @@ fn expected(input: &[[f64; MOST_LANES]; 3], lane: usize) -> ([f64; NUMBERS], [bo
         b * a,
         a.abs(),
         a.abs().sqrt(),
+        libm::exp(a),
+        libm::log(a.abs()),
         if a < b { b } else { a },
         if b < a { b } else { a },
         if mask.has(lane) { a } else { b },

@@ -7,7 +7,7 @@ use motiform_dynamics::conformance::{derivative_defect, lane_mismatches, purity_
 use motiform_dynamics::steppers::runge_kutta::march;
 use motiform_dynamics::steppers::{RK4, STEPPERS};
 use motiform_dynamics::{Bundle as _, Dual, Lanes, Scalar as _, VectorField};
-use num_dual::Dual64;
+use num_dual::{Dual2_64, Dual64, DualNum as _};
 use proptest::prelude::*;
 
 proptest! {
@@ -27,6 +27,25 @@ proptest! {
         let expected_y = theirs(Dual64::from_re(x), Dual64::from_re(y).derivative());
         let got_y = ours(Dual::constant_of(x), Dual::variable(y, 0));
         prop_assert!((got_y.derivative[0] - expected_y.eps).abs() <= 1e-12 * expected_y.eps.abs().max(1.0));
+    }
+
+    /// Functions and their first and second derivatives, also over duals of duals.
+    #[test]
+    fn functions_agree_with_num_dual(x in 0.1..3.0_f64) {
+        let nested = Dual::<Dual<f64, 1>, 1>::variable(Dual::variable(x, 0), 0);
+        let theirs = Dual2_64::from_re(x).derivative();
+        for (ours, theirs) in [
+            (nested.exp(), theirs.exp()),
+            (nested.ln(), theirs.ln()),
+            (nested.sqrt(), theirs.sqrt()),
+            (nested.sin_cos().0, theirs.sin()),
+            (nested.sin_cos().1, theirs.cos()),
+        ] {
+            let ours = [ours.value.value, ours.derivative[0].value, ours.derivative[0].derivative[0]];
+            for (ours, theirs) in ours.into_iter().zip([theirs.re, theirs.v1, theirs.v2]) {
+                prop_assert!((ours - theirs).abs() <= 1e-13 * theirs.abs().max(1.0), "{ours} {theirs}");
+            }
+        }
     }
 
     #[test]
