@@ -168,8 +168,8 @@ fn lives_with_a_memory_are_told_from_exponential_ones() {
     assert_eq!(memory(&[(few, 1.0)]).expect("sound"), None);
 }
 
-/// Quantiles of Weibull's laws of the shapes 2 and 2/3: lives that end more and more often, and less and less often. The places of both sets
-/// together have p = 0.19.
+/// Quantiles of Weibull's laws of the shapes 2 and 2/3: lives that end more and more often, and less and less often. The places of both
+/// sets together have p = 0.19.
 #[test]
 fn opposite_memories_do_not_cancel() {
     let set = |power: f64| {
