@@ -2,30 +2,37 @@
 
 use motiform_analysis::equilibrium::REACHED;
 use motiform_analysis::regime::Attractor;
-use motiform_analysis::symmetry::reduced_speed;
 use motiform_analysis::{RelativeEquilibrium, Verdict};
 use motiform_dynamics::Model;
 use motiform_dynamics::escape::norm;
+use motiform_models::ModelInfo;
+use motiform_study::{Error, Scales};
 
-/// A steady motion is sought, which takes time, only where the shape changes by less than this share of its size per model time.
-const SLOW: f64 = 1e-2;
+/// A steady motion is sought, which takes time, only where the first step of Newton's method is no longer than so many times the distance
+/// of a capture.
+const STEP: f64 = 10.0;
 
 /// Looks for which the motion at the end may be examined: a transient that lasts for longer is not taken for a regular motion.
 pub(crate) const LAST_LOOKS: f64 = 4.0;
 
-/// The slowest rate (inverse model time) of the stable steady motion that a shape has come close to; `size`: that of a typical state.
-pub(crate) fn captured(model: &dyn Model, shape: &[f64], size: f64) -> Option<f64> {
-    let rate = model.rates(shape);
-    if !is_slow(reduced_speed(model, shape, &rate), norm(shape), size) {
-        return None;
-    }
-    let steady = RelativeEquilibrium::reached(model, shape, 0.1 * size)?;
-    steady.is_stable().then(|| -steady.growth())
+/// The size of typical shapes of a model at these parameters: its own, if that is not 1, or that at which terms of its equations balance.
+pub(crate) fn typical(info: &ModelInfo, values: &[f64]) -> Result<f64, Error> {
+    Ok(if info.size == 1.0 { Scales::of_model(info, values)?.length } else { info.size })
 }
 
-/// Returns `true` if a shape of this norm that changes at this speed may be close to a steady motion.
-pub(crate) fn is_slow(speed: f64, norm: f64, size: f64) -> bool {
-    speed <= SLOW * norm.max(0.1 * size)
+/// The stable steady motion that a shape has come close to; `size`: that of a typical state. Both are measured in the units of the
+/// equations: a steady motion is close or not whatever the unit of length or time.
+pub(crate) fn captured(model: &dyn Model, shape: &[f64], size: f64) -> Option<RelativeEquilibrium> {
+    let step = RelativeEquilibrium::first_step(model, shape)?;
+    let may_be_close = step <= STEP * REACHED * norm(shape).max(0.1 * size);
+    let steady = may_be_close.then(|| RelativeEquilibrium::reached(model, shape, 0.1 * size))??;
+    steady.is_stable().then_some(steady)
+}
+
+/// The speed of the reduced shape at the distance of a capture, where the slowest deviation is left.
+pub(crate) fn slow(steady: &RelativeEquilibrium, size: f64) -> f64 {
+    let rate = steady.eigenvalues.first().map_or(0.0, |(re, im)| libm::hypot(*re, *im));
+    rate * REACHED * norm(&steady.shape).max(0.1 * size)
 }
 
 /// The time in which this rate (inverse model time) brings an orbit from far away to where its capture is noticed.

@@ -1,13 +1,12 @@
 //! Transient chaos: the exponent of the chaotic saddle, and the rate at which orbits leave it.
 
 use crate::analyse;
-use crate::captured::{LAST_LOOKS, captured, is_regular, is_slow, way};
+use crate::captured::{LAST_LOOKS, captured, is_regular, slow, typical, way};
 use crate::pool::spread;
 use motiform_analysis::{
     Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, classify, escape_rate, lyapunov, survival,
 };
 use motiform_dynamics::distributions::student_quantile;
-use motiform_dynamics::escape::norm;
 use motiform_dynamics::{Model, Outcome, StopOnly, Watch};
 use motiform_study::{Error, Plan, Random};
 use serde::Serialize;
@@ -94,13 +93,15 @@ pub fn saddle(
     let bounds = (c.escape_norm, c.max_steps);
     let of = (info, &c.parameters.values()[..]);
     let last = analyse::settings_of(of, settings.method, c.control, bounds, LAST_LOOKS * look);
+    let values = c.parameters.values();
+    let (size, small) = (typical(info, &values)?, Random::small(info, &[values])?);
     let one = |sample: usize| {
-        let start = Random::SMALL.shape(info, model.as_ref(), c.seed, sample as u64 + 1);
+        let start = small.shape(info, model.as_ref(), c.seed, sample as u64 + 1);
         let found = lyapunov(model.as_ref(), &start, &settings, &StopOnly(watch))?;
         let end = match found.outcome {
             Outcome::Interrupted { .. } => return Ok(None),
             Outcome::Escaped { .. } => Some(End::BlewUp),
-            Outcome::Completed { .. } => since(model.as_ref(), &found, info.size),
+            Outcome::Completed { .. } => since(model.as_ref(), &found, size),
             _ => Some(End::Stayed),
         };
         if let Some(end) = end {
@@ -114,12 +115,12 @@ pub fn saddle(
     runs.map(|runs| summarise(&runs, &settings, WAY_OUT * look)).transpose()
 }
 
-/// The capture of a completed run, since the last interval after which the shape changed fast.
+/// The capture of a completed run, since the last interval after which the shape changed faster than at the distance of a capture.
 fn since(model: &dyn Model, run: &Lyapunov, size: f64) -> Option<End> {
-    let rate = captured(model, &run.shape, size)?;
-    let is_fast = |speed: &f64| !is_slow(*speed, norm(&run.shape), size);
-    let last = run.reduced_speeds.iter().rposition(is_fast);
-    Some(End::Captured(last.map_or(run.transient, |place| run.history[place].0), way(rate)))
+    let steady = captured(model, &run.shape, size)?;
+    let slow = slow(&steady, size);
+    let last = run.reduced_speeds.iter().rposition(|speed| *speed > slow);
+    Some(End::Captured(last.map_or(run.transient, |place| run.history[place].0), way(-steady.growth())))
 }
 
 fn summarise(runs: &[(Lyapunov, End)], settings: &LyapunovSettings, way_out: f64) -> Result<Saddle, Error> {

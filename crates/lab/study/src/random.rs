@@ -1,8 +1,8 @@
 //! Random initial states: their sizes and directions.
 
-use crate::Error;
 use crate::initial::Uniform;
 use crate::plan::check;
+use crate::{Error, Scales};
 use motiform_dynamics::Model;
 use motiform_dynamics::digits::given;
 use motiform_models::ModelInfo;
@@ -33,6 +33,14 @@ pub enum Random {
 impl Random {
     /// The default distribution of a single start.
     pub const SMALL: Self = Self::Within(0.01);
+
+    /// Small starts of a model at all of these parameters: a hundredth of the size at which terms balance, if that is no ordinary one.
+    ///
+    /// # Errors
+    /// Values that the model rejects.
+    pub fn small(info: &ModelInfo, all: &[Vec<f64>]) -> Result<Self, Error> {
+        Ok(Scales::starts(info, all)?.map_or(Self::SMALL, |size| Self::Within(0.01 * size)))
+    }
 
     /// The default distribution of several starts: from a hundredth of the typical size of a model to the full size.
     #[must_use]

@@ -9,6 +9,9 @@ use motiform_models::ModelInfo;
 /// Maximum model time of equations with rates of ordinary size: beyond it, the time has too few digits for steps of order 1.
 const LONGEST: f64 = 1e9;
 
+/// Sizes at which the terms of ordinary equations balance.
+const ORDINARY_SIZES: std::ops::RangeInclusive<f64> = 0.1..=10.0;
+
 /// The scales of equations, from the sizes at which their terms balance: powers of 1000, 1 for equations of ordinary size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
@@ -48,20 +51,17 @@ impl Scales {
     /// The size of random starts of a model at all of these parameters: its own, if that is not 1, or twice the size at which terms
     /// balance. `None` where shapes have ordinary sizes.
     pub(crate) fn starts(info: &ModelInfo, all: &[Vec<f64>]) -> Result<Option<f64>, Error> {
-        let lengths: Vec<f64> = all
-            .iter()
-            .map(|values| Ok(Self::of_model(info, values)?.length))
-            .collect::<Result<_, Error>>()?;
-        if lengths.iter().all(|length| *length == 1.0) {
+        if info.is_built_in() {
             return Ok(None);
         }
         if info.size != 1.0 {
-            return Ok(Some(info.size));
+            return Ok((Self::over(info, all)?.length != 1.0).then_some(info.size));
         }
         let bodies: Vec<_> = all.iter().map(|values| info.build(values)).collect::<Result<_, _>>()?;
         let bodies: Vec<&dyn Equivariant> =
             bodies.iter().map(|body| body.as_ref() as &dyn Equivariant).collect();
-        Ok(Some(one_digit(2.0 * balance(&bodies))))
+        let size = balance(&bodies);
+        Ok((!ORDINARY_SIZES.contains(&size)).then(|| one_digit(2.0 * size)))
     }
 
     /// The scales of a model at these parameters, in registry order. The models of this program have no dimensions: their sizes are

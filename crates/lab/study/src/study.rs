@@ -209,13 +209,11 @@ impl Study {
         if let Some(random) = self.random {
             return Ok(random);
         }
-        let info = self.info()?;
-        Ok(match (Scales::starts(info, &self.values_over(axes)?)?, samples > 1) {
-            (Some(size), true) => Random::basins(size),
-            (Some(size), false) => Random::Within(0.01 * size),
-            (None, true) => Random::basins(info.size),
-            (None, false) => Random::SMALL,
-        })
+        let (info, all) = (self.info()?, self.values_over(axes)?);
+        if samples > 1 {
+            return Ok(Random::basins(Scales::starts(info, &all)?.unwrap_or(info.size)));
+        }
+        Random::small(info, &all)
     }
 
     /// Its scales where axes replace parameters: those of the equations at the ends of the axes.

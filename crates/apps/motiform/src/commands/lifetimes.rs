@@ -6,7 +6,7 @@ use crate::commands::subject;
 use crate::output::{End, plain, say, warn};
 use crate::progress::Progress;
 use motiform_analysis::LifeLaws;
-use motiform_dynamics::digits::given;
+use motiform_dynamics::digits::{four_digits, given};
 use motiform_lab::draw::lifetimes::draw_lifetimes;
 use motiform_lab::lifetimes::{LifeAt, Lifetimes, Lives, follow_lives_kept};
 use motiform_lab::scan::{Axis, ScanComputation};
@@ -209,9 +209,9 @@ fn row(at: &LifeAt, factor: f64) -> String {
         None if life.lower > 0.0 => format!("above {:.3e}", factor * life.lower),
         None => "-".to_owned(),
     };
-    let (delay, watched) = (factor * at.delay, number(Some(factor * life.watched)));
+    let (delay, watched) = (four_digits(factor * at.delay), number(Some(factor * life.watched)));
     format!(
-        "{:>12} {:>10} {:>10} {:>10} {delay:>10.0} {:>10} {watched:>10} {:>10}  {limits}",
+        "{:>12} {:>10} {:>10} {:>10} {delay:>10} {:>10} {watched:>10} {:>10}  {limits}",
         given(at.value),
         at.blew_up,
         at.captured,

@@ -55,6 +55,15 @@ impl RelativeEquilibrium {
         }
         None
     }
+
+    /// The length of the first step of Newton's method from a shape: about the distance of a steady motion, where one is close.
+    /// `None` where there is no step.
+    #[must_use]
+    pub fn first_step(body: &dyn Equivariant, shape: &[f64]) -> Option<f64> {
+        let omega = turning_of_shape(body, shape, &body.rates(shape));
+        let (unknowns, target) = equations(body, (shape, omega), Units::of_shape(body, shape).turning());
+        least_squares(&unknowns, &target).map(|step| norm(&step[..shape.len()]))
+    }
 }
 
 /// A shape below this part of the guess is on its way to a circle.

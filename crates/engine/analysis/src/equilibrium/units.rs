@@ -7,8 +7,12 @@ use crate::periodic::Flow;
 use motiform_dynamics::sample::ascending;
 use motiform_dynamics::{Equivariant, StepControl, model};
 
-/// Rays along which sizes are looked for.
+/// Rays along which rates are looked at, and fewest for sizes.
 const RAYS: usize = 2;
+
+/// Unknowns of all rays along which sizes are looked for: their median is that of many directions, so that the order of few equations is
+/// nothing to it.
+const UNKNOWNS: usize = 128;
 
 /// Coordinates that may have sizes of their own; of more than these, as of a field on a grid, all have one.
 const ALONE: usize = 32;
@@ -37,7 +41,7 @@ pub struct Units {
 }
 
 impl Units {
-    /// The units of a field: along rays on which modes decay with the third power of their number, the median
+    /// The units of a field: along rays on which modes decay with the third power of their number, where it has a meaning, the median
     /// of the sizes at which terms balance, and the rate there.
     #[must_use]
     pub fn of(body: &dyn Equivariant) -> Self {
@@ -77,7 +81,7 @@ impl Units {
             let velocity = model::velocity(body, &shape);
             libm::hypot(velocity[0], velocity[1])
         };
-        rays(body).into_iter().map(speed).fold(0.0, f64::max)
+        rays(body, RAYS).into_iter().map(speed).fold(0.0, f64::max)
     }
 
     /// The units of times and angles in which they and the shapes that they lead to are changes of one size.
@@ -108,7 +112,9 @@ impl Units {
 /// 1 where none do.
 #[must_use]
 pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
-    let mut sizes: Vec<f64> = bodies.iter().flat_map(|body| balances(*body, &rays(*body))).collect();
+    let count = |body: &dyn Equivariant| (UNKNOWNS / body.dim().max(1)).max(RAYS);
+    let of = |body: &&dyn Equivariant| balances(*body, &rays(*body, count(*body)));
+    let mut sizes: Vec<f64> = bodies.iter().flat_map(of).collect();
     ascending(&mut sizes);
     sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
 }
@@ -120,7 +126,7 @@ pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
 pub fn largest_balance(body: &dyn Equivariant) -> f64 {
     let alone = if body.dim() <= ALONE { body.dim() } else { 0 };
     let axis = |i: usize| (0..body.dim()).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
-    let directions: Vec<Vec<f64>> = rays(body).into_iter().chain((0..alone).map(axis)).collect();
+    let directions: Vec<Vec<f64>> = rays(body, RAYS).into_iter().chain((0..alone).map(axis)).collect();
     balances(body, &directions).last().copied().unwrap_or(1.0)
 }
 
@@ -161,16 +167,19 @@ pub fn prefix(x: f64) -> f64 {
     if x > 0.0 && x.is_finite() { libm::pow(1000.0, (libm::log10(x) / 3.0).round()) } else { 1.0 }
 }
 
-/// Directions of length 1 in general position.
-fn rays(body: &dyn Equivariant) -> Vec<Vec<f64>> {
-    let dim = body.dim();
+/// Directions of length 1 in general position. Without rotations and mirror the number of a mode is a name: all have the same size.
+fn rays(body: &dyn Equivariant, count: usize) -> Vec<Vec<f64>> {
+    let (dim, symmetry) = (body.dim(), body.symmetry());
     let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);
-    let mut part = |i: usize, ray: usize| {
+    let mut number = |i: usize| {
         unit[i] = 1.0;
         body.spin(&unit, &mut spin);
         unit[i] = 0.0;
-        let number = 1.0 + norm(&spin);
-        libm::cos((1.0 + (i + ray * dim) as f64) * 2.4) / (number * number * number) // no two of these parts are alike
+        if symmetry.rotations || symmetry.mirror { 1.0 + norm(&spin) } else { 1.0 }
+    };
+    let numbers: Vec<f64> = (0..dim).map(&mut number).collect();
+    let part = |i: usize, ray: usize| {
+        libm::cos((1.0 + (i + ray * dim) as f64) * 2.4) / (numbers[i] * numbers[i] * numbers[i]) // no two of these parts are alike
     };
     let ray = |ray: usize| {
         let mut direction: Vec<f64> = (0..dim).map(|i| part(i, ray)).collect();
@@ -178,7 +187,7 @@ fn rays(body: &dyn Equivariant) -> Vec<Vec<f64>> {
         direction.iter_mut().for_each(|x| *x /= length);
         direction
     };
-    (0..RAYS).map(ray).collect()
+    (0..count).map(ray).collect()
 }
 
 /// Directions in general position in which all entries change by about the same.
@@ -193,7 +202,7 @@ fn diagonals(dim: usize) -> Vec<Vec<f64>> {
 /// The largest rate of some fields at changes of the size `length` from a shape.
 fn fastest(bodies: &[&dyn Equivariant], shape: &[f64], length: f64) -> f64 {
     let of = |body: &&dyn Equivariant| {
-        rays(*body).iter().map(|ray| rate(*body, shape, ray, length)).fold(0.0, f64::max)
+        rays(*body, RAYS).iter().map(|ray| rate(*body, shape, ray, length)).fold(0.0, f64::max)
     };
     bodies.iter().map(of).fold(0.0, f64::max)
 }

@@ -21,8 +21,9 @@ pub struct Memory {
 ///
 /// Where the rate of ends is constant, ends are a Poisson process on the scale of the total time on test, that of all lives still watched:
 /// given their number they are independent and uniform, whatever the mean, and with lives that are not watched to their end. So the
-/// places of all sets together are held against the uniform distribution (Anderson and Darling). Ends at one time, known to a look, are
-/// spread evenly over the time before them.
+/// places of each set, and of all together, are held against the uniform distribution (Anderson and Darling): where one set ends more and
+/// more often and another less and less, all together may look uniform. The answer is that of the least probable places, their
+/// probability times the number of tests (Bonferroni). Ends at one time, known to a look, are spread evenly over the time before them.
 ///
 /// Source: Barlow, Campo (1975), in Reliability and Fault Tree Analysis, 451 (time on test); Anderson, Darling (1954), J. Am. Stat. Assoc.
 /// 49, 765; Marsaglia, Marsaglia (2004), J. Stat. Softw. 9, 2 (its distribution).
@@ -30,18 +31,26 @@ pub struct Memory {
 /// # Errors    [`crate::Error::OutOfRange`] for a negative time
 /// # Checked by  tests/all/lifetime.rs: exponential lives with and without censoring; deterministic ones, powers of time
 pub fn memory(sets: &[(Vec<Stay>, f64)]) -> Result<Option<Memory>> {
-    let mut places = Vec::new();
+    let mut tested = Vec::new();
     for (stays, delay) in sets {
         checks::argument("delay", *delay, *delay >= 0.0, "of at least 0")?;
-        places.extend(on_test(stays, *delay));
+        tested.push(on_test(stays, *delay));
     }
+    if sets.len() > 1 {
+        tested.push(tested.concat());
+    }
+    tested.retain(|places| places.len() >= LEAST);
+    let tests = tested.len() as f64;
+    let found = tested.into_iter().map(uniform).min_by(|a, b| a.probability.total_cmp(&b.probability));
+    Ok(found.map(|found| Memory { probability: (tests * found.probability).min(1.0), ..found }))
+}
+
+/// The test that places are uniform.
+fn uniform(mut places: Vec<f64>) -> Memory {
     places.sort_unstable_by(f64::total_cmp);
     let events = places.len();
-    if events < LEAST {
-        return Ok(None);
-    }
     let place = places.iter().sum::<f64>() / events as f64;
-    Ok(Some(Memory { probability: anderson_darling(&places), events, place }))
+    Memory { probability: anderson_darling(&places), events, place }
 }
 
 /// The places of ends after the delay, as parts of the total time on test. Where the last life ends, that end is no place: the time on test

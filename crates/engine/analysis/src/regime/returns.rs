@@ -4,8 +4,11 @@ use super::look::Extreme;
 use crate::linear::norm;
 use crate::{correlation_dimension, same_set, zero_one};
 
-/// Most returns that a witness is asked about, the latest: costs grow with their square.
+/// Most returns that a witness is asked about: costs grow with their square.
 const MOST: usize = 1000;
+
+/// The golden section: multiples of it are spread over the parts of the unit interval.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// K of the 0-1 test on the sizes at the minima; `None` for fewer returns than it needs.
 pub(super) fn chaos(minima: &[&Extreme]) -> Option<f64> {
@@ -40,8 +43,15 @@ fn latest<'m, 'e>(minima: &'m [&'e Extreme]) -> &'m [&'e Extreme] {
     &minima[minima.len().saturating_sub(MOST)..]
 }
 
+/// Points of three successive sizes. Of more than are asked about those that are spread over all of the look, one in each of its equal
+/// parts: a torus whose frequencies are close to a resonance fills its curve in many more returns, and is a few arcs before.
 fn delays(minima: &[&Extreme]) -> Vec<Vec<f64>> {
-    latest(minima).windows(3).map(|window| window.iter().map(|minimum| minimum.size).collect()).collect()
+    let all: Vec<&[&Extreme]> = minima.windows(3).collect();
+    let count = all.len().min(MOST);
+    let part = all.len() as f64 / count.max(1) as f64;
+    let place =
+        |k: usize| if part > 1.0 { ((k as f64 + (k as f64 * GOLDEN).fract()) * part) as usize } else { k };
+    (0..count).map(|k| all[place(k)].iter().map(|minimum| minimum.size).collect()).collect()
 }
 
 fn spread(points: &[Vec<f64>]) -> f64 {

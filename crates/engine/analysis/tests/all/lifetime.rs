@@ -168,6 +168,18 @@ fn lives_with_a_memory_are_told_from_exponential_ones() {
     assert_eq!(memory(&[(few, 1.0)]).expect("sound"), None);
 }
 
+/// Quantiles of Weibull's laws of the shapes 2 and 2/3: lives that end more and more often, and less and less often. The places of both
+/// sets together have p = 0.19.
+#[test]
+fn opposite_memories_do_not_cancel() {
+    let set = |power: f64| {
+        let time = |k: u32| (-((f64::from(k) + 0.5) / 60.0).ln()).powf(power);
+        ((0..60).map(|k| Stay { time: time(k), escaped: true }).collect::<Vec<_>>(), 0.0)
+    };
+    let found = memory(&[set(0.5), set(1.5)]).expect("sound").expect("enough");
+    assert!(found.probability < 1e-15 && found.events == 59 && found.place > 0.6, "{found:?}");
+}
+
 #[test]
 fn no_crisis_of_lives_that_are_not_exponential() {
     let values = [1.199, 1.2005, 1.201, 1.202, 1.204, 1.208, 1.216];

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use crate::common::{ORDINARY, named, near};
-use motiform_analysis::regime::Form;
+use motiform_analysis::regime::{Attractor, Form};
 use motiform_analysis::{Regime, Settings, Verdict};
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::{self, Definition, ParameterDefinition};
@@ -45,6 +45,21 @@ fn shapes_of_constant_size_have_their_shortest_period() {
         }
     }
     assert!(named >= 3, "{named} of 8");
+}
+
+/// Two coupled oscillators of van der Pol whose beats last 10.247 and 10.007 turns, close to 41/4 and 10: a thousand returns in a row are a
+/// few arcs of the curve, and the next ones lie beside them. The exponents are 0, 0, -0.076 and -0.102 at the first.
+#[test]
+fn a_torus_close_to_a_resonance_is_one() {
+    for k in [0.05, 0.06] {
+        let equations = [
+            format!("im(z1) + i*(0.1*(1-re(z1)^2)*im(z1) - re(z1) + {k}*(re(z2)-re(z1)))"),
+            format!("im(z2) + i*(0.1*(1-re(z2)^2)*im(z2) - 1.2*re(z2) + {k}*(re(z1)-re(z2)))"),
+        ];
+        let info = text(&[1, 2], "z1", Some("none"), &[&equations[0], &equations[1]]);
+        let verdict = seen(info, &[0.5, 0.2, 0.3, -0.4], &Settings { budget: 8e4, ..ORDINARY });
+        assert_eq!(verdict.attractor, Attractor::Torus, "{k}: {}", verdict.why);
+    }
 }
 
 /// A heading that turns through a full circle in a period is no zigzag, whether rotations are divided out or not.

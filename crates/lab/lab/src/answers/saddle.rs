@@ -2,6 +2,7 @@
 
 use super::estimate;
 use crate::saddle::Saddle;
+use motiform_dynamics::digits::{four_digits, given};
 use std::fmt::{Display, Formatter, Result};
 
 impl Display for Saddle {
@@ -16,16 +17,16 @@ impl Display for Saddle {
         match self.rate {
             Some(rate) => writeln!(
                 f,
-                "escape rate                      {} (mean lifetime {:.0})",
+                "escape rate                      {} (mean lifetime {})",
                 estimate(&rate, 0, 5),
-                1.0 / rate.value
+                four_digits(1.0 / rate.value)
             )?,
             None if self.exponent.is_some() => {
                 writeln!(f, "escape rate                      none: fewer than ten escapes")?;
             }
             None => {}
         }
-        write!(f, "{} of {} runs escaped within {:.0} model time", self.escaped, self.runs, self.t_end)?;
+        write!(f, "{} of {} runs escaped within {} model time", self.escaped, self.runs, given(self.t_end))?;
         let others = [
             (self.captured, "came to rest at a stable steady motion"),
             (self.regular, "moved regularly at the end and do not count"),

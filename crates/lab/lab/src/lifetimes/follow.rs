@@ -1,7 +1,7 @@
 //! Orbits followed look by look until they blow up, are captured, or time is over.
 
 use crate::analyse::settings_of;
-use crate::captured::{LAST_LOOKS, captured, is_regular};
+use crate::captured::{LAST_LOOKS, captured, is_regular, typical};
 use crate::pool::Jobs;
 use motiform_analysis::classify;
 use motiform_analysis::regime::Settings;
@@ -43,8 +43,8 @@ pub(super) struct Follower<'p> {
     models: Vec<Box<dyn Model>>,
     looks: usize,
     look: f64,
-    /// Size of a typical state.
-    size: f64,
+    /// Size of a typical state of each model.
+    sizes: Vec<f64>,
     settings: Settings,
     watch: &'p dyn Watch,
     /// The kernel of all orbits, whether or not this machine has lanes: with one, the position is integrated too.
@@ -65,10 +65,13 @@ impl<'p> Follower<'p> {
         let bounds = (c.escape_norm, c.max_steps);
         let of = (info, &plan.parameters_of(0)?[..]);
         let settings = settings_of(of, plan.method()?, c.control, bounds, LAST_LOOKS * look);
+        let sizes = (0..plan.cells())
+            .map(|cell| typical(info, &plan.parameters_of(cell)?))
+            .collect::<Result<_, Error>>()?;
         let adaptive = matches!(c.control.into(), StepControl::Adaptive { .. });
         let suited = c.stepper == "dop853" && adaptive;
         let kernel = suited.then(|| Kernel::of_all(models.iter().map(AsRef::as_ref))).flatten();
-        Ok(Self { plan, models, looks, look, size: info.size, settings, watch, kernel })
+        Ok(Self { plan, models, looks, look, sizes, settings, watch, kernel })
     }
 
     /// Follows the orbits that a thread takes, in lanes where there are any.
@@ -180,9 +183,9 @@ impl<'p> Follower<'p> {
         way.looks += 1;
         way.shape.copy_from_slice(shape);
         let time = way.looks as f64 * self.look;
-        if let Some(rate) = captured(model, shape, self.size) {
-            // at some moment of this look
-            return Ok(Some(Some(Followed { end: End::Captured { rate }, time: time - 0.5 * self.look })));
+        if let Some(steady) = captured(model, shape, self.sizes[job / self.plan.computation.samples]) {
+            let end = End::Captured { rate: -steady.growth() };
+            return Ok(Some(Some(Followed { end, time: time - 0.5 * self.look }))); // at some moment of this look
         }
         if way.looks < self.looks {
             return Ok(None);

@@ -165,3 +165,34 @@ fn a_value_that_an_axis_replaces_changes_no_plan() {
     let Random::Sizes { max, .. } = small.computation.random else { panic!("{:?}", small.computation) };
     assert!((20.0..=100.0).contains(&max), "{max}");
 }
+
+/// Sprott's simplest flow and Lorenz's equations, their variables in all orders, two in an amplitude: sizes of starts that differ by no
+/// more than a factor of two. The simplest flow's terms balance at about 4, so that its starts have ordinary sizes.
+#[test]
+fn the_order_of_equations_does_not_move_the_sizes_of_starts() {
+    let flows =
+        [(["y", "z", "y^2-x-2.017*z"], 1.0..=1.0), (["10*(y-x)", "28*x-y-x*z", "x*y-8/3*z"], 30.0..=100.0)];
+    for (rates, expected) in flows {
+        for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+            let place = |variable: usize| order.iter().position(|at| *at == variable).unwrap();
+            let names = ["re(z2)", "im(z2)", "re(z3)"];
+            let rate = |at: usize| {
+                let symbol = |letter: char| match "xyz".find(letter) {
+                    Some(variable) => names[place(variable)].to_owned(),
+                    None => letter.to_string(),
+                };
+                rates[order[at]].chars().map(symbol).collect::<String>()
+            };
+            let text = format!(
+                "[model.amplitudes]\nmodes = [2, 3]\nsymmetry = \"none\"\nvelocity = \"z2\"\n[model.amplitudes.equations]\n\
+                 z2 = \"{} + i*({})\"\nz3 = \"{} - i*im(z3)\"\n[scan]\nsamples = 2\n",
+                rate(0),
+                rate(1),
+                rate(2)
+            );
+            let study = Study::parse(&text, "text", "test").unwrap();
+            let Random::Sizes { min, max } = study.starts_over(2, &[]).unwrap() else { panic!("{text}") };
+            assert!(expected.contains(&max) && min == max / 100.0, "{order:?}: {min} to {max}\n{text}");
+        }
+    }
+}
