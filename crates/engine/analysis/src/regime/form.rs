@@ -48,9 +48,7 @@ impl Form {
                 "half a period later the motion is its own mirror image, so it has no net rotation"
             }
             Self::AsymmetricZigzag => "the shape repeats without net rotation",
-            Self::DriftingCircular => {
-                "the heading turns through full circles in a period, at a rate that is not constant"
-            }
+            Self::DriftingCircular => "the heading turns through full circles in a period",
             Self::RotatingZigzag => {
                 "a slowly rotating zigzag: the heading swings by more than the net rotation"
             }
