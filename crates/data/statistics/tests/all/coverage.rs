@@ -124,7 +124,7 @@ fn over_blocks_of_one_body() {
         let walk = persistent_walk(&curve);
         let velocity = autocorrelation(tracks, &Quantity::Velocity).unwrap();
         [
-            holds(curve.measured(10), motiform_statistics::furth(2.0 * s * s, 1.0 / g, curve.lag(10))),
+            holds(curve.measured(10), furth(2.0 * s * s, 1.0 / g, curve.lag(10))),
             holds(known(&walk.persistence), 1.0 / g),
             holds(known(&walk.diffusion), s * s / g),
             holds(velocity.variance, 2.0 * s * s),
