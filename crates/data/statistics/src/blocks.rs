@@ -65,6 +65,9 @@ impl Statistics {
         let answers = answers.into_iter().chain([&mut diffusion.green_kubo, &mut diffusion.displacements]);
         answers.chain(&mut self.exponents).for_each(Answer::drop_interval);
         self.autocorrelations.iter_mut().for_each(Autocorrelation::drop_intervals);
+        if self.bodies > 1 {
+            self.spectra.iter_mut().for_each(|spectrum| spectrum.band = [f64::NAN; 2]);
+        }
         let turning = self.turning.iter_mut().map(|turning| &mut turning.angles);
         self.speeds.iter_mut().chain(turning).for_each(Histogram::drop_intervals);
         let stays = [&mut self.residence.above, &mut self.residence.below];

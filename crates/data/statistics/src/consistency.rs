@@ -20,6 +20,22 @@ pub struct Seen<'a> {
     pub time: &'a Answer,
 }
 
+/// A value with an interval that reaches beyond another value of the same number, by a part of the half width of that: twice their
+/// difference over the own half width, and all of it at most.
+///
+/// A curve that is only near the form has numbers that are off by more than their scatter; the other value rests on no form, and has an
+/// error of its own. Values that differ by chance hardly change.
+fn toward(found: Measured, other: Measured) -> Measured {
+    let Some([low, high]) = found.interval else { return found };
+    let off = other.value - found.value;
+    let end =
+        |own: f64, end: f64| other.value + (2.0 * off / (own - found.value)).min(1.0) * (end - other.value);
+    let [below, above] = other.interval.unwrap_or([other.value; 2]);
+    let interval =
+        if off > 0.0 { [low, high.max(end(high, above))] } else { [low.min(end(low, below)), high] };
+    Measured { interval: Some(interval), ..found }
+}
+
 impl Walk {
     /// The walk, or no numbers where S is not the root-mean-square speed, D not the diffusion coefficient or
     /// P not the correlation time of the velocity: they differ by more than 1.25 of their half widths together. Smaller differences are in
@@ -60,10 +76,10 @@ impl Walk {
         Self { curve: self.curve, deviation: self.deviation, ..Self::unknown(&reason) }
     }
 
-    /// The walk with intervals that reach the other measured values of its numbers.
+    /// The walk with intervals that reach the other measured values of its numbers, and what these may be.
     fn reaching(self, seen: &Seen<'_>) -> Self {
         let reach = |walk: Answer, other: Option<Measured>| match (walk.known(), other) {
-            (Some(found), Some(other)) => walk.at_least((found.value - other.value).abs()),
+            (Some(found), Some(other)) => Answer::Known(toward(found, other)),
             _ => walk,
         };
         Self {

@@ -28,6 +28,8 @@ pub struct Autocorrelation {
     pub time: Answer,
     /// Frequency and decay, where rho oscillates.
     pub oscillation: Option<Oscillation>,
+    /// Why samples are too far apart for the correlation; `None` where they are not. A spectrum is then that of other frequencies.
+    pub unresolved: Option<String>,
 }
 
 /// Lagged products of a quantity over groups of units.
@@ -102,13 +104,14 @@ pub(crate) fn remembering(
     remembered: &Remembered,
 ) -> Result<Autocorrelation> {
     let products = Products::of(tracks, quantity)?;
-    let variance = leave_out(products.groups, &|left| products.sums[0].mean(left), true);
+    let variance = leave_out(&products.sums[0].sizes(), &|left| products.sums[0].mean(left), true);
     let quantity = quantity.clone();
     if products.steady(tracks, &quantity) {
         let time = Answer::unknown("it does not vary");
         let variance = Measured { value: 0.0, interval: None };
         let (lags, correlation, oscillation) = (Vec::new(), Vec::new(), None);
-        return Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation });
+        let unresolved = None;
+        return Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation, unresolved });
     }
     let curves = products.curves();
     let lags = (0..products.sums.len()).map(|lag| lag as f64 * tracks.dt()).collect();
@@ -129,8 +132,8 @@ pub(crate) fn remembering(
             products.time(&curves, window, slow).unless(coarse(fine.value.abs()))
         }
     };
-    let oscillation = oscillation(&curves, last, unresolved);
-    Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation })
+    let oscillation = oscillation(&curves, last, unresolved.clone());
+    Ok(Autocorrelation { quantity, lags, correlation, variance, time, oscillation, unresolved })
 }
 
 impl Autocorrelation {
@@ -208,7 +211,8 @@ impl Products {
 
     /// rho at a lag.
     fn ratio(&self, lag: usize) -> Measured {
-        leave_out(self.groups, &|left| self.sums[lag].mean(left) / self.sums[0].mean(left), false)
+        let value = |left| self.sums[lag].mean(left) / self.sums[0].mean(left);
+        leave_out(&self.sums[lag].sizes(), &value, false)
     }
 
     /// The integral of rho under a window.

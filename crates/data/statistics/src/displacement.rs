@@ -155,6 +155,11 @@ impl MeanSquare {
         self.groups
     }
 
+    /// Number of windows of each group at a place.
+    pub(crate) fn sizes(&self, place: usize) -> Vec<f64> {
+        self.sums[place].sizes()
+    }
+
     /// Tells if a displacement over the lag of a place is known.
     #[must_use]
     pub fn is_known(&self, place: usize) -> bool {
@@ -164,7 +169,7 @@ impl MeanSquare {
     /// The value at a place with its interval, on its logarithm (squares of late displacements are skew) where it is above 0.
     #[must_use]
     pub fn measured(&self, place: usize) -> Measured {
-        self.shown(self.sums[place].over_unequal())
+        self.shown(self.sums[place].skew())
     }
 
     /// d ln MSD / d ln lag between lags some places away on both sides; `None` where nothing moved.
@@ -175,7 +180,7 @@ impl MeanSquare {
             return None;
         }
         let slope = |left_out| self.slope(from, to, left_out);
-        slope(None).is_finite().then(|| self.shown(leave_out(self.groups, &slope, false)))
+        slope(None).is_finite().then(|| self.shown(leave_out(&self.sizes(to), &slope, false)))
     }
 
     /// The curve without intervals.

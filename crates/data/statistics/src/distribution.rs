@@ -75,10 +75,7 @@ fn design_effect(counts: &[Vec<usize>], totals: &[usize], n: f64) -> f64 {
             sums.add(group, count as f64, total as f64);
         }
         let share = sums.mean(None);
-        let shares: Vec<f64> = (0..groups).map(|group| sums.mean(Some(group))).collect();
-        let mean = shares.iter().sum::<f64>() / groups as f64;
-        let spread: f64 = shares.iter().map(|s| (s - mean) * (s - mean)).sum();
-        over_groups += (groups as f64 - 1.0) / groups as f64 * spread;
+        over_groups += sums.variance();
         binomial += share * (1.0 - share) / n;
     }
     if binomial > 0.0 && over_groups.is_finite() { (over_groups / binomial).max(1.0) } else { 1.0 }

@@ -14,7 +14,13 @@ pub fn local_exponent(curve: &MeanSquare, first: bool) -> Answer {
     if from == to || !slope(None).is_finite() {
         return Answer::unknown("nothing moved, or there is only one lag");
     }
-    Answer::Known(leave_out(curve.groups(), &slope, false))
+    let found = leave_out(&curve.sizes(to), &slope, false);
+    match found.interval {
+        Some(_) => Answer::Known(found),
+        None => Answer::unknown(
+            "fewer than 7 bodies are watched over the longest lags; more of that length are needed",
+        ),
+    }
 }
 
 /// The place whose lag is nearest to a part of the longest one.

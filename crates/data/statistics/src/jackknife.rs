@@ -40,11 +40,15 @@ fn spread(without: &[f64], freedom: Option<usize>) -> Option<f64> {
     if groups < least || without.iter().any(|value| !value.is_finite()) {
         return None;
     }
-    let n = groups as f64;
-    let mean = without.iter().sum::<f64>() / n;
-    let squares: f64 = without.iter().map(|value| (value - mean) * (value - mean)).sum();
-    let half = student_quantile(freedom.unwrap_or(groups - 1)) * ((n - 1.0) / n * squares).sqrt();
+    let half = student_quantile(freedom.unwrap_or(groups - 1)) * variance(without).sqrt();
     Some(half).filter(|half| half.is_finite())
+}
+
+/// `(G-1)/G sum_g (v_g - mean v)^2` of values without each of G groups.
+fn variance(without: &[f64]) -> f64 {
+    let n = without.len() as f64;
+    let mean = without.iter().sum::<f64>() / n;
+    (n - 1.0) / n * without.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>()
 }
 
 /// Sums over the groups of units: a mean is `sum / count`.
@@ -81,29 +85,38 @@ impl Sums {
         sum / count
     }
 
-    pub(crate) fn measured(&self) -> Measured {
-        leave_out(self.groups.len(), &|left_out| self.mean(left_out), false)
+    /// The number of terms of each group.
+    pub(crate) fn sizes(&self) -> Vec<f64> {
+        self.groups.iter().map(|group| group[1]).collect()
     }
 
-    /// The mean with its interval over the groups that have terms, on its logarithm where it is above 0. Degrees of freedom are those of
-    /// groups of unequal size ([`unequal_freedom`]).
-    pub(crate) fn over_unequal(&self) -> Measured {
-        let sizes: Vec<f64> = self.groups.iter().map(|group| group[1]).collect();
-        let without: Vec<f64> =
-            (0..sizes.len()).filter(|&k| sizes[k] > 0.0).map(|group| self.mean(Some(group))).collect();
-        let freedom = Some(unequal_freedom(sizes.iter().copied()));
-        let value = self.mean(None);
-        let skew = ratio(value, &without, freedom);
-        if skew.interval.is_some() {
-            return skew;
-        }
-        let half = spread(&without, freedom);
-        Measured { value, interval: half.map(|half| [value - half, value + half]) }
+    /// The variance of the mean, by leaving out each group that has terms.
+    pub(crate) fn variance(&self) -> f64 {
+        let there = (0..self.groups.len()).filter(|&group| self.groups[group][1] > 0.0);
+        variance(&there.map(|group| self.mean(Some(group))).collect::<Vec<_>>())
+    }
+
+    pub(crate) fn measured(&self) -> Measured {
+        leave_out(&self.sizes(), &|left_out| self.mean(left_out), false)
+    }
+
+    /// The mean with its interval, on its logarithm where it is above 0.
+    pub(crate) fn skew(&self) -> Measured {
+        let skew = leave_out(&self.sizes(), &|left_out| self.mean(left_out), true);
+        if skew.interval.is_some() { skew } else { self.measured() }
     }
 }
 
-/// A function of sums with its interval; `positive` values on their logarithm.
-pub(crate) fn leave_out(groups: usize, value: &dyn Fn(Option<usize>) -> f64, positive: bool) -> Measured {
-    let without: Vec<f64> = (0..groups).map(|group| value(Some(group))).collect();
-    if positive { jackknife_ratio(value(None), &without) } else { jackknife(value(None), &without) }
+/// A function of sums over groups of these sizes with its interval over the groups that have terms; `positive` values on their logarithm.
+/// Degrees of freedom are those of groups of unequal size ([`unequal_freedom`]).
+pub(crate) fn leave_out(sizes: &[f64], value: &dyn Fn(Option<usize>) -> f64, positive: bool) -> Measured {
+    let there = (0..sizes.len()).filter(|&group| sizes[group] > 0.0);
+    let without: Vec<f64> = there.map(|group| value(Some(group))).collect();
+    let freedom = Some(unequal_freedom(sizes.iter().copied()));
+    let value = value(None);
+    if positive {
+        return ratio(value, &without, freedom);
+    }
+    let half = spread(&without, freedom);
+    Measured { value, interval: half.map(|half| [value - half, value + half]) }
 }

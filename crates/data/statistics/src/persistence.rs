@@ -60,7 +60,8 @@ pub fn furth(square: f64, persistence: f64, t: f64) -> f64 {
 /// # Checked by  tests/all/displacement.rs: exact processes; tests/all/coverage.rs: intervals over 200 data sets
 #[must_use]
 pub fn persistent_walk(curve: &MeanSquare) -> Walk {
-    let points = points(curve);
+    let places = with_errors(curve);
+    let points: Vec<[f64; 3]> = places.iter().map(|&place| point(curve, place)).collect();
     if points.is_empty() || points.iter().any(|point| point[1] <= 0.0) {
         return Walk::unknown("nothing moved within the shortest lag");
     }
@@ -76,7 +77,7 @@ pub fn persistent_walk(curve: &MeanSquare) -> Walk {
         return Walk { curve: walk.curve, deviation, ..Walk::unknown(&reason) };
     }
     let without: Vec<[f64; 2]> =
-        (0..curve.groups()).map(|group| fit(&left_out(curve, &points, group))).collect();
+        (0..curve.groups()).map(|group| fit(&left_out(curve, (&places, &points), group))).collect();
     let answer = |of: fn([f64; 2]) -> f64| {
         let values: Vec<f64> = without.iter().map(|&fit| of(fit)).collect();
         Answer::Known(jackknife_ratio(of([square, persistence]), &values))
@@ -119,19 +120,23 @@ impl Walk {
     }
 }
 
-/// Lag, value and relative standard error of each place.
-fn points(curve: &MeanSquare) -> Vec<[f64; 3]> {
-    let point = |place| {
-        let measured = curve.measured(place);
-        [curve.lag(place), measured.value, 0.5 * measured.half_width() / measured.value]
-    };
-    (0..curve.len()).map(point).collect()
+/// The places whose errors are known, or all where none are: late lags of few long tracks among short ones have none.
+fn with_errors(curve: &MeanSquare) -> Vec<usize> {
+    let known: Vec<usize> =
+        (0..curve.len()).filter(|&place| curve.measured(place).interval.is_some()).collect();
+    if known.is_empty() { (0..curve.len()).collect() } else { known }
+}
+
+/// Lag, value and relative standard error of a place.
+fn point(curve: &MeanSquare, place: usize) -> [f64; 3] {
+    let measured = curve.measured(place);
+    [curve.lag(place), measured.value, 0.5 * measured.half_width() / measured.value]
 }
 
 /// The same with the values without a group.
-fn left_out(curve: &MeanSquare, points: &[[f64; 3]], group: usize) -> Vec<[f64; 3]> {
-    let value = |(place, point): (usize, &[f64; 3])| [point[0], curve.value(place, Some(group)), point[2]];
-    points.iter().enumerate().map(value).collect()
+fn left_out(curve: &MeanSquare, (places, points): (&[usize], &[[f64; 3]]), group: usize) -> Vec<[f64; 3]> {
+    let value = |(&place, point): (&usize, &[f64; 3])| [point[0], curve.value(place, Some(group)), point[2]];
+    places.iter().zip(points).map(value).collect()
 }
 
 /// S^2 and P of the best curve.

@@ -1,5 +1,6 @@
 //! Power spectra over bodies, with confidence bands.
 
+use crate::jackknife::Sums;
 use crate::{Quantity, Result, Series, Tracks};
 use motiform_analysis::welch;
 use motiform_dynamics::distributions::chi_square_quantile;
@@ -17,7 +18,7 @@ pub struct PowerSpectrum {
     pub frequencies: Vec<f64>,
     /// Power spectral density, summed over the components.
     pub power: Vec<f64>,
-    /// The band is `power` times these two factors: 95 %, at every single frequency.
+    /// The band is `power` times these two factors: 95 %, at every single frequency. NaN where the few bodies may differ.
     pub band: [f64; 2],
     /// Segments that were averaged, half overlapping.
     pub segments: usize,
@@ -32,6 +33,11 @@ pub struct PowerSpectrum {
 /// spectrum is smooth over 1/(N dt). For a vector n is that of one component: exact where the two are bound
 /// to each other (turning one way), too wide by up to sqrt 2 where they are independent.
 ///
+/// Bodies that differ by more than chance have fewer degrees of freedom: n/d, d the variance of the powers over bodies (from 8 on), as a
+/// part of that of n degrees, 2 P^2/n, both summed over frequencies (as for shares of a distribution).
+///
+/// The spectrum is that of the samples: what is faster than half a cycle per sample is folded back.
+///
 /// Segments: a power of 2 of samples, at least 16 segments in all. `None` if the tracks are too short for that.
 ///
 /// Source: Welch (1967), IEEE Trans. Audio Electroacoust. 15, 70; Percival and Walden (1993), Spectral
@@ -40,29 +46,33 @@ pub struct PowerSpectrum {
 /// # Errors    none for samples that [`Tracks`] accepts
 /// # Checked by  tests/all/power.rs: white noise and Ornstein-Uhlenbeck within their bands
 pub fn power_spectrum(tracks: &Tracks, quantity: &Quantity) -> Result<Option<PowerSpectrum>> {
+    let over_bodies = tracks.bodies().len() == tracks.units().len();
     let all: Vec<Series> = tracks.bodies().iter().map(|track| quantity.of(track)).collect();
-    let runs: Vec<(&Series, Range<usize>)> =
-        all.iter().flat_map(|series| series.runs().into_iter().map(move |run| (series, run))).collect();
-    let Some(length) = segment(&runs.iter().map(|(_, run)| run.len()).collect::<Vec<_>>()) else {
+    let runs_of = |(body, series): (usize, &'_ Series)| series.runs().into_iter().map(move |run| (body, run));
+    let runs: Vec<(usize, &Series, Range<usize>)> =
+        all.iter().enumerate().flat_map(runs_of).map(|(body, run)| (body, &all[body], run)).collect();
+    let Some(length) = segment(&runs.iter().map(|(.., run)| run.len()).collect::<Vec<_>>()) else {
         return Ok(None);
     };
-    let (mut power, mut segments) = (vec![0.0; length / 2 + 1], 0);
-    for (series, run) in runs.into_iter().filter(|(_, run)| run.len() >= length) {
+    let (mut sums, mut segments) = (vec![Sums::new(tracks.groups()); length / 2 - 1], 0);
+    for (body, series, run) in runs.into_iter().filter(|(.., run)| run.len() >= length) {
+        let mut power = vec![0.0; sums.len()];
         let mut counted = 0;
         for component in &series.components {
             let spectrum = welch(&component[run.clone()], tracks.dt(), length)?;
             counted = spectrum.segments;
-            for (sum, value) in power.iter_mut().zip(spectrum.power) {
-                *sum += value * counted as f64;
-            }
+            power.iter_mut().zip(&spectrum.power[1..]).for_each(|(sum, value)| *sum += value);
+        }
+        for (sums, power) in sums.iter_mut().zip(power) {
+            sums.add(tracks.group(body), power * counted as f64, counted as f64);
         }
         segments += counted;
     }
-    power.iter_mut().for_each(|sum| *sum /= segments as f64);
-    let freedom = 36.0 / 19.0 * segments as f64;
+    let power: Vec<f64> = sums.iter().map(|sums| sums.mean(None)).collect();
+    let chance = 36.0 / 19.0 * segments as f64;
+    let freedom = chance / if over_bodies { design_effect(&sums, chance) } else { 1.0 };
     let band = [0.975, 0.025].map(|share| freedom / chi_square_quantile(share, freedom));
     let frequencies = (1..length / 2).map(|k| k as f64 / (length as f64 * tracks.dt())).collect();
-    let power = power[1..length / 2].to_vec();
     Ok(Some(PowerSpectrum { quantity: quantity.clone(), frequencies, power, band, segments, length }))
 }
 
@@ -74,4 +84,11 @@ fn segment(lengths: &[usize]) -> Option<usize> {
     let longest = *lengths.iter().max()?;
     let each = |size: usize| longest >= size && (longest - size) / (size - size / 2) + 1 >= SEGMENTS.1;
     (3..40).map(|k| 1_usize << k).filter(|&size| segments(size) >= SEGMENTS.0 && each(size)).max()
+}
+
+/// The variance of powers over groups of bodies as a part of that of Gaussian processes with so many degrees of freedom; 1 at least.
+fn design_effect(sums: &[Sums], freedom: f64) -> f64 {
+    let over_groups: f64 = sums.iter().map(Sums::variance).sum();
+    let chance: f64 = sums.iter().map(|sums| 2.0 * sums.mean(None).powi(2) / freedom).sum();
+    (over_groups / chance).max(1.0)
 }

@@ -105,7 +105,7 @@ fn slow_part(tracks: &Tracks, pair: [&Quantity; 2], lag: usize) -> Measured {
         };
         products.pairs.iter().map(term).sum::<f64>()
     };
-    let first = leave_out(tracks.groups(), &of, false);
+    let first = leave_out(&products.pairs[0][0].sizes(), &of, false);
     let chance = products.pairs.iter().map(|crossed| {
         let own = crossed[2].mean(None);
         let [there, back] = [0, 1].map(|k| 0.5 * crossed[k].measured().half_width());

@@ -29,11 +29,10 @@ pub(crate) fn not_stationary(tracks: &Tracks) -> Option<String> {
 fn changed(tracks: &Tracks, quantity: &Quantity) -> Option<String> {
     let parts = parts(tracks, quantity);
     let means: Vec<f64> = parts.iter().map(|part| part.mean(None)).collect();
-    let groups = tracks.bodies().len().min(tracks.groups());
     let rest = |left| parts[1..].iter().map(|part| part.mean(left)).sum::<f64>() / (PARTS - 1) as f64;
     let change = |left| libm::log(parts[0].mean(left) / rest(left));
     let over_bodies = match tracks.bodies().len() == tracks.units().len() {
-        true => leave_out(groups, &change, false).half_width(),
+        true => leave_out(&parts[0].sizes(), &change, false).half_width(),
         false => 0.0,
     };
     let steps = means[1..].windows(2).map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0]));

@@ -100,11 +100,11 @@ pub fn statistics_watched(tracks: &Tracks, settings: &Settings, watch: &dyn Watc
         Ok(found)
     };
     let autocorrelations = quantities.iter().enumerate().map(of).collect::<Result<Vec<_>>>()?;
-    let varying = autocorrelations.iter().filter(|found| !found.lags.is_empty()).map(|found| &found.quantity);
+    let varying = autocorrelations.iter().filter(|found| !found.lags.is_empty());
     let spectra = varying
-        .filter(|quantity| !matches!(quantity, Quantity::Heading)) // it may have gaps
-        .filter(|quantity| too_far_apart(tracks, quantity).is_none()) // its frequencies are others
-        .map(|quantity| power_spectrum(tracks, quantity))
+        .filter(|found| found.quantity != Quantity::Heading) // it may have gaps
+        .filter(|found| found.unresolved.is_none()) // its frequencies are others
+        .map(|found| power_spectrum(tracks, &found.quantity))
         .collect::<Result<Vec<_>>>()?;
     let lengths = || tracks.bodies().iter().map(|track| track.position.len());
     let [mean_speed, square] = [1, 2].map(|power| moment(tracks, power));

@@ -64,8 +64,10 @@ pub fn mean_time(durations: &[Duration], groups: usize) -> Option<MeanTime> {
         if censored == 0.0 { sorted[count - 1].time } else { sorted[count.saturating_sub(least)].time };
     let all = curve(&sorted, limit, None);
     let without: Vec<Area> = (0..groups).map(|group| curve(&sorted, limit, Some(group))).collect();
+    let mut sizes = vec![0.0; groups];
+    durations.iter().for_each(|duration| sizes[duration.group] += 1.0);
     let measured =
-        |of: fn(&Area) -> f64| leave_out(groups, &|left| of(left.map_or(&all, |g| &without[g])), false);
+        |of: fn(&Area) -> f64| leave_out(&sizes, &|left| of(left.map_or(&all, |g| &without[g])), false);
     let mean = measured(Area::mean);
     let mean = all.without_mean(limit, mean.half_width()).map_or(Answer::Known(mean), Answer::unknown);
     let restricted = measured(|area| area.restricted);

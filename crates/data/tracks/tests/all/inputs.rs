@@ -128,10 +128,12 @@ fn negative_frames_before_a_stimulus_are_frames_and_a_single_one_is_none() {
     };
     assert_eq!(frames(&from(-3)), [-3, -2, -1, 0, 1, 2]);
     assert_eq!(frames(&from(-1)), [0, 1, 2, 3, 4], "-1 alone stands for none");
-    let far =
-        read(table("cell,frame,x,y", ',', |x| x.to_string(), |k| [-999, -998, 0, 1, 2, 3][k].to_string()))
-            .expect("frames");
-    assert_eq!(frames(&far), [0, 1, 2, 3]);
+    let of = |all: [i64; 6]| {
+        read(table("cell,frame,x,y", ',', |x| x.to_string(), |k| all[k].to_string())).expect("frames")
+    };
+    assert_eq!(frames(&of([-999, -998, 0, 1, 2, 3])), [0, 1, 2, 3]);
+    let gap = [-9, -8, -7, -2, -1, 0];
+    assert_eq!(frames(&of(gap)), gap, "a record before a stimulus may have a gap");
 }
 
 #[test]

@@ -55,11 +55,16 @@ pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
     let refused = together::refused(found);
     let walk = refused.is_none().then(|| together::walk(found).ok()).flatten();
     let withheld = withheld(found, refused.as_deref(), walk.is_some());
+    let error = |walk: &&PersistentWalk| walk.error_variance.low.and(walk.error_variance.high);
+    let walks = together::described(found).into_iter().filter(|walk| error(walk).is_some());
+    let errors: Vec<f64> = walks.map(|walk| walk.error_variance.value).collect();
     let number = |place: usize| {
         let quantity = rows[0][place].quantity;
         let values: Vec<f64> = rows.iter().filter_map(|all| Some(all[place].value.known()?.value)).collect();
         let stated = withheld.iter().all(|other| !std::ptr::eq(other.quantity, quantity));
-        let over = unbiased(over_cells(&values)?, quantity, (&values, walk.as_ref()));
+        let over = over_cells(&values)?;
+        let other = unbiased(quantity, &values, (walk.as_ref(), &errors));
+        let over = other.map_or(over.clone(), |ends| over.holding(ends));
         Some(PopulationNumber { quantity, over }).filter(|_| stated)
     };
     let count = rows.first().map_or(0, Vec::len);
@@ -79,26 +84,23 @@ pub(crate) fn bare(mut points: Vec<AtLag>, is_selected: bool) -> Vec<AtLag> {
     points
 }
 
-/// A mean over cells whose interval also holds what has no bias of short records: P and D of the walk of all paths together; the root
-/// mean square over cells of speeds that are roots themselves.
+/// What has no bias of short records, which the interval of a mean over cells also holds: P and D of the walk of all paths together; the
+/// root of the mean over cells of squares, of rms speeds and of errors of the places, whose variances may be below 0 by chance.
 fn unbiased(
-    over: OverCells,
     quantity: &Quantity,
-    (values, walk): (&[f64], Option<&WalkTogether>),
-) -> OverCells {
+    values: &[f64],
+    (walk, errors): (Option<&WalkTogether>, &[f64]),
+) -> Option<[f64; 2]> {
     let ends = |of: fn(&WalkTogether) -> Bounded| walk.map(of).and_then(|one| Some([one.low?, one.high?]));
-    let other = match quantity {
+    let root = |squares: &[f64]| Some(over_cells(squares)?.mean_interval?.map(|end| end.max(0.0).sqrt()));
+    match quantity {
         one if std::ptr::eq(one, &cell::PERSISTENCE) => ends(|walk| walk.persistence),
         one if std::ptr::eq(one, &cell::DIFFUSION) => ends(|walk| walk.diffusion),
         one if std::ptr::eq(one, &cell::RMS_SPEED) => {
-            let squares: Vec<f64> = values.iter().map(|value| value * value).collect();
-            over_cells(&squares).and_then(|all| all.mean_interval).map(|ends| ends.map(f64::sqrt))
+            root(&values.iter().map(|value| value * value).collect::<Vec<_>>())
         }
+        one if std::ptr::eq(one, &cell::POSITION_ERROR) => root(errors),
         _ => None,
-    };
-    match other {
-        Some(other) => over.holding(other),
-        None => over,
     }
 }
 

@@ -162,9 +162,8 @@ fn turning_together(walks: &[&PersistentWalk]) -> Option<String> {
     })
 }
 
-/// The ratio of mean-square displacements beyond which cells and their walks disagree, where their difference is so many standard errors.
+/// The ratio of mean-square displacements beyond which cells and their walks disagree, where their difference is significant.
 const APART: f64 = 1.5;
-const ERRORS: f64 = 4.0;
 
 /// The sentence that cells displace themselves by far less or more than their walks, over long times, if they do: the test of one cell
 /// ([`PersistentWalk::spread`]) for all together. Those that show it by themselves count.
@@ -174,8 +173,10 @@ fn elsewhere(found: &[Observation]) -> Option<String> {
     let spreads: Vec<f64> = meant.map(|walk| walk.spread).collect();
     let count = spreads.len() as f64;
     let mean = spreads.iter().sum::<f64>() / count;
-    let apart =
-        (mean - 1.0).abs() > ERRORS * SPREAD_SCATTER / count.sqrt() && !(1.0 / APART..=APART).contains(&mean);
+    // a mean of positive numbers is skew: a gamma variable of the same variance
+    let freedom = 2.0 * count / (SPREAD_SCATTER * SPREAD_SCATTER);
+    let above = chi_square_tail(freedom * mean, freedom);
+    let apart = above.min(1.0 - above) < 0.5 * TOGETHER && !(1.0 / APART..=APART).contains(&mean);
     (spreads.len() >= FEWEST && apart).then(|| {
         format!(
             "over long times the mean-square displacement of {} cells is {} times that of their walks: {}",

@@ -36,6 +36,19 @@ fn the_mean_of_a_known_sample_and_its_interval() {
     assert!(over_cells(&values[..7]).unwrap().mean_interval.is_none() && over_cells(&[]).is_none());
 }
 
+/// Turning rates of mirrored cells: the mean and the interval of the opposite values are opposite.
+#[test]
+fn mirrored_values_have_mirrored_intervals() {
+    let mut random = Normal::new(6, 0);
+    let values: Vec<f64> = (0..10).map(|_| libm::exp(random.next()) - 1.0).collect();
+    let mirrored: Vec<f64> = values.iter().map(|value| -value).collect();
+    let [one, other] = [values, mirrored].map(|values| over_cells(&values).unwrap());
+    for (a, b) in [(one.mean_interval, other.mean_interval), (one.median_interval, other.median_interval)] {
+        let ([low, high], [below, above]) = (a.unwrap(), b.unwrap());
+        assert!((low + above).abs() < 1e-12 && (high + below).abs() < 1e-12, "{a:?} {b:?}");
+    }
+}
+
 #[test]
 fn cells_without_a_fit_are_undecided_and_counted() {
     let fits: Vec<CellFit> = (0..3)

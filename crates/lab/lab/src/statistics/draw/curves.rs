@@ -210,7 +210,8 @@ const DRAWN: f64 = 1e-10;
 pub(super) fn spectra(measurement: &Measurement, units: &Shown) -> Result<Option<Box<dyn Figure>>> {
     let found = &measurement.statistics.spectra;
     let curve = |spectrum: &motiform_statistics::PowerSpectrum| {
-        let [low, high] = spectrum.band;
+        // without an interval there is no band
+        let [low, high] = spectrum.band.map(|factor| if factor.is_nan() { 1.0 } else { factor });
         let least = DRAWN * spectrum.power.iter().copied().fold(0.0, f64::max);
         let rows = spectrum.frequencies.iter().zip(&spectrum.power).filter(|(_, power)| **power > least);
         let points = rows.map(|(&x, &y)| BandPoint { x, y, low: low * y, high: high * y }).collect();
