@@ -8,9 +8,8 @@ mod settles;
 mod verify;
 
 pub use branches::{
-    Allowance, BranchEnd, BranchFolder, Branches, Coefficient, Followed, Keep, Kept, KeptFolder, Leg, Link,
-    NamedPart, Origin, Reading, Sample, SpecialEntry, columns, draw, follow, follow_kept, follow_within,
-    is_stable, motion_between, neutral_stretches, nine, path, settle, starts, stated, stretches, summary,
-    sweep,
+    Allowance, BranchEnd, BranchFolder, Branches, Coefficient, Followed, Keep, Leg, Link, NamedPart, Origin,
+    Reading, Sample, SpecialEntry, columns, draw, follow, follow_kept, follow_within, is_stable,
+    motion_between, neutral_stretches, nine, path, settle, starts, stated, stretches, summary, sweep,
 };
 pub use verify::Verification;

@@ -107,7 +107,8 @@ pub struct WalkTests {
 }
 
 impl WalkTests {
-    /// Those of the steps alone; likelihood, whiteness and additional diffusion are 0 here. Of the standardised innovations e, with the velocity v that the walk expects before each:
+    /// Those of the steps alone; likelihood, whiteness and additional diffusion are 0 here. Of the standardised innovations e, with the
+    /// velocity v that the walk expects before each:
     ///
     /// turning: `sum v x e / sqrt(sum (v x e)^2)`, normal, for e is independent of what was before;
     /// direction: `|sum e^2|^2 / sum |e|^4` of e as complex numbers, exponential, for every direction of e is as likely.

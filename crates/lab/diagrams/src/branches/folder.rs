@@ -1,5 +1,5 @@
 //! The folder of branches: `manifest.json`, `points.parquet`, `samples.parquet` if motions were sampled,
-//! `summary.json`, and `branches.json`, from which the work goes on. That of curves is alike.
+//! `summary.json`, and `branches.json`, from which the work goes on.
 
 use super::result::Branches;
 use super::summary::summary;
@@ -7,88 +7,51 @@ use super::table::{columns as table, sweep_columns};
 use motiform_lab::draw::Picture;
 use motiform_store::columns::{Column, encode};
 use motiform_store::{Folder, Opening, end_of_work};
-use motiform_study::branches::BranchComputation;
 use motiform_study::plan::{Plan, pretty};
 use motiform_study::{BranchPlan, Error, Provenance, Question, input};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Results that are kept in a folder as far as they are found, so that the work can go on from there.
-pub trait Kept: Serialize + for<'d> Deserialize<'d> {
-    /// The question that they answer.
-    type Question: Question;
-    /// The file from which the work goes on.
-    const STATE: &'static str;
+const STATE: &str = "branches.json";
 
-    /// Rejects those in the folder at `path` that do not belong together.
-    ///
-    /// # Errors
-    /// [`Error::Store`], naming the file.
-    fn check(&self, _path: &Path) -> Result<(), Error> {
-        Ok(())
-    }
-
-    /// Returns `true` if nothing is left to find.
-    fn is_complete(&self) -> bool;
-
-    /// Writes their tables and their summary.
-    ///
-    /// # Errors
-    /// Files that cannot be written.
-    fn put(&self, plan: &Plan<Self::Question>, folder: &Folder) -> Result<(), Error>;
-}
-
-/// A folder that holds results, as far as they are found.
+/// A folder that holds branches, as far as they are followed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct KeptFolder<T: Kept> {
+pub struct BranchFolder {
     /// The plan.
-    pub plan: Plan<T::Question>,
+    pub plan: BranchPlan,
     /// The results.
-    pub found: T,
+    pub found: Branches,
 }
 
-/// A folder that holds branches.
-pub type BranchFolder = KeptFolder<Branches>;
-
-impl<T: Kept> KeptFolder<T> {
+impl BranchFolder {
     /// Reads a folder.
     ///
     /// # Errors
     /// [`Error::NoResult`], [`Error::Store`] where a file is missing or damaged.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let plan = Provenance::read(path)?.plan;
-        let found: T = read(path, T::STATE)?;
-        found.check(path)?;
-        Ok(Self { plan, found })
+        Ok(Self { plan, found: read(path, STATE)? })
     }
 
-    /// Opens the folder of the results of `plan` to write it, and reads what it holds of them, to go on with.
+    /// Opens the folder of the branches of `plan` to write it, and reads what it holds of them, to go on with.
     ///
     /// # Errors
     /// [`Error::OtherPlan`] for another plan; [`Error::Store`] where it exists, is not ours, is used by
     /// others or cannot be written.
     pub fn open(
         path: &Path,
-        plan: &Plan<T::Question>,
+        plan: &BranchPlan,
         opening: Opening,
-    ) -> Result<(Folder, Option<T>), Error> {
-        let (folder, earlier) = plan.open(path, opening, Some(false))?;
-        if !earlier {
-            return Ok((folder, None));
-        }
-        folder.check()?;
-        let found = folder.read(T::STATE).map(|bytes| serde_json::from_slice(&bytes)).transpose();
-        let found: Option<T> = found.map_err(|error| Error::unreadable(&path.join(T::STATE), error))?;
-        found.iter().try_for_each(|found| found.check(path))?;
-        Ok((folder, found))
+    ) -> Result<(Folder, Option<Branches>), Error> {
+        open(plan, path, opening, STATE)
     }
 
-    /// Keeps results that are not all of them.
+    /// Keeps branches that are not all of them.
     ///
     /// # Errors
     /// They cannot be written.
-    pub fn keep(found: &T, folder: &Folder) -> Result<(), Error> {
-        keep(T::STATE, found, folder)
+    pub fn keep(found: &Branches, folder: &Folder) -> Result<(), Error> {
+        keep(STATE, found, folder)
     }
 
     /// Writes everything.
@@ -96,28 +59,31 @@ impl<T: Kept> KeptFolder<T> {
     /// # Errors
     /// Files that cannot be written.
     pub fn write(&self, pictures: &[Picture], folder: &Folder) -> Result<(), Error> {
-        self.found.put(&self.plan, folder)?;
-        keep(T::STATE, &self.found, folder)?;
-        finish(folder, pictures, &Provenance::new(&self.plan, Some(self.found.is_complete())))
+        let provenance = Provenance::new(&self.plan, Some(self.found.complete));
+        put_table(folder, "points.parquet", &table(&self.plan, &self.found)?, &provenance)?;
+        if let Some(sweeps) = &self.found.sweeps {
+            put_table(folder, "samples.parquet", &sweep_columns(&self.plan, sweeps), &provenance)?;
+        }
+        folder.put("summary.json", &pretty(&summary(&self.plan, &self.found), folder.shown())?)?;
+        keep(STATE, &self.found, folder)?;
+        finish(folder, pictures, &provenance)
     }
 }
 
-impl Kept for Branches {
-    type Question = BranchComputation;
-    const STATE: &'static str = "branches.json";
-
-    fn is_complete(&self) -> bool {
-        self.complete
+/// Opens the folder of a plan to write it, and reads the state that an earlier run left, if there is any.
+pub(crate) fn open<C: Question, T: for<'d> Deserialize<'d>>(
+    plan: &Plan<C>,
+    path: &Path,
+    opening: Opening,
+    state: &str,
+) -> Result<(Folder, Option<T>), Error> {
+    let (folder, earlier) = plan.open(path, opening, Some(false))?;
+    if !earlier {
+        return Ok((folder, None));
     }
-
-    fn put(&self, plan: &BranchPlan, folder: &Folder) -> Result<(), Error> {
-        let provenance = Provenance::new(plan, Some(self.complete));
-        put_table(folder, "points.parquet", &table(plan, self)?, &provenance)?;
-        if let Some(sweeps) = &self.sweeps {
-            put_table(folder, "samples.parquet", &sweep_columns(plan, sweeps), &provenance)?;
-        }
-        Ok(folder.put("summary.json", &pretty(&summary(plan, self), folder.shown())?)?)
-    }
+    folder.check()?;
+    let found = folder.read(state).map(|bytes| serde_json::from_slice(&bytes)).transpose();
+    Ok((folder, found.map_err(|error| Error::unreadable(&path.join(state), error))?))
 }
 
 /// Writes a state from which the work can go on.

@@ -29,7 +29,7 @@ pub(crate) mod summary;
 pub mod sweep;
 mod table;
 
-pub use folder::{BranchFolder, Kept, KeptFolder};
+pub use folder::BranchFolder;
 pub use follow::{Keep, follow, follow_kept, follow_within};
 pub use motiform_continuation::{Allowance, Coefficient, End as BranchEnd, nine, stated};
 pub use names::NamedPart;
