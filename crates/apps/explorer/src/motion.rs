@@ -3,7 +3,7 @@
 use crate::answers::{Answers, Gone, text};
 use crate::map::numbers;
 use crate::protocol::{Exponent, Exponents, MotionNamed, NamingBegun, Said};
-use crate::task::{self, Crew, Errand, Task, Tell, Worker, lock};
+use crate::task::{Crew, Task, Tell, Worker, lock};
 use motiform_analysis::Estimate;
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
@@ -24,7 +24,8 @@ const POINTS: f64 = 200.0;
 /// The subject of the evidence of a noisy body.
 pub(crate) const WITHOUT_NOISE: &str = "the equations without noise";
 
-/// A motion: the plan whose start is the state of the body, without noise.
+/// A motion to be classified: the plan whose start is the state of the body, without noise.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct Motion {
     pub(crate) revision: u32,
     pub(crate) plan: Plan,
@@ -32,6 +33,8 @@ pub(crate) struct Motion {
     pub(crate) noisy: bool,
     /// Classified before, but the body has moved on since: repeat the classification.
     pub(crate) again: bool,
+    /// Its name as known before: the worker adds it.
+    pub(crate) before: Option<Regime>,
 }
 
 /// The exponents so far, by averaging time.
@@ -49,7 +52,7 @@ struct Known {
 
 /// The worker that classifies motions.
 pub(crate) struct Naming {
-    worker: Worker<Classification>,
+    pub(crate) worker: Worker<Classification>,
     heard: Arc<Heard>,
 }
 
@@ -69,17 +72,11 @@ impl Naming {
 
     /// Classifies this motion, replacing an earlier one.
     pub(crate) fn name(&self, motion: Motion) {
-        let Motion { revision, plan, noisy, again } = motion;
         let mut known = lock(&self.heard.known);
         known.complete = false;
-        let before = known.name.map(|name| name.1).filter(|_| again);
+        let before = known.name.map(|name| name.1).filter(|_| motion.again);
         drop(known);
-        self.worker.put(Job { revision, plan, noisy, again, before });
-    }
-
-    /// Takes what a helper found.
-    pub(crate) fn report(&self, errand: &Errand<'_>) -> Result<(), Gone> {
-        self.worker.report(errand).map_or(Ok(()), |found| self.heard.take(found))
+        self.worker.put(Motion { before, ..motion });
     }
 
     /// Stops: the body has changed.
@@ -141,40 +138,24 @@ impl Found {
 }
 
 /// Classifies motions.
-struct Classification;
-
-/// Does the job of an errand.
-pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) -> bool {
-    task::perform::<Classification>(errand, back)
-}
-
-/// A motion to be classified.
-#[derive(Serialize, Deserialize)]
-pub(crate) struct Job {
-    revision: u32,
-    plan: Plan,
-    noisy: bool,
-    again: bool,
-    /// Its name as known before.
-    before: Option<Regime>,
-}
+pub(crate) struct Classification;
 
 impl Task for Classification {
-    type Job = Job;
+    type Job = Motion;
     type Report = Found;
 
     const NAME: &'static str = "naming";
     /// Pictures go first.
     const NICE: i32 = 3;
 
-    fn run(job: Job, watch: &dyn Watch, tell: Tell<'_, Found>) -> Result<(), Gone> {
+    fn run(job: Motion, watch: &dyn Watch, tell: Tell<'_, Found>) -> Result<(), Gone> {
         Work { job: &job, watch, tell }.run()
     }
 }
 
 /// One motion to be classified.
 struct Work<'w> {
-    job: &'w Job,
+    job: &'w Motion,
     watch: &'w dyn Watch,
     tell: Tell<'w, Found>,
 }

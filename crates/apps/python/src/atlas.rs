@@ -82,7 +82,7 @@ fn compute(
     Ok(lines.map(|lines| (grid, lines)))
 }
 
-fn opening_of(text: &str) -> Opening {
+pub(crate) fn opening_of(text: &str) -> Opening {
     match text {
         "resume" => Opening::Resume,
         "replace" => Opening::Replace,

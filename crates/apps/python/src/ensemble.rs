@@ -1,12 +1,12 @@
 //! Many orbits at given times.
 
+use crate::analyse::answer;
 use crate::errors::{of_json, python};
 use crate::study::{Study, plan};
 use crate::watch::Caller;
 use motiform_lab::ensemble::{Member, Track, random_members, tracks};
 use motiform_study::Error;
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
-use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
 /// Starts of an ensemble, (member, entry): `count` random ones of the study.
@@ -38,36 +38,32 @@ pub(crate) fn ensemble<'py>(
     };
     let members = rows(&parameters)?.into_iter().zip(rows(&starts)?);
     let members: Vec<Member> = members.map(|(parameters, start)| Member { parameters, start }).collect();
-    let (found, raised) = Caller::here(py, progress, |watch| {
+    let found = answer(Caller::here(py, progress, |watch| {
         let mut study = study.clone();
         study.0.run.dt_out = 0.0; // there are no rows: those of a preset may be too many for this span
         tracks(&plan(&study)?, &members, &times, threads.max(1), watch)
-    });
-    if let Some(raised) = raised {
-        return Err(raised);
-    }
-    let found = found.map_err(python)?.ok_or_else(|| PyKeyboardInterrupt::new_err("interrupted"))?;
-    let outcomes = serde_json::to_string(&found.iter().map(ended).collect::<Vec<_>>()).map_err(of_json)?;
-    Ok((states(py, &found, times.len(), entries)?, outcomes))
+    }))?;
+    told(py, &found, times.len(), entries)
 }
 
-/// The states (member, time, entry), NaN at times that a member did not reach.
-pub(crate) fn states<'py>(
+/// The states (member, time, entry), NaN at times that a member did not reach, and how each member ended, as JSON.
+pub(crate) fn told<'py>(
     py: Python<'py>,
     tracks: &[Track],
     times: usize,
     entries: usize,
-) -> PyResult<Bound<'py, PyArray3<f64>>> {
+) -> PyResult<(Bound<'py, PyArray3<f64>>, String)> {
+    let outcomes = serde_json::to_string(&tracks.iter().map(ended).collect::<Vec<_>>()).map_err(of_json)?;
     let mut block = vec![f64::NAN; tracks.len() * times * entries];
     for (track, room) in tracks.iter().zip(block.chunks_exact_mut((times * entries).max(1))) {
         for (state, room) in track.states.iter().zip(room.chunks_exact_mut(entries)) {
             room.copy_from_slice(state);
         }
     }
-    PyArray1::from_vec(py, block).reshape([tracks.len(), times, entries])
+    Ok((PyArray1::from_vec(py, block).reshape([tracks.len(), times, entries])?, outcomes))
 }
 
 /// The outcome, whether it is complete, and the same as text.
-pub(crate) fn ended(track: &Track) -> (motiform_dynamics::Outcome, bool, String) {
+fn ended(track: &Track) -> (motiform_dynamics::Outcome, bool, String) {
     (track.outcome, track.outcome.is_complete(), track.outcome.to_string())
 }

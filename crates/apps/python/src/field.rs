@@ -1,7 +1,7 @@
 //! Compiled functions as vector fields.
 
 use crate::analyse::{answer, exponents_json};
-use crate::ensemble::{ended, states};
+use crate::ensemble::told;
 use crate::errors::{of_json, python};
 use crate::foreign::Foreign;
 use crate::run::{Columns, TableArrays};
@@ -14,7 +14,7 @@ use motiform_store::table::{Column, Table};
 use motiform_study::Ending;
 use motiform_study::study::RunSettings;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::{Value, json};
@@ -151,16 +151,10 @@ impl Field {
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, String)> {
         let settings = self.settings(run)?.1;
         let members: Vec<_> = parameters.into_iter().zip(starts).collect();
-        let (found, raised) = Caller::beside(py, progress, |watch| {
+        let found = answer(Caller::beside(py, progress, |watch| {
             tracks(&self.given, &members, &times, &settings, threads.max(1), watch)
-        });
-        if let Some(raised) = raised {
-            return Err(raised);
-        }
-        let found = found.map_err(python)?.ok_or_else(|| PyKeyboardInterrupt::new_err("interrupted"))?;
-        let outcomes =
-            serde_json::to_string(&found.iter().map(ended).collect::<Vec<_>>()).map_err(of_json)?;
-        Ok((states(py, &found, times.len(), self.names.len())?, outcomes))
+        }))?;
+        told(py, &found, times.len(), self.names.len())
     }
 
     /// The largest exponents, as `lyapunov`.

@@ -1,10 +1,11 @@
 //! Scans in folders.
 
+use crate::atlas::opening_of;
 use crate::errors::python;
 use crate::scan_plan::{Arrays, ScanPlan, arrays};
 use crate::watch::Caller;
 use motiform_lab::scan::{
-    Classify, Opening, Scan, ScanFolder, ScanTable, Shard, for_each_part, merge as merge_folders,
+    Classify, Scan, ScanFolder, ScanTable, Shard, for_each_part, merge as merge_folders,
 };
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
@@ -21,12 +22,7 @@ impl ScanFiles {
     #[new]
     fn new(path: PathBuf, plan: &ScanPlan, shard: Option<&str>, opening: &str) -> PyResult<Self> {
         let shard = shard.map_or(Ok(Shard::WHOLE), Shard::parse).map_err(python)?;
-        let opening = match opening {
-            "resume" => Opening::Resume,
-            "replace" => Opening::Replace,
-            _ => Opening::New,
-        };
-        Scan::open(&path, &plan.0, shard, opening).map(Self).map_err(python)
+        Scan::open(&path, &plan.0, shard, opening_of(opening)).map(Self).map_err(python)
     }
 
     /// Damaged parts that were found, each with a description; they are recomputed.

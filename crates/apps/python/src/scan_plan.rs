@@ -1,12 +1,13 @@
 //! A scan's plan, and computing it: on all threads here, or cell by cell in tasks of an executor.
 
+use crate::analyse::answer;
 use crate::errors::{of_json, of_keywords, python};
 use crate::study::{Study, number};
 use crate::watch::Caller;
 use motiform_lab::scan::{Axis, Classify, Row, ScanTable, Store, compute, rows_of};
 use motiform_study::{Error, ScanPlan as Inner};
 use numpy::{PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 use std::sync::{Mutex, PoisonError};
@@ -180,10 +181,7 @@ impl ScanPlan {
         let (rows, raised) = Caller::here(py, None, |watch| {
             rows_of(&self.0, first..last, &|| began.elapsed().as_secs_f64() < seconds, &Classify, watch)
         });
-        if let Some(raised) = raised {
-            return Err(raised);
-        }
-        let rows = rows.ok_or_else(|| PyKeyboardInterrupt::new_err("interrupted"))?;
+        let rows = answer((Ok(rows), raised))?;
         let next = first + rows.len() / self.0.computation.samples;
         let mut table = ScanTable::empty(rows.len(), whys);
         for (place, row) in rows.into_iter().enumerate() {

@@ -64,8 +64,8 @@ pub use subsets::{
     Averaged, Selection, Subset, Subsets, TIE, averaged, refit_tied, refit_with, select, subsets,
 };
 pub use walk::{
-    Bounded, Fix, Misfit, PersistentWalk, SPREAD_SCATTER, WalkTogether, persistent_walk, walk_likelihood,
-    walk_together,
+    Bounded, Fix, Misfit, PersistentWalk, SPREAD_SCATTER, WalkTests, WalkTogether, persistent_walk,
+    walk_likelihood, walk_together,
 };
 pub use warnings::{
     COARSE, Channel, Drift, DriftPoint, Stretch, UnequalNoise, Warning, carried_cells, drift, fastest_rate,

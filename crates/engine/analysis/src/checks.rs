@@ -10,6 +10,19 @@ pub(crate) fn finite(samples: &[f64]) -> Result<()> {
     }
 }
 
+/// Every point has `expected` coordinates, all of them finite numbers.
+pub(crate) fn points<'p>(points: impl Iterator<Item = &'p Vec<f64>>, expected: usize) -> Result<()> {
+    for (index, point) in points.enumerate() {
+        if point.len() != expected {
+            return Err(Error::Shape { what: "a point", expected, got: point.len() });
+        }
+        if let Some(value) = point.iter().copied().find(|x| !x.is_finite()) {
+            return Err(Error::NotFinite { index, value });
+        }
+    }
+    Ok(())
+}
+
 /// There are enough of them.
 pub(crate) fn at_least(what: &'static str, least: usize, got: usize) -> Result<()> {
     if got < least { Err(Error::TooFew { what, least, got }) } else { Ok(()) }

@@ -19,12 +19,8 @@ pub(crate) struct Graded {
 
 impl Graded {
     /// Of a square matrix; `None` where an entry is not finite or a row is 0.
-    pub(crate) fn of(mut matrix: DMatrix<f64>) -> Option<Self> {
-        let scales: Vec<f64> = matrix.row_iter().map(|row| scale(row.iter())).collect();
-        if !matrix.iter().chain(&scales).all(|x| x.is_finite()) {
-            return None;
-        }
-        matrix.row_iter_mut().zip(&scales).for_each(|(mut row, scale)| row *= *scale);
+    pub(crate) fn of(matrix: DMatrix<f64>) -> Option<Self> {
+        let (matrix, scales) = scaled(matrix)?;
         Some(Self { qr: matrix.col_piv_qr(), scales })
     }
 
@@ -39,12 +35,8 @@ impl Graded {
 /// `|A^-1| bounds`: how far the solution of `A x = b` may be away where equation i is wrong by up to
 /// `bounds[i]`. Where A is singular to the last digit, the solutions are a family, and the distance is that
 /// to the nearest one of them. `None` where an entry is not finite.
-pub(crate) fn spread(mut matrix: DMatrix<f64>, bounds: &[f64]) -> Option<Vec<f64>> {
-    let scales: Vec<f64> = matrix.row_iter().map(|row| scale(row.iter())).collect();
-    if !matrix.iter().chain(&scales).all(|x| x.is_finite()) {
-        return None;
-    }
-    matrix.row_iter_mut().zip(&scales).for_each(|(mut row, scale)| row *= *scale);
+pub(crate) fn spread(matrix: DMatrix<f64>, bounds: &[f64]) -> Option<Vec<f64>> {
+    let (matrix, scales) = scaled(matrix)?;
     let svd = svd(matrix)?;
     let least = SINGULAR * svd.singular_values.amax();
     let inverse = svd.pseudo_inverse(least).ok()?;
@@ -54,6 +46,16 @@ pub(crate) fn spread(mut matrix: DMatrix<f64>, bounds: &[f64]) -> Option<Vec<f64
     };
     let all: Vec<f64> = (0..bounds.len()).map(spread).collect();
     all.iter().all(|x| x.is_finite()).then_some(all)
+}
+
+/// The matrix with its rows scaled, and the factors; `None` where an entry is not finite.
+fn scaled(mut matrix: DMatrix<f64>) -> Option<(DMatrix<f64>, Vec<f64>)> {
+    let scales: Vec<f64> = matrix.row_iter().map(|row| scale(row.iter())).collect();
+    if !matrix.iter().chain(&scales).all(|x| x.is_finite()) {
+        return None;
+    }
+    matrix.row_iter_mut().zip(&scales).for_each(|(mut row, scale)| row *= *scale);
+    Some((matrix, scales))
 }
 
 /// A singular value below this part of the largest is 0.

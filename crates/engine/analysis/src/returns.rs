@@ -170,15 +170,6 @@ fn radius(points: &[Vec<f64>]) -> Result<f64> {
 fn check(points: &[Vec<f64>], resolution: f64) -> Result<()> {
     checks::at_least("a correlation dimension, in points,", LEAST, points.len())?;
     checks::argument("the resolution", resolution, resolution > 0.0, "above 0")?;
-    let expected = points[0].len();
-    checks::at_least("a point, in coordinates,", 1, expected)?;
-    for (index, point) in points.iter().enumerate() {
-        if point.len() != expected {
-            return Err(Error::Shape { what: "a point", expected, got: point.len() });
-        }
-        if let Some(value) = point.iter().copied().find(|x| !x.is_finite()) {
-            return Err(Error::NotFinite { index, value });
-        }
-    }
-    Ok(())
+    checks::at_least("a point, in coordinates,", 1, points[0].len())?;
+    checks::points(points.iter(), points[0].len())
 }

@@ -1,6 +1,6 @@
 //! The test that two sets of points fill the same set.
 
-use crate::{Error, Result, checks};
+use crate::{Result, checks};
 
 /// Fewest points of each set.
 const LEAST: usize = 100;
@@ -30,15 +30,7 @@ const SHARE: f64 = 0.7;
 /// # Checked by  tests/all/same_set.rs: circles, a period, power laws of decay, shrinking spirals, the logistic map
 pub fn same_set(first: &[Vec<f64>], second: &[Vec<f64>], resolution: f64) -> Result<bool> {
     checks::at_least("a comparison of sets, in points of each,", LEAST, first.len().min(second.len()))?;
-    let expected = first[0].len();
-    for (index, point) in first.iter().chain(second).enumerate() {
-        if point.len() != expected {
-            return Err(Error::Shape { what: "a point", expected, got: point.len() });
-        }
-        if let Some(value) = point.iter().copied().find(|x| !x.is_finite()) {
-            return Err(Error::NotFinite { index, value });
-        }
-    }
+    checks::points(first.iter().chain(second), first[0].len())?;
     let (inner, outer) = (within(first), within(second));
     let reach = quantile(&inner, NEIGHBOURS, first.len()).max(quantile(&outer, NEIGHBOURS, second.len()));
     let reach = reach.max(resolution * resolution);

@@ -1,9 +1,8 @@
 //! The 0-1 test for chaos.
 
 use crate::{Error, Result, checks};
+use motiform_dynamics::Normal;
 use motiform_dynamics::sample::ascending;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
 
 /// Number of frequencies c.
@@ -60,11 +59,8 @@ pub fn zero_one(samples: &[f64], seed: u64) -> Result<ZeroOne> {
 
 /// The values of c, uniform in (pi/5, 4 pi/5): resonances with slow parts of the series lie outside.
 fn frequencies(seed: u64) -> impl Iterator<Item = f64> {
-    let mut key = [0; 32];
-    key[..8].copy_from_slice(&seed.to_le_bytes());
-    let mut bits = ChaCha8Rng::from_seed(key);
-    let uniform = move || (bits.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-    std::iter::repeat_with(uniform).take(FREQUENCIES).map(|x| PI * (0.2 + 0.6 * x))
+    let mut random = Normal::new(seed, 0);
+    std::iter::repeat_with(move || random.uniform()).take(FREQUENCIES).map(|x| PI * (0.2 + 0.6 * x))
 }
 
 /// D(n) for n = 1 ..= N/10.

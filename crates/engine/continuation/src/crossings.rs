@@ -20,7 +20,7 @@ pub(super) fn crosses<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
 /// a fold it does not.
 fn second<P: Problem>(problem: &P, at: &Place<P::Local>) -> Option<(f64, f64)> {
     let all = seen(problem.linear(&at.local), &problem.weights(&at.x));
-    let family = problem.family();
+    let family = problem.family().len();
     Some((all.get(1 + family)?.0, all.get(2 + family)?.0))
 }
 
@@ -134,7 +134,7 @@ pub(super) fn solved<P: Problem>(
     at: &Place<P::Local>,
     watch: &dyn Watch,
 ) -> Option<Place<P::Local>> {
-    if problem.time().is_some() || problem.family() > 0 {
+    if problem.time().is_some() || !problem.family().is_empty() {
         return None;
     }
     let weights = problem.weights(&at.x);

@@ -6,14 +6,8 @@ use super::degenerate::{Degenerate, Seen, Sign};
 use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
 use super::special::Special;
+use super::steps::{SHORTER, STRAIGHT, next_step};
 use motiform_dynamics::Watch;
-
-/// Length of the correction that the step is chosen for.
-const CORRECTION: f64 = 1e-3;
-
-/// A step that fails is tried again with this part of its length. No power of 1.5 times a power of it is 1, so that growing and
-/// shrinking steps do not come back to the same place.
-const SHORTER: f64 = 0.35;
 
 /// A point is one of the curve only where its critical multiplier is as close to where it belongs: what the condition leaves at
 /// ordinary points is below 1e-6.
@@ -21,9 +15,6 @@ const RESOLVED: f64 = 1e-4;
 
 /// Where that fails after a step as short as this, the condition is not resolved any more.
 const SHORT: f64 = 1e-3;
-
-/// Least cosine of the angle between successive tangents.
-const STRAIGHT: f64 = 0.9;
 
 /// A place, and its distance from the beginning of the step.
 type At<L> = (Spot<L>, f64);
@@ -58,9 +49,7 @@ impl<P: Problem> CurveTracer<P> {
                     Obstruction::Newton
                 }
                 Ok((spot, off)) if self.is_straight(&spot) => {
-                    let factor = libm::cbrt(CORRECTION / off.abs().max(1e-12)).clamp(SHORTER, 1.5);
-                    self.step =
-                        (length * factor).clamp(self.settings.smallest_step, self.settings.largest_step);
+                    self.step = next_step(length, off.abs(), &self.settings);
                     return Ok((spot, length));
                 }
                 Ok(_) => Obstruction::Newton,

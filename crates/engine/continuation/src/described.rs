@@ -67,7 +67,7 @@ impl<P: Problem> Tracer<P> {
             motion: self.problem.motion(&place.x, &place.local, &place.levels),
             unstable: if located { self.beside_critical(place) } else { unstable(&place.levels) },
             neutral: if special.is_some() { 0 } else { neutral(&self.problem, place) },
-            family: self.problem.family(),
+            family: self.problem.family().len(),
             critical,
             slope: place.slope(),
             special,

@@ -131,7 +131,7 @@ pub(super) fn border_at_start<P: Problem>(problem: &mut P, x: &[f64]) {
 
 /// Returns `true` if the equations held before the last step of Newton's method, up to that step.
 pub(super) fn holds<P: Problem>(problem: &P, found: &Corrected<P::Local>, tolerance: f64) -> bool {
-    problem.family() == 0 || norm(&problem.linear(&found.local).residual) < SOLVED * tolerance
+    problem.family().is_empty() || norm(&problem.linear(&found.local).residual) < SOLVED * tolerance
 }
 
 impl<P: Problem> Tracer<P> {
@@ -139,7 +139,7 @@ impl<P: Problem> Tracer<P> {
     /// branch: one step ahead there must be another one of the same dimension. (At a bifurcation there may be one for one value.)
     /// Its directions have no part in what the branch does: the equations are bordered by them, and their levels left out.
     pub(super) fn find_family(&mut self) {
-        let dimension = self.problem.family();
+        let dimension = self.problem.family().len();
         // levels are those of the last but one solution of Newton's method
         if dimension == 0 && zeros(&self.problem, &self.place.levels, CLEAR) == 0 {
             return;
@@ -163,7 +163,7 @@ impl<P: Problem> Tracer<P> {
     /// within the tolerance; levels tell more, and are 0 at that point alone.
     fn goes_on(&mut self) -> bool {
         let Ok((ahead, _)) = self.attempt(self.step, &()) else { return false };
-        let (here, dimension) = (self.problem.borders(), self.problem.family());
+        let (here, dimension) = (self.problem.family().to_vec(), self.problem.family().len());
         let same = enter(&mut self.problem, &ahead.x).is_some_and(|found| found.family.len() == dimension);
         self.problem.set_family(Vec::new());
         let all =
@@ -190,7 +190,7 @@ impl<P: Problem> Tracer<P> {
 
     /// Borders the equations by the directions of the family at the present place.
     pub(super) fn follow_family(&mut self) {
-        let dimension = self.problem.family();
+        let dimension = self.problem.family().len();
         if dimension == 0 {
             return self.find_family();
         }

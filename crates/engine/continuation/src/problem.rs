@@ -82,13 +82,10 @@ pub(super) trait Problem: Equations {
     fn levels(&self, x: &[f64], local: &Self::Local) -> Option<Vec<Vec<Level>>>;
 
     /// The directions along a family of solutions in which the branch does not move.
-    fn borders(&self) -> Vec<Border>;
+    fn family(&self) -> &[Border];
 
     /// Sets them.
     fn set_family(&mut self, borders: Vec<Border>);
-
-    /// The dimension of that family.
-    fn family(&self) -> usize;
 
     /// The error of solutions, in the units of [`Equations::weights`]: what the equations themselves are exact to, not what Newton's method
     /// leaves.

@@ -7,6 +7,7 @@ use super::levels::Level;
 use super::place::{Before, Place, place};
 use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
+use super::settings::Settings;
 use super::tracer::{Tracer, neutral};
 use motiform_dynamics::Watch;
 use motiform_dynamics::sample::ascending;
@@ -29,13 +30,19 @@ const FINE: f64 = 100.0;
 
 /// A step that fails is tried again with this part of its length. No power of 1.5 times a power of it is 1, so that growing and
 /// shrinking steps do not come back to the same place.
-const SHORTER: f64 = 0.35;
+pub(super) const SHORTER: f64 = 0.35;
 
 /// Steps from one fold to the next one beside a saddle-focus.
 const PER_FOLD: f64 = 4.0;
 
 /// Least cosine of the angle between successive tangents.
-const STRAIGHT: f64 = 0.9;
+pub(super) const STRAIGHT: f64 = 0.9;
+
+/// The step after one of this length whose first correction had this one.
+pub(super) fn next_step(length: f64, first: f64, settings: &Settings) -> f64 {
+    let factor = libm::cbrt(CORRECTION / first.max(1e-12)).clamp(SHORTER, 1.5);
+    (length * factor).clamp(settings.smallest_step, settings.largest_step)
+}
 
 impl<P: Problem> Tracer<P> {
     /// The next solution and the length of the step to it.
@@ -45,9 +52,7 @@ impl<P: Problem> Tracer<P> {
             let length = self.step;
             let why = match self.attempt(length, watch) {
                 Ok((place, first)) => {
-                    let factor = libm::cbrt(CORRECTION / first.max(1e-12)).clamp(SHORTER, 1.5);
-                    self.step =
-                        (length * factor).clamp(self.settings.smallest_step, self.settings.largest_step);
+                    self.step = next_step(length, first, &self.settings);
                     return Ok((place, length));
                 }
                 Err(Failure::Stopped) => return Err(End::Stopped),

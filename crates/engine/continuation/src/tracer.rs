@@ -89,7 +89,8 @@ impl<P: Problem> Tracer<P> {
         let found = correct(&problem, x, &row, settings.tolerance, watch)?;
         let weights = problem.weights(&found.x);
         // the side is decided by the parameter; where the branch is vertical, by the sign that the decomposition gives
-        let bordered = (problem.family() > 0).then(|| scaled(found.direction.clone(), &weights)).flatten();
+        let bordered =
+            (!problem.family().is_empty()).then(|| scaled(found.direction.clone(), &weights)).flatten();
         let null = || directions(problem.linear(&found.local), &weights).into_iter().next();
         let mut first = bordered.or_else(null).ok_or(Failure::Obstructed(Obstruction::Singular))?;
         let along = first.last().copied().unwrap_or(0.0);
@@ -351,7 +352,7 @@ impl<P: Problem> Tracer<P> {
         let kept = self.problem.time().map_or(0, |time| self.place.x.len() - time);
         let old: Vec<f64> = self.place.tangent.iter().rev().take(kept).rev().copied().collect();
         let Some(x) = self.problem.refine(&self.place.x, &self.place.local, watch) else { return };
-        let family = self.problem.borders();
+        let family = self.problem.family().to_vec();
         if !family.is_empty() {
             border_at_start(&mut self.problem, &x); // with more unknowns
         }

@@ -41,12 +41,6 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
         Self { field, count, follow: true }
     }
 
-    /// The field that the vectors are tangent to.
-    #[must_use]
-    pub fn field(&self) -> &'f F {
-        self.field
-    }
-
     /// Calls `eval(lifted state, rates)` once for every `K` tangent vectors and sorts what it writes into `du`.
     fn lift<const K: usize>(
         &self,

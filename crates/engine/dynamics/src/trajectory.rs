@@ -44,12 +44,6 @@ impl Trajectory {
         self.times.is_empty()
     }
 
-    /// Number of entries of a state.
-    #[must_use]
-    pub fn dim(&self) -> usize {
-        self.dim
-    }
-
     /// The sample times, growing.
     #[must_use]
     pub fn times(&self) -> &[f64] {

@@ -5,7 +5,7 @@ use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::Propagation;
 use motiform_dynamics::simd::has_lanes;
-use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly};
+use motiform_dynamics::{InPlane, Integration, Model, Outcome, Request, StepControl, StopOnly};
 use motiform_kernels::{Kernel, Start, propagate_bodies};
 use motiform_study::plan::{check, check_closed, check_no_noise, check_steps};
 use motiform_study::{Error, Plan, Random};
@@ -125,26 +125,36 @@ impl Body {
         let c = &plan.computation;
         let body = InPlane(self.model.as_ref());
         let mut orbit = plan.method()?.orbit(&body, c.control.into(), 0.0, &self.start)?;
-        let (mut states, mut outcome) = (Vec::new(), Outcome::Completed { t: 0.0 });
-        for &t in times {
-            if t > 0.0 {
-                let request = Request {
-                    max_steps: c.max_steps,
-                    escape_norm: c.escape_norm,
-                    watched: self.model.dim(),
-                    watch: &StopOnly(watch),
-                    ..Request::until(t, self.start.len())
-                };
-                outcome = drive(orbit.as_mut(), &request, &mut ())?;
-            }
-            match outcome {
-                Outcome::Completed { .. } => states.push(named(self.model.as_ref(), orbit.state())),
-                Outcome::Interrupted { .. } => return Ok(None),
-                _ => break,
-            }
-        }
-        Ok(Some(Track { states, outcome }))
+        let request = Request {
+            max_steps: c.max_steps,
+            escape_norm: c.escape_norm,
+            watched: self.model.dim(),
+            watch: &StopOnly(watch),
+            ..Request::until(0.0, self.start.len())
+        };
+        track_of(orbit.as_mut(), times, &request, &|state| named(self.model.as_ref(), state))
     }
+}
+
+/// The states of an orbit at these times, as `shown` has them, until it ends; `None` if it was stopped.
+pub(crate) fn track_of(
+    orbit: &mut dyn Integration,
+    times: &[f64],
+    request: &Request<'_>,
+    shown: &dyn Fn(&[f64]) -> Vec<f64>,
+) -> Result<Option<Track>, Error> {
+    let (mut states, mut outcome) = (Vec::with_capacity(times.len()), Outcome::Completed { t: 0.0 });
+    for &t_end in times {
+        if t_end > 0.0 {
+            outcome = drive(orbit, &Request { t_end, ..*request }, &mut ())?;
+        }
+        match outcome {
+            Outcome::Completed { .. } => states.push(shown(orbit.state())),
+            Outcome::Interrupted { .. } => return Ok(None),
+            _ => break,
+        }
+    }
+    Ok(Some(Track { states, outcome }))
 }
 
 /// A state as the model's coordinates, x and y.

@@ -2,7 +2,7 @@
 
 use crate::plan::{Computation, Plan, Question, RunPlan, check, check_no_noise};
 use crate::titles::capital;
-use crate::{Error, Given, Stride, Study, Ties, Towards, UnitSettings};
+use crate::{Error, Given, Stride, Study, Ties, UnitSettings};
 use motiform_analysis::Regime;
 use motiform_models::parameters::index_of;
 use motiform_models::spelling::ascii;
@@ -57,16 +57,8 @@ pub struct BranchSettings {
 impl BranchSettings {
     /// The defaults: the motion that the start settles on and what begins on its branch, to both sides.
     #[must_use]
-    pub const fn over(along: Along) -> Self {
-        let stride = Stride {
-            first_step: None,
-            branch_step: None,
-            tolerance: None,
-            direction: Towards::Both,
-            steady: false,
-            from_stable: false,
-            doublings: None,
-        };
+    pub fn over(along: Along) -> Self {
+        let stride = Stride::default();
         Self { along, origin: None, points: 2000, branches: 8, samples: 0, stride, given: None }
     }
 }
@@ -182,13 +174,12 @@ fn check_known(origin: Option<Regime>, given: Option<Given>) -> Result<(), Error
 /// The regime of a kind of start.
 ///
 /// # Errors
-/// [`Error::Origin`] for a name that is none, or that of a motion that cannot be followed.
+/// [`Error::UnknownName`] for a name that is none, or that of a motion that cannot be followed.
 pub fn origin(name: &str) -> Result<Regime, Error> {
     let known = FOLLOWED.map(Regime::name);
-    FOLLOWED.into_iter().find(|regime| regime.name() == name).ok_or_else(|| Error::Origin {
-        name: name.to_owned(),
-        nearest: crate::error::nearest_of(name, &known),
-        known: known.to_vec(),
+    FOLLOWED.into_iter().find(|regime| regime.name() == name).ok_or_else(|| {
+        let choice = format!("the motions that can be followed are {}", known.join(", "));
+        Error::unknown("start", name, &known, choice)
     })
 }
 

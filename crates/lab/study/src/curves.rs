@@ -1,7 +1,6 @@
 //! Curves of special points as data: which kinds, over which two parameters.
 
 use crate::branches::{Along, BranchComputation, BranchPlan};
-use crate::error::nearest_of;
 use crate::plan::{Plan, Question};
 use crate::{Error, Study};
 use motiform_models::ModelName;
@@ -37,20 +36,18 @@ impl CurveKind {
     /// The kind of this name.
     ///
     /// # Errors
-    /// [`Error::CurveKind`] with the nearest name.
+    /// [`Error::UnknownName`] with the nearest name.
     pub fn parse(name: &str) -> Result<Self, Error> {
         let known = Self::ALL.map(Self::name);
-        Self::find(name).ok_or_else(|| Error::CurveKind {
-            name: name.to_owned(),
-            nearest: nearest_of(name, &known),
-            known: known.to_vec(),
-        })
+        let points = "the special points that can be followed over two parameters are";
+        Self::find(name)
+            .ok_or_else(|| Error::unknown("curve", name, &known, format!("{points} {}", known.join(", "))))
     }
 
     /// Reads names separated by commas, each kind once.
     ///
     /// # Errors
-    /// [`Error::CurveKind`].
+    /// [`Error::UnknownName`].
     pub fn list(text: &str) -> Result<Vec<Self>, Error> {
         let mut all = Vec::new();
         for name in text.split(',') {

@@ -14,14 +14,6 @@ pub enum Error {
     /// An analysis rejected its input.
     #[error(transparent)]
     Analysis(#[from] motiform_analysis::Error),
-    /// No part of the paper has this name.
-    #[error("unknown figure {name:?}: choose one of {}", .known.join(", "))]
-    UnknownFigure {
-        /// The name given.
-        name: String,
-        /// The known names.
-        known: Vec<&'static str>,
-    },
     /// The caller stopped the computation.
     #[error("interrupted")]
     Interrupted,
@@ -63,6 +55,18 @@ pub enum Error {
         /// The line, with the place marked below it.
         excerpt: String,
     },
+    /// A name that is none of those that are known.
+    #[error("unknown {kind} {name:?}{}: {choice}", hint(.nearest))]
+    UnknownName {
+        /// What is named.
+        kind: &'static str,
+        /// The name given.
+        name: String,
+        /// The most similar name.
+        nearest: Option<&'static str>,
+        /// The known names, in words.
+        choice: String,
+    },
     /// No preset has this name.
     #[error("unknown preset {name:?} of model {model}{}: the presets are {}", hint(.nearest), .known.join(", "))]
     UnknownPreset {
@@ -90,16 +94,6 @@ pub enum Error {
         /// All presets.
         presets: Vec<&'static str>,
     },
-    /// No stepper has this name.
-    #[error("unknown stepper {name:?}{}: the steppers are {}", hint(.nearest), .known.join(", "))]
-    UnknownStepper {
-        /// The name given.
-        name: String,
-        /// The most similar name.
-        nearest: Option<&'static str>,
-        /// All steppers.
-        known: Vec<&'static str>,
-    },
     /// An invalid setting.
     #[error("{key} = {value}: {remedy}")]
     Setting {
@@ -126,24 +120,6 @@ pub enum Error {
         /// The mistake and its remedy.
         problem: String,
     },
-    /// No motion of this name can be followed.
-    #[error("unknown start {name:?}{}: the motions that can be followed are {}", hint(.nearest), .known.join(", "))]
-    Origin {
-        /// The name given.
-        name: String,
-        /// The most similar name.
-        nearest: Option<&'static str>,
-        /// The motions.
-        known: Vec<&'static str>,
-    },
-    /// A start is followed to no side of this name.
-    #[error("unknown direction {name:?}{}: give up, down or both", hint(.nearest))]
-    Towards {
-        /// The name given.
-        name: String,
-        /// The most similar name.
-        nearest: Option<&'static str>,
-    },
     /// A point of an earlier result that cannot be a start.
     #[error("start {text}: {problem}")]
     StartPoint {
@@ -155,19 +131,6 @@ pub enum Error {
     /// Branches without a parameter to follow a motion along.
     #[error("nothing to follow: give the parameter to vary, with its range")]
     NoAlong,
-    /// No curve of this kind can be followed.
-    #[error(
-        "unknown curve {name:?}{}: the special points that can be followed over two parameters are {}",
-        hint(.nearest), .known.join(", ")
-    )]
-    CurveKind {
-        /// The name given.
-        name: String,
-        /// The most similar name.
-        nearest: Option<&'static str>,
-        /// The kinds.
-        known: Vec<&'static str>,
-    },
     /// A plane of two parameters that cannot be used.
     #[error("plane {text}: {problem}")]
     Plane {
@@ -304,6 +267,11 @@ impl Error {
             Self::Store(error) => error.is_machine_failure(),
             _ => matches!(self, Self::PartFailed { .. } | Self::Figure(_)),
         }
+    }
+
+    /// A name that is none of `known`, which `choice` lists in words.
+    pub(crate) fn unknown(kind: &'static str, name: &str, known: &[&'static str], choice: String) -> Self {
+        Self::UnknownName { kind, name: name.to_owned(), nearest: nearest_of(name, known), choice }
     }
 
     /// A file that cannot be read, with the reason as text.

@@ -3,10 +3,8 @@
 use crate::Error;
 use crate::plan::Named;
 use crate::study::Study;
-use motiform_dynamics::Model;
+use motiform_dynamics::{Model, Normal};
 use motiform_models::ModelInfo;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// The complete start: if any shape value is given, the others are 0; if none is, they are drawn
 /// from the study's distribution ([`Study::starts`]) by a counter-based generator. The position is `x = y = 0`
@@ -48,21 +46,17 @@ pub fn random_shape(model: &dyn Model, size: f64, seed: u64, stream: u64) -> Vec
 }
 
 /// Uniform numbers in -1..1 from ChaCha8, addressed by (seed, stream): the same on every machine.
-pub struct Uniform(ChaCha8Rng);
+pub struct Uniform(Normal);
 
 impl Uniform {
     /// The stream of this number of the generator with this seed.
     #[must_use]
     pub fn new(seed: u64, stream: u64) -> Self {
-        let mut key = [0; 32];
-        key[..8].copy_from_slice(&seed.to_le_bytes());
-        let mut generator = ChaCha8Rng::from_seed(key);
-        generator.set_stream(stream);
-        Self(generator)
+        Self(Normal::new(seed, stream))
     }
 
     /// The next number, within -1 to 1.
     pub fn draw(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        2.0 * self.0.uniform() - 1.0
     }
 }

@@ -53,11 +53,7 @@ fn all() -> impl Iterator<Item = &'static Preset> {
 pub fn find_any(name: &str, model: &'static str) -> Result<Study, Error> {
     match all().find(|preset| preset.name == name) {
         Some(preset) => Study::parse(preset.text, &format!("preset {name}"), name),
-        None => {
-            let known = names_of(model);
-            let nearest = nearest_of(name, &known);
-            Err(Error::UnknownPreset { name: name.to_owned(), model, nearest, known })
-        }
+        None => Err(unknown(name, model)),
     }
 }
 
@@ -80,17 +76,18 @@ pub fn names_of(model: &str) -> Vec<&'static str> {
     all().filter(|preset| preset.model == model).map(|preset| preset.name).collect()
 }
 
+fn unknown(name: &str, model: &'static str) -> Error {
+    let known = names_of(model);
+    Error::UnknownPreset { name: name.to_owned(), model, nearest: nearest_of(name, &known), known }
+}
+
 /// The study of a preset.
 ///
 /// # Errors
 /// [`Error::UnknownPreset`] with the nearest name.
 pub fn find(info: &'static ModelInfo, name: &str) -> Result<Study, Error> {
     let preset = all().find(|preset| preset.model == info.name && preset.name == name);
-    let Some(preset) = preset else {
-        let known = names_of(info.name);
-        let nearest = nearest_of(name, &known);
-        return Err(Error::UnknownPreset { name: name.to_owned(), model: info.name, nearest, known });
-    };
+    let preset = preset.ok_or_else(|| unknown(name, info.name))?;
     Study::parse(preset.text, &format!("preset {name}"), name)
 }
 

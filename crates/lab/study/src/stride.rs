@@ -1,7 +1,6 @@
 //! Settings of the continuation of branches: steps, tolerance, sides, with orbits or without.
 
 use crate::Error;
-use crate::error::nearest_of;
 use crate::plan::check;
 use serde::{Deserialize, Serialize};
 
@@ -24,11 +23,11 @@ impl Towards {
     /// The sides of this name.
     ///
     /// # Errors
-    /// [`Error::Towards`].
+    /// [`Error::UnknownName`].
     pub fn parse(name: &str) -> Result<Self, Error> {
         let known = Self::ALL.map(Self::name);
-        Self::find(name)
-            .ok_or_else(|| Error::Towards { name: name.to_owned(), nearest: nearest_of(name, &known) })
+        let choice = "give up, down or both".to_owned();
+        Self::find(name).ok_or_else(|| Error::unknown("direction", name, &known, choice))
     }
 
     /// Returns `true` if larger values are among them.

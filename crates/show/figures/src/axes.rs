@@ -115,14 +115,6 @@ impl Axes {
         Self { scale, x_ticks, y_ticks, x_label, y_label }
     }
 
-    /// Logarithmic axes: the scale is in log10 of both quantities, each over at least one decade.
-    ///
-    /// Ticks: [`Ticks::decades`]. The y label is wrapped to the height of the frame.
-    #[must_use]
-    pub fn logarithmic(scale: Scale, x_label: &str, y_label: &str) -> Self {
-        Self::of_kinds(scale, [AxisKind::Logarithmic; 2], x_label, y_label)
-    }
-
     /// Axes across and upwards of a kind each; along a logarithmic one the scale is in log10 of its quantity.
     #[must_use]
     pub fn of_kinds(scale: Scale, kinds: [AxisKind; 2], x_label: &str, y_label: &str) -> Self {

@@ -56,13 +56,18 @@ impl Options {
     /// Checks that every figure asked for is one of the paper's.
     ///
     /// # Errors
-    /// [`Error::UnknownFigure`] with all names.
+    /// [`Error::UnknownName`] with all names.
     pub fn check(&self) -> Result<(), Error> {
         match self.figures.iter().find(|name| !names().contains(&name.as_str())) {
-            Some(name) => Err(Error::UnknownFigure { name: name.clone(), known: names() }),
+            Some(name) => Err(unknown(name)),
             None => Ok(()),
         }
     }
+}
+
+fn unknown(name: &str) -> Error {
+    let choice = format!("choose one of {}", names().join(", "));
+    Error::UnknownName { kind: "figure", name: name.to_owned(), nearest: None, choice }
 }
 
 /// A part of the paper: its name, the share of the work it is, and what rebuilds it.
@@ -184,7 +189,7 @@ pub fn claims_under(
     (out, threads): (&Path, usize),
 ) -> Result<Vec<Claim>, Error> {
     let found = CHAPTERS.iter().chain(FURTHER).find(|known| known.name == chapter);
-    let found = found.ok_or_else(|| Error::UnknownFigure { name: chapter.to_owned(), known: names() })?;
+    let found = found.ok_or_else(|| unknown(chapter))?;
     let style = &Style::default();
     let context = Context { out, quick: true, threads, style, watch: &(), kept, fault: Some(fault) };
     Ok((found.rebuild)(&context)?.claims)

@@ -12,13 +12,13 @@ mod stage;
 mod swarm;
 
 use crate::answers::{Answers, Gone};
-use crate::branches::{self, BranchService};
+use crate::branches::{BranchService, Following, Path};
 use crate::catalogue::Catalogue;
 use crate::export::Exports;
-use crate::map::{self, Map};
-use crate::motion::{self, Naming};
+use crate::map::{Cells, Map};
+use crate::motion::{Classification, Naming};
 use crate::protocol::{Ask, Define, Defined, Mistake};
-use crate::task::{Crew, Errand};
+use crate::task::{self, Crew, Errand, Worker};
 pub(crate) use looks::short;
 use motiform_dynamics::InPlane;
 use motiform_study::Error;
@@ -34,7 +34,7 @@ pub(crate) struct Services {
     pub(crate) map: Map,
     pub(crate) branches: BranchService,
     pub(crate) exports: Exports,
-    pub(crate) ahead: returns::Ahead,
+    pub(crate) ahead: Worker<returns::Ahead>,
     pub(crate) swarms: swarm::Swarms,
     pub(crate) answers: Answers,
     /// The subjects that a body can begin with; the page can add its own equations.
@@ -48,8 +48,8 @@ impl Services {
             map: Map::new(answers.clone(), crew)?,
             branches: BranchService::new(answers, crew)?,
             exports: Exports::new(answers.clone(), crew)?,
-            ahead: returns::Ahead::new(answers.clone(), crew)?,
-            swarms: swarm::Swarms::new(answers.clone(), crew)?,
+            ahead: Worker::telling(crew, answers)?,
+            swarms: swarm::Swarms::new(answers, crew)?,
             answers: answers.clone(),
             catalogue: RefCell::new(catalogue),
         })
@@ -58,11 +58,11 @@ impl Services {
     /// Takes what a helper found.
     pub(crate) fn report(&self, errand: &Errand<'_>) -> Result<(), Gone> {
         match errand.to {
-            "naming" => self.naming.report(errand),
-            "branches" => self.branches.report(errand),
-            "orbit" => self.branches.report_orbit(errand),
+            "naming" => self.naming.worker.report(errand),
+            "branches" => self.branches.worker.report(errand),
+            "orbit" => self.branches.orbits.report(errand),
             "returns" => self.ahead.report(errand),
-            "swarm" => self.swarms.report(errand),
+            "swarm" => self.swarms.worker.report(errand),
             _ => self.map.report(errand),
         }
     }
@@ -71,11 +71,12 @@ impl Services {
 /// Does the job of an errand, in a helper: each report is the text of an errand that goes back.
 pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) {
     // The first that knows the task does it.
-    let _ = motion::perform(errand, back)
-        || map::perform(errand, back)
-        || branches::perform(errand, back)
-        || returns::perform(errand, back)
-        || swarm::perform(errand, back);
+    let _ = task::perform::<Classification>(errand, back)
+        || task::perform::<Cells>(errand, back)
+        || task::perform::<Following>(errand, back)
+        || task::perform::<Path>(errand, back)
+        || task::perform::<returns::Ahead>(errand, back)
+        || task::perform::<swarm::Classification>(errand, back);
 }
 
 /// The source of a page's requests.
@@ -168,7 +169,7 @@ async fn play(stage: &mut Stage<'_>, asks: &impl Asks) -> Result<Option<Setting>
             None => {}
             Some(Ok((setting, answer))) => {
                 stage.services().naming.stop();
-                stage.services().ahead.stop();
+                stage.services().ahead.clear();
                 stage.leave();
                 stage.services().answers.say(answer)?;
                 return Ok(Some(setting));

@@ -1,9 +1,9 @@
 //! Return maps: of the motion so far, and of the motion that follows, which is computed without waiting for the display.
 
 use super::looks::{DIGITS, short};
-use crate::answers::{Answers, Gone, text};
+use crate::answers::{Gone, text};
 use crate::protocol::{self, Refused, ReturnsTold, Section, SectionKind};
-use crate::task::{self, Crew, Errand, Task, Tell, Worker};
+use crate::task::{Task, Tell};
 use motiform_dynamics::{InPlane, Model, Watch};
 use motiform_lab::clock::Moment;
 use motiform_lab::live::{Record, Stretch, crossings_of_path, maxima_of_speed};
@@ -95,7 +95,7 @@ const PIECE: Duration = Duration::from_millis(50);
 
 /// Returns to be computed, from a state on.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Job {
+pub(crate) struct Job {
     pub(super) revision: u32,
     pub(super) plan: Plan,
     pub(super) t: f64,
@@ -106,9 +106,9 @@ pub(super) struct Job {
 }
 
 /// Computes returns ahead. Its report is the message to the page.
-struct Computation;
+pub(crate) struct Ahead;
 
-impl Task for Computation {
+impl Task for Ahead {
     type Job = Job;
     type Report = String;
 
@@ -123,38 +123,6 @@ impl Task for Computation {
             Err(error) => tell(text(&Refused { id: None, why: error.to_string() }.into())),
         }
     }
-}
-
-/// The worker that computes returns ahead.
-pub(crate) struct Ahead {
-    worker: Worker<Computation>,
-    answers: Answers,
-}
-
-impl Ahead {
-    pub(crate) fn new(answers: Answers, crew: &Crew) -> std::io::Result<Self> {
-        let heard = answers.clone();
-        Ok(Self { worker: Worker::new(crew, move |text, _: &dyn Watch| heard.text(text))?, answers })
-    }
-
-    pub(super) fn put(&self, job: Job) {
-        self.worker.put(job);
-    }
-
-    /// Takes what a helper found.
-    pub(crate) fn report(&self, errand: &Errand<'_>) -> Result<(), Gone> {
-        self.worker.report(errand).map_or(Ok(()), |text| self.answers.text(text))
-    }
-
-    /// The motion has changed.
-    pub(crate) fn stop(&self) {
-        self.worker.clear();
-    }
-}
-
-/// Does the job of an errand.
-pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) -> bool {
-    task::perform::<Computation>(errand, back)
 }
 
 /// Moves a body on until there are as many returns as were asked for, or it takes too long; `None` if nobody waits any more.

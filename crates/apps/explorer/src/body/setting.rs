@@ -169,14 +169,16 @@ impl Setting {
 
     /// The motion to be classified.
     pub(crate) fn motion(&self) -> Motion {
-        Motion { revision: self.revision, plan: self.quiet.clone(), noisy: self.noisy(), again: false }
+        let (revision, plan) = (self.revision, self.quiet.clone());
+        Motion { revision, plan, noisy: self.noisy(), again: false, before: None }
     }
 
     /// The same motion, from a later state.
     pub(crate) fn motion_at(&self, state: &[f64]) -> Result<Motion, Error> {
         let mut study = self.study_at(state);
         study.run.silence();
-        Ok(Motion { revision: self.revision, plan: RunPlan::new(&study)?, noisy: self.noisy(), again: true })
+        let (revision, plan) = (self.revision, RunPlan::new(&study)?);
+        Ok(Motion { revision, plan, noisy: self.noisy(), again: true, before: None })
     }
 
     /// The study that continues from a state.

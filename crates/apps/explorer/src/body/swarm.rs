@@ -4,7 +4,7 @@ use super::setting::Setting;
 use crate::answers::{Answers, Gone, text};
 use crate::frames::{self, Swimmer};
 use crate::protocol::{Member, Swarm, SwarmStart};
-use crate::task::{self, Crew, Errand, Task, Tell, Worker};
+use crate::task::{Crew, Task, Tell, Worker};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::{InPlane, Model, Normal, Outline, Watch};
 use motiform_lab::analyse;
@@ -37,19 +37,18 @@ pub(super) struct Group {
 /// The swarm of a session.
 pub(crate) struct Swarms {
     group: RefCell<Option<Group>>,
-    worker: Worker<Classification>,
-    answers: Answers,
+    pub(super) worker: Worker<Classification>,
 }
 
 /// Bodies to be classified; those that make no plan have no motion.
 #[derive(Serialize, Deserialize)]
-struct Job {
+pub(crate) struct Job {
     revision: u32,
     plans: Vec<Option<RunPlan>>,
 }
 
 /// Classifies all bodies, on all cores. Its reports are messages to the page.
-struct Classification;
+pub(crate) struct Classification;
 
 impl Task for Classification {
     type Job = Job;
@@ -87,15 +86,8 @@ fn regime(plan: &RunPlan, watch: &dyn Watch) -> Option<Regime> {
 }
 
 impl Swarms {
-    pub(crate) fn new(answers: Answers, crew: &Crew) -> std::io::Result<Self> {
-        let heard = answers.clone();
-        let worker = Worker::new(crew, move |text, _: &dyn Watch| heard.text(text))?;
-        Ok(Self { group: RefCell::new(None), worker, answers })
-    }
-
-    /// Takes what a helper found.
-    pub(crate) fn report(&self, errand: &Errand<'_>) -> Result<(), Gone> {
-        self.worker.report(errand).map_or(Ok(()), |text| self.answers.text(text))
+    pub(crate) fn new(answers: &Answers, crew: &Crew) -> std::io::Result<Self> {
+        Ok(Self { group: RefCell::new(None), worker: Worker::telling(crew, answers)? })
     }
 
     /// Returns `true` if there is one that goes on after a change.
@@ -114,11 +106,6 @@ impl Swarms {
         self.worker.clear();
         self.group.replace(None);
     }
-}
-
-/// Does the job of an errand.
-pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) -> bool {
-    task::perform::<Classification>(errand, back)
 }
 
 /// A swarm in motion.

@@ -6,18 +6,19 @@ mod work;
 
 use crate::answers::{Answers, Gone};
 use crate::protocol::{Follow, FollowEnd};
-use crate::task::{self, Crew, Errand, Worker, lock};
+use crate::task::{Crew, Worker, lock};
 use motiform_diagrams::{Branches, Sample};
 use motiform_dynamics::Watch;
 use motiform_study::{BranchPlan, Study};
-pub(crate) use orbit::OrbitJob;
+pub(crate) use orbit::{OrbitJob, Path};
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
+pub(crate) use work::Following;
 use work::{Found, Job};
 
 /// The branches so far.
 #[derive(Clone, Serialize, Deserialize)]
-struct Known {
+pub(crate) struct Known {
     epoch: u32,
     plan: BranchPlan,
     found: Branches,
@@ -32,8 +33,9 @@ pub(crate) struct Spot {
 
 /// The branches of a session.
 pub(crate) struct BranchService {
-    worker: Worker<work::Following>,
-    orbits: Worker<orbit::Path>,
+    pub(crate) worker: Worker<Following>,
+    /// The orbit of a point, instead of the one before.
+    pub(crate) orbits: Worker<Path>,
     heard: Arc<Heard>,
 }
 
@@ -48,9 +50,7 @@ impl BranchService {
         let heard = Arc::new(Heard { known: Mutex::new(None), answers: answers.clone() });
         let shared = Arc::clone(&heard);
         let worker = Worker::new(crew, move |found, watch: &dyn Watch| shared.take(found, watch))?;
-        let told = answers.clone();
-        let orbits = Worker::new(crew, move |text, _: &dyn Watch| told.text(text))?;
-        Ok(Self { worker, orbits, heard })
+        Ok(Self { worker, orbits: Worker::telling(crew, answers)?, heard })
     }
 
     /// Follows the branches of the motion that a study settles on, instead of those before.
@@ -67,16 +67,6 @@ impl BranchService {
                 self.heard.answers.say(end)
             }
         }
-    }
-
-    /// Takes what a helper found.
-    pub(crate) fn report(&self, errand: &Errand<'_>) -> Result<(), Gone> {
-        self.worker.report(errand).map_or(Ok(()), |found| self.heard.take(found, &()))
-    }
-
-    /// Takes an orbit that a helper computed.
-    pub(crate) fn report_orbit(&self, errand: &Errand<'_>) -> Result<(), Gone> {
-        self.orbits.report(errand).map_or(Ok(()), |text| self.heard.answers.text(text))
     }
 
     /// Stops, and keeps what was found.
@@ -102,16 +92,6 @@ impl BranchService {
         let sample = known.found.branches.get(branch)?.samples().nth(point)?.clone();
         Some(Spot { plan: known.plan.clone(), sample })
     }
-
-    /// Computes the orbit of a point, instead of the one before.
-    pub(crate) fn orbit(&self, job: OrbitJob) {
-        self.orbits.put(job);
-    }
-}
-
-/// Does the job of an errand.
-pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) -> bool {
-    task::perform::<work::Following>(errand, back) || task::perform::<orbit::Path>(errand, back)
 }
 
 impl Heard {

@@ -24,7 +24,7 @@ pub(crate) struct OrbitJob {
 }
 
 /// Computes the orbit. Its report is the message to the page.
-pub(super) struct Path;
+pub(crate) struct Path;
 
 impl Task for Path {
     type Job = OrbitJob;

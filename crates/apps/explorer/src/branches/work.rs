@@ -38,7 +38,7 @@ pub(crate) enum Found {
 }
 
 /// Follows branches.
-pub(super) struct Following;
+pub(crate) struct Following;
 
 impl Task for Following {
     type Job = Job;

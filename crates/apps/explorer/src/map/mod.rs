@@ -13,15 +13,16 @@ mod work;
 use crate::answers::{Answers, Gone};
 use crate::export::{Made, Maker};
 use crate::protocol::{Evidence, MapWindow, Values};
-use crate::task::{self, Crew, Errand, lock};
+use crate::task::{Crew, Errand, lock};
 #[cfg(feature = "threads")]
-use crate::task::{Task as _, thread::Thread};
+use crate::task::{Task as _, thread};
 pub(crate) use map_state::FARTHEST;
 use map_state::MapState;
 use motiform_lab::draw::{exponents, phase_diagram, sheet};
 use motiform_lab::scan::{CellSummary, Row, motion_mark, rows_to_csv};
 use motiform_study::{Shown, Study};
-use pool::{Cells, Pool};
+pub(crate) use pool::Cells;
+use pool::Pool;
 use serde_json::json;
 use std::sync::{Arc, Mutex};
 use view::View;
@@ -36,7 +37,7 @@ pub(crate) struct Map {
 #[allow(clippy::large_enum_variant, reason = "who computes the map: one per session")]
 enum Drive {
     #[cfg(feature = "threads")]
-    Thread(Thread<Job>),
+    Thread(thread::Thread<Job>),
     Pool(Pool),
 }
 
@@ -53,11 +54,11 @@ impl Map {
             #[cfg(feature = "threads")]
             Crew::Threads => {
                 let (shared, told) = (Arc::clone(&map_state), answers.clone());
-                let work = move |job: Job, current: &task::thread::Current<'_>| {
+                let work = move |job: Job, current: &thread::Current<'_>| {
                     // A page that has gone takes its session along.
                     let _ = work::compute(&job, &shared, current, &told);
                 };
-                Drive::Thread(Thread::new(Cells::NAME, Cells::NICE, work)?)
+                Drive::Thread(thread::Thread::new(Cells::NAME, Cells::NICE, work)?)
             }
             Crew::Away { post, mappers } => Drive::Pool(Pool::new(post.clone(), *mappers)),
         };
@@ -177,9 +178,4 @@ fn turn(job: &Job, map_state: &Mutex<MapState>, answers: &Answers) -> Result<Opt
         view.announce(answers)?;
     }
     Ok(view)
-}
-
-/// Does the job of an errand.
-pub(crate) fn perform(errand: &Errand<'_>, back: &(dyn Fn(&str) + Sync)) -> bool {
-    task::perform::<Cells>(errand, back)
 }

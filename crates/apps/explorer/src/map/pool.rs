@@ -20,18 +20,18 @@ use std::sync::Mutex;
 const BATCH: (usize, usize) = (8, 64);
 
 /// Classifies the motions of cells.
-pub(super) struct Cells;
+pub(crate) struct Cells;
 
 /// Some cells of a plan, by their numbers.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Batch {
+pub(crate) struct Batch {
     plan: ScanPlan,
     cells: Vec<usize>,
 }
 
 /// A row as a text carries it: numbers as bits, since some are not finite.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Found {
+pub(crate) struct Found {
     cell: usize,
     regime: Regime,
     attractor: Attractor,

@@ -4,7 +4,7 @@ mod away;
 #[cfg(feature = "threads")]
 pub(crate) mod thread;
 
-use crate::answers::Gone;
+use crate::answers::{Answers, Gone};
 use away::Away;
 pub(crate) use away::perform;
 pub use away::{Errand, Post};
@@ -47,11 +47,25 @@ pub(crate) enum Crew {
     Away { post: Post, mappers: usize },
 }
 
+/// The receiver of the reports of all jobs, with the watch on theirs.
+type Heard<T> = Box<dyn Fn(<T as Task>::Report, &dyn Watch) -> Result<(), Gone> + Send + Sync>;
+
 /// The latest job of a task. A new one immediately makes the previous one stale.
 pub(crate) enum Worker<T: Task> {
     #[cfg(feature = "threads")]
     Thread(Thread<T::Job>),
-    Away(Away<T>),
+    Away(Away<T>, Heard<T>),
+}
+
+impl<T: Task<Report = String>> Worker<T> {
+    /// A worker whose reports are messages to the page.
+    ///
+    /// # Errors
+    /// The system provides no thread.
+    pub(crate) fn telling(crew: &Crew, answers: &Answers) -> std::io::Result<Self> {
+        let answers = answers.clone();
+        Self::new(crew, move |text, _: &dyn Watch| answers.text(text))
+    }
 }
 
 impl<T: Task> Worker<T> {
@@ -61,7 +75,6 @@ impl<T: Task> Worker<T> {
     /// The system provides no thread.
     pub(crate) fn new(
         crew: &Crew,
-        #[cfg_attr(not(feature = "threads"), allow(unused_variables, reason = "reports come from outside"))]
         heard: impl Fn(T::Report, &dyn Watch) -> Result<(), Gone> + Send + Sync + 'static,
     ) -> std::io::Result<Self> {
         match crew {
@@ -74,7 +87,7 @@ impl<T: Task> Worker<T> {
                 };
                 Ok(Self::Thread(Thread::new(T::NAME, T::NICE, work)?))
             }
-            Crew::Away { post, .. } => Ok(Self::Away(Away::new(post.clone()))),
+            Crew::Away { post, .. } => Ok(Self::Away(Away::new(post.clone()), Box::new(heard))),
         }
     }
 
@@ -84,7 +97,7 @@ impl<T: Task> Worker<T> {
         match self {
             #[cfg(feature = "threads")]
             Self::Thread(thread) => thread.put(job),
-            Self::Away(away) => away.put(&job),
+            Self::Away(away, _) => away.put(&job),
         }
     }
 
@@ -93,16 +106,16 @@ impl<T: Task> Worker<T> {
         match self {
             #[cfg(feature = "threads")]
             Self::Thread(thread) => thread.clear(),
-            Self::Away(away) => away.clear(),
+            Self::Away(away, _) => away.clear(),
         }
     }
 
-    /// The report in an errand that came back; `None` if its job is stale, or done.
-    pub(crate) fn report(&self, errand: &Errand<'_>) -> Option<T::Report> {
+    /// Takes an errand that came back: its report is heard, unless its job is stale, or done.
+    pub(crate) fn report(&self, errand: &Errand<'_>) -> Result<(), Gone> {
         match self {
             #[cfg(feature = "threads")]
-            Self::Thread(_) => None,
-            Self::Away(away) => away.report(errand),
+            Self::Thread(_) => Ok(()),
+            Self::Away(away, heard) => away.report(errand).map_or(Ok(()), |report| heard(report, &())),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::course;
 use super::filter::Step;
+use serde::Serialize;
 use std::fmt::{Display, Formatter};
 
 /// Significance below which innovations are not white.
@@ -79,25 +80,35 @@ impl Display for Misfit {
     }
 }
 
-/// Tests of the walk of highest likelihood against what it does not have.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Tests {
-    /// See [`super::PersistentWalk::diffusion_score`]; 0 before it is known.
-    pub(super) diffusion: f64,
-    /// See [`super::PersistentWalk::turning_score`].
-    pub(super) turning: f64,
-    /// See [`super::PersistentWalk::direction_p_value`].
-    pub(super) direction: f64,
-    /// See [`super::PersistentWalk::spread`].
-    pub(super) spread: f64,
-    /// See [`super::PersistentWalk::steady_p_value`].
-    pub(super) steady: f64,
-    /// See [`super::PersistentWalk::changes`].
-    pub(super) changes: f64,
+/// Tests of the walk of highest likelihood against its path, and against what it does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct WalkTests {
+    /// Steps between places.
+    pub steps: usize,
+    /// Log-likelihood of the places after the first of each piece.
+    pub log_likelihood: f64,
+    /// Probability of autocorrelations of the innovations as large as these, if the walk describes the places (Ljung and Box).
+    pub p_value: f64,
+    /// Score of additional diffusion: for a walk with errors of the places a normal number of variance 1. Above 0 displacements from
+    /// place to place scatter more than those of the walk, without the return of an error; below 0 less.
+    pub diffusion_score: f64,
+    /// Score of a turn of the velocity one way (anticlockwise above 0): for such a walk a normal number of variance 1.
+    pub turning_score: f64,
+    /// Probability that the changes of the velocity of such a walk have an axis as clear as these.
+    pub direction_p_value: f64,
+    /// The mean over all lags of the mean-square displacement of the path over that of the walk, as sums of innovations show it: 1 on
+    /// average, with a standard deviation of [`SPREAD_SCATTER`](super::SPREAD_SCATTER); below 1 the path is held back.
+    pub spread: f64,
+    /// Probability of a change of the size of the innovations over the record as large as this one, of such a walk.
+    pub steady_p_value: f64,
+    /// The number of steps that share the changes of the velocity; infinite where it cannot be told from all of them.
+    #[serde(skip)]
+    pub changes: f64,
 }
 
-impl Tests {
-    /// Of the standardised innovations e, with the velocity v that the walk expects before each:
+impl WalkTests {
+    /// Those of the steps alone; likelihood, whiteness and additional diffusion are 0 here. Of the standardised innovations e, with the
+    /// velocity v that the walk expects before each:
     ///
     /// turning: `sum v x e / sqrt(sum (v x e)^2)`, normal, for e is independent of what was before;
     /// direction: `|sum e^2|^2 / sum |e|^4` of e as complex numbers, exponential, for every direction of e is as likely.
@@ -123,29 +134,32 @@ impl Tests {
         let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let axis = over(direction[0] * direction[0] + direction[1] * direction[1], fourth);
         Self {
-            diffusion: 0.0,
-            turning: over(turning, turning_squares.sqrt()),
-            direction: libm::exp(-axis),
+            steps: steps.len(),
+            log_likelihood: 0.0,
+            p_value: 0.0,
+            diffusion_score: 0.0,
+            turning_score: over(turning, turning_squares.sqrt()),
+            direction_p_value: libm::exp(-axis),
             spread: course::spread(steps),
-            steady: course::steady(steps),
+            steady_p_value: course::steady(steps),
             changes: course::changes(steps),
         }
     }
-}
 
-/// The misfit of a walk with these numbers, if there is one; `coloured`: p-value of the autocorrelations.
-pub(super) fn misfit(tests: &Tests, coloured: f64) -> Option<Misfit> {
-    let [below, above] = course::tails(tests.spread);
-    let all = [
-        (libm::erfc(tests.turning.abs() * std::f64::consts::FRAC_1_SQRT_2) < TURNS, Misfit::Turns),
-        (tests.direction < DIRECTED, Misfit::Directed),
-        (coloured < COLOURED, Misfit::Coloured),
-        (tests.changes < FEWEST, Misfit::Rare),
-        (tests.steady < UNSTEADY, Misfit::Unsteady),
-        (below < HELD, Misfit::Held),
-        (above < KEEPS, Misfit::Keeps),
-        (tests.diffusion > EXTRA, Misfit::Diffuses),
-        (tests.diffusion < -EXTRA, Misfit::Smoothed),
-    ];
-    all.into_iter().find(|one| one.0).map(|one| one.1)
+    /// The misfit of a walk with these numbers, if there is one.
+    pub(super) fn misfit(&self) -> Option<Misfit> {
+        let [below, above] = course::tails(self.spread);
+        let all = [
+            (libm::erfc(self.turning_score.abs() * std::f64::consts::FRAC_1_SQRT_2) < TURNS, Misfit::Turns),
+            (self.direction_p_value < DIRECTED, Misfit::Directed),
+            (self.p_value < COLOURED, Misfit::Coloured),
+            (self.changes < FEWEST, Misfit::Rare),
+            (self.steady_p_value < UNSTEADY, Misfit::Unsteady),
+            (below < HELD, Misfit::Held),
+            (above < KEEPS, Misfit::Keeps),
+            (self.diffusion_score > EXTRA, Misfit::Diffuses),
+            (self.diffusion_score < -EXTRA, Misfit::Smoothed),
+        ];
+        all.into_iter().find(|one| one.0).map(|one| one.1)
+    }
 }

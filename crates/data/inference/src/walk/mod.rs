@@ -11,8 +11,7 @@ mod together;
 use crate::warnings::ljung_box;
 use extra_diffusion::{ExtraDiffusion, Number, Scores};
 use filter::Law;
-pub use misfit::Misfit;
-use misfit::Tests;
+pub use misfit::{Misfit, WalkTests};
 use serde::Serialize;
 use table::{Known, Table};
 pub use together::{WalkTogether, walk_together};
@@ -56,32 +55,14 @@ pub struct PersistentWalk {
     /// Its variance; below 0 where the places are means over a time, such as an exposure, and so the displacements from place to place
     /// smaller than those of a walk.
     pub error_variance: Bounded,
-    /// Score of additional diffusion: for a walk with errors of the places a normal number of variance 1. Above 0 displacements from
-    /// place to place scatter more than those of the walk, without the return of an error; below 0 less.
-    pub diffusion_score: f64,
-    /// Log-likelihood of the places after the first of each piece.
-    pub log_likelihood: f64,
     /// `true` if the places are as likely, within the intervals, without any motion: then there is no lower end to speed and diffusion
     /// coefficient, and the persistence time has no bound.
     pub rests: bool,
-    /// Steps between places.
-    pub steps: usize,
-    /// Probability of autocorrelations of the innovations as large as these, if the walk describes the places (Ljung and Box).
-    pub p_value: f64,
-    /// Score of a turn of the velocity one way (anticlockwise above 0): for such a walk a normal number of variance 1.
-    pub turning_score: f64,
-    /// Probability that the changes of the velocity of such a walk have an axis as clear as these.
-    pub direction_p_value: f64,
-    /// The mean over all lags of the mean-square displacement of the path over that of the walk, as sums of innovations show it: 1 on
-    /// average, with a standard deviation of [`SPREAD_SCATTER`]; below 1 the path is held back.
-    pub spread: f64,
-    /// Probability of a change of the size of the innovations over the record as large as this one, of such a walk.
-    pub steady_p_value: f64,
-    /// The number of steps that share the changes of the velocity; infinite where it cannot be told from all of them.
-    pub changes: f64,
+    /// Tests of the walk against its path.
+    pub tests: WalkTests,
 }
 
-/// Standard deviation of [`PersistentWalk::spread`] of a walk: three times `sqrt(4 sum over j of (pi j)^-4)`.
+/// Standard deviation of [`WalkTests::spread`] of a walk: three times `sqrt(4 sum over j of (pi j)^-4)`.
 pub const SPREAD_SCATTER: f64 = 0.632_455_532_033_675_9;
 
 impl PersistentWalk {
@@ -102,16 +83,7 @@ impl PersistentWalk {
     /// The reason why the walk does not describe the places; `None` where it does.
     #[must_use]
     pub fn misfit(&self) -> Option<Misfit> {
-        let Self { turning_score, direction_p_value, spread, steady_p_value, changes, p_value, .. } = *self;
-        let tests = Tests {
-            diffusion: self.diffusion_score,
-            turning: turning_score,
-            direction: direction_p_value,
-            spread,
-            steady: steady_p_value,
-            changes,
-        };
-        misfit::misfit(&tests, p_value)
+        self.tests.misfit()
     }
 }
 
@@ -151,7 +123,13 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
     let error_variance = number(Known::Error, Number::Error);
     let root = |square: f64| square.max(0.0).sqrt();
     let found = filter::steps(pieces, best.law);
-    let tests = Tests::of(&found, best.law.error);
+    let tests = WalkTests {
+        steps,
+        log_likelihood: table.highest(),
+        p_value: ljung_box(&filter::by_coordinate(&found, pieces.len())).1,
+        diffusion_score: extra.score(),
+        ..WalkTests::of(&found, best.law.error)
+    };
     let rests = table.rests();
     let moves = |end: Option<f64>| end.filter(|_| !rests);
     Some(PersistentWalk {
@@ -172,16 +150,8 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
             high: error_variance.high.map(root),
         },
         error_variance,
-        diffusion_score: extra.score(),
-        log_likelihood: table.highest(),
         rests,
-        steps,
-        p_value: ljung_box(&filter::by_coordinate(&found, pieces.len())).1,
-        turning_score: tests.turning,
-        direction_p_value: tests.direction,
-        spread: tests.spread,
-        steady_p_value: tests.steady,
-        changes: tests.changes,
+        tests,
     })
 }
 

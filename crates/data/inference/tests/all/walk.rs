@@ -126,7 +126,7 @@ fn the_estimates_have_the_highest_likelihood() {
         let [p, s, e] = [walk.persistence.value, walk.speed.value, walk.error.value];
         let likelihood = |p: f64, s: f64, e: f64| walk_likelihood(std::slice::from_ref(&fixes), p, s, e);
         let highest = likelihood(p, s, e);
-        assert!((highest - walk.log_likelihood).abs() < 1e-7 * highest.abs().max(1.0));
+        assert!((highest - walk.tests.log_likelihood).abs() < 1e-7 * highest.abs().max(1.0));
         for step in [1e-3, 1e-2] {
             for by in [1.0 - step, 1.0 + step] {
                 for other in
@@ -172,7 +172,7 @@ fn a_walk_that_rests_has_no_lower_ends() {
             .map(|k| Fix { t: f64::from(k), at: [0.2 * normal.next(), 0.2 * normal.next()] })
             .collect();
         let one = found(&fixes);
-        let excluded = one.log_likelihood - walk_likelihood(&[fixes], 1.0, 1e-9, one.error.value);
+        let excluded = one.tests.log_likelihood - walk_likelihood(&[fixes], 1.0, 1e-9, one.error.value);
         assert!(one.rests || excluded > 1.9, "{excluded}: {one:?}");
         if one.rests {
             let ends = [one.persistence.low, one.persistence.high, one.speed.low, one.diffusion.low];
@@ -199,8 +199,8 @@ fn units_change_units_alone_and_pieces_are_not_joined() {
     assert!(close(one.diffusion.value, other.diffusion.value * 60.0 / 0.0625));
     assert!(close(one.error.value, other.error.value / 0.25));
     assert!(
-        close(one.turning_score, other.turning_score)
-            && close(one.direction_p_value, other.direction_p_value)
+        close(one.tests.turning_score, other.tests.turning_score)
+            && close(one.tests.direction_p_value, other.tests.direction_p_value)
     );
     // axes do not matter, and in a mirror the other way is turned
     let (sin, cos) = libm::sincos(0.7);
@@ -209,15 +209,18 @@ fn units_change_units_alone_and_pieces_are_not_joined() {
         found(&fixes.iter().map(|fix| Fix { t: fix.t, at: at(fix.at) }).collect::<Vec<_>>())
     };
     for (sign, turned) in [(1.0, seen(1.0)), (-1.0, seen(-1.0))] {
-        assert!(close(sign * one.turning_score, turned.turning_score), "{one:?} {turned:?}");
-        assert!(close(one.direction_p_value, turned.direction_p_value), "{one:?} {turned:?}");
+        assert!(close(sign * one.tests.turning_score, turned.tests.turning_score), "{one:?} {turned:?}");
+        assert!(close(one.tests.direction_p_value, turned.tests.direction_p_value), "{one:?} {turned:?}");
     }
     // a stage that jumps between two pieces changes nothing
     let (first, second) = fixes.split_at(90);
     let moved: Vec<Fix> =
         second.iter().map(|fix| Fix { t: fix.t, at: [fix.at[0] + 500.0, fix.at[1]] }).collect();
     let apart = persistent_walk(&[first.to_vec(), moved]);
-    assert_eq!(apart.map(|w| w.steps), persistent_walk(&[first.to_vec(), second.to_vec()]).map(|w| w.steps));
+    assert_eq!(
+        apart.map(|w| w.tests.steps),
+        persistent_walk(&[first.to_vec(), second.to_vec()]).map(|w| w.tests.steps)
+    );
 }
 
 /// Steady circles are no random walk, and it is said.
@@ -260,7 +263,7 @@ fn walks_that_keep_turning_are_not_described() {
                 })
                 .collect();
             let walk = found(&path(steps.into_iter(), 0.02, &mut normal));
-            assert!(rate == 0.0 || walk.turning_score * rate > 0.0);
+            assert!(rate == 0.0 || walk.tests.turning_score * rate > 0.0);
             walk.misfit() == Some(Misfit::Turns)
         });
         let count = turning.count();
@@ -291,8 +294,9 @@ fn paths_with_a_direction_or_a_sense_are_not_described() {
 fn scores_of_turning_are_normal() {
     for (truth, sampling, seen) in [([4.0, 1.2, 0.05], (1.0, 200), 1.0), ([2.0, 1.0, 0.6], (0.7, 120), 0.8)] {
         let runs = draws(120, 400);
-        let scores: Vec<f64> =
-            (0..runs).map(|seed| found(&walk(truth, sampling, seen, 900 + seed)).turning_score).collect();
+        let scores: Vec<f64> = (0..runs)
+            .map(|seed| found(&walk(truth, sampling, seen, 900 + seed)).tests.turning_score)
+            .collect();
         let mean = scores.iter().sum::<f64>() / runs as f64;
         let variance = scores.iter().map(|z| z * z).sum::<f64>() / runs as f64;
         // standard errors 0.05 and 0.07 of 400, 0.09 and 0.13 of 120
@@ -314,12 +318,12 @@ fn ends_of_the_persistence_are_those_of_its_profile() {
         for seed in 1..=20 {
             let fixes = walk(truth, sampling, 1.0, seed);
             let one = found(&fixes);
-            let below = |p: f64| one.log_likelihood - profile(&fixes, p, one.error.value.max(1e-3));
+            let below = |p: f64| one.tests.log_likelihood - profile(&fixes, p, one.error.value.max(1e-3));
             let [low, high] = [one.persistence.low, one.persistence.high];
             for end in [low, high].into_iter().flatten() {
                 let fall = below(end);
                 // an interval that allows for diffusion beside the walk is wider than the profile
-                let most = if one.diffusion_score.abs() > 0.5 { f64::INFINITY } else { 2.6 };
+                let most = if one.tests.diffusion_score.abs() > 0.5 { f64::INFINITY } else { 2.6 };
                 assert!((1.6..most).contains(&fall), "seed {seed}: {fall} below at {end}, {one:?}");
             }
             assert!(low.is_some() || below(0.03 * sampling.0) < 2.2, "seed {seed}: {one:?}");
@@ -408,7 +412,7 @@ fn walks_that_are_held_or_not_stationary_are_not_described() {
     assert!(free <= 3 && held >= 37 && rests >= 36 && slows >= 36, "{free} {held} {rests} {slows}");
     for seed in 0..10 {
         let still = found(&walk(truth, (1.0, 300), 1.0, 3000 + seed));
-        assert!(still.steady_p_value > 1e-3 && still.changes.is_infinite(), "{still:?}");
+        assert!(still.tests.steady_p_value > 1e-3 && still.tests.changes.is_infinite(), "{still:?}");
     }
 }
 
@@ -440,7 +444,7 @@ fn spreads_have_their_distribution() {
         ([8.0, 1.0, 0.02], (1.0, 300), 1.0, 6),
     ] {
         let spreads: Vec<f64> =
-            (0..150).map(|seed| found(&walk(truth, sampling, seen, 3000 + seed)).spread).collect();
+            (0..150).map(|seed| found(&walk(truth, sampling, seen, 3000 + seed)).tests.spread).collect();
         let mean = spreads.iter().sum::<f64>() / 150.0;
         let square = spreads.iter().map(|x| (x - 1.0) * (x - 1.0)).sum::<f64>() / 150.0;
         // the closed form: 2 % are below .2685

@@ -12,7 +12,7 @@ motiform_dynamics::named! {
     /// The motions, defined by the reduced dynamics and the drift of the group (never by eye).
     ///
     /// 'Reduced' means: shapes that differ by a rotation count as one. Their order is that of legends.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Regime by name {
         /// A fixed shape at rest: a circle, or a deformed body.
@@ -37,6 +37,7 @@ motiform_dynamics::named! {
         /// The shape leaves every bound in finite time.
         BlowUp = "blow-up",
         /// The evidence does not decide.
+        #[default]
         Undetermined = "undetermined",
     }
 }
@@ -77,7 +78,7 @@ impl Regime {
 
 motiform_dynamics::named! {
     /// The kind of set that the reduced orbit ends on: what the mathematics decides, before it is called a motion.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Attractor by name {
         /// A stable relative equilibrium: a fixed point of the reduced dynamics.
@@ -95,6 +96,7 @@ motiform_dynamics::named! {
         /// None: the orbit leaves every bound.
         Escape = "escape",
         /// Not decided.
+        #[default]
         Unknown = "unknown",
     }
 }
@@ -114,7 +116,7 @@ pub struct Spread {
 }
 
 /// A classified motion. What has no meaning for the regime is absent.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// The motion.
     pub regime: Regime,
@@ -207,29 +209,6 @@ impl Verdict {
     /// A verdict without evidence beyond `why`.
     #[must_use]
     pub fn new(regime: Regime, attractor: Attractor, why: String, time: f64) -> Self {
-        Self {
-            regime,
-            attractor,
-            form: None,
-            course: None,
-            heading: None,
-            why,
-            margin: None,
-            resolution: None,
-            speed: None,
-            turning_rate: None,
-            turning_error: None,
-            period: None,
-            net_rotation: None,
-            drift: None,
-            exponents: Vec::new(),
-            saddle: None,
-            legs: Vec::new(),
-            swing: None,
-            rests: Vec::new(),
-            lasted: None,
-            escape_time: None,
-            time,
-        }
+        Self { regime, attractor, why, time, ..Self::default() }
     }
 }

@@ -47,16 +47,12 @@ impl Problem for Orbits<'_> {
         all.map(|levels| across_family(levels, self.family.len()))
     }
 
-    fn borders(&self) -> Vec<Border> {
-        self.family.clone()
+    fn family(&self) -> &[Border] {
+        &self.family
     }
 
     fn set_family(&mut self, borders: Vec<Border>) {
         self.family = borders;
-    }
-
-    fn family(&self) -> usize {
-        self.family.len()
     }
 
     fn accuracy(&self) -> f64 {

@@ -9,7 +9,6 @@ use super::tableau::{Dense, ErrorEstimate, Tableau, Term};
 /// (coefficients of their program DOP853, rounded to double precision).
 pub static DOP853: Tableau = Tableau {
     name: "dop853",
-    title: "Dormand-Prince 8(5,3), adaptive",
     order: 8,
     nodes: NODES,
     rows: ROWS,

@@ -9,7 +9,6 @@ use super::tableau::{Dense, ErrorEstimate, Tableau, Term};
 /// in the form of Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.6.
 pub static DOPRI5: Tableau = Tableau {
     name: "dopri5",
-    title: "Dormand-Prince 5(4), adaptive",
     order: 5,
     nodes: &[0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0],
     rows: &[

@@ -14,7 +14,6 @@ pub(super) const WEIGHTS: &[ExponentialTerm] =
 /// `N(u_new)` in the last weight: Whalen, Brio, Moloney (2015), J. Comput. Phys. 280, 579.
 pub static ETDRK4: ExponentialTableau = ExponentialTableau {
     name: "etdrk4",
-    title: "exponential time differencing 4(3), Cox and Matthews, fixed step or adaptive",
     order: 4,
     rows: &[
         (Node::Half, &[(0, |p| 0.5 * p.half[1])]),

@@ -7,7 +7,6 @@ use super::tableau::{Dense, ErrorEstimate, Tableau};
 /// Source: Euler (1768), Institutiones calculi integralis.
 pub static EULER: Tableau = Tableau {
     name: "euler",
-    title: "Euler, fixed step",
     order: 1,
     nodes: &[0.0],
     rows: &[&[]],

@@ -44,8 +44,6 @@ pub enum Node {
 pub struct ExponentialTableau {
     /// Name on the command line and in files.
     pub name: &'static str,
-    /// Display name.
-    pub title: &'static str,
     /// Order of the global error, if the solution is smooth on the step.
     pub order: u32,
     /// The stages after the first: their positions and rows `a_ij`.

@@ -7,7 +7,6 @@ use super::tableau::{Dense, ErrorEstimate, Tableau};
 /// Source: Heun (1900), Z. Math. Phys. 45, 23.
 pub static HEUN: Tableau = Tableau {
     name: "heun",
-    title: "Heun ('modified Euler'), fixed step",
     order: 2,
     nodes: &[0.0, 1.0],
     rows: &[&[], &[(0, 1.0)]],

@@ -16,7 +16,6 @@ fn a52(p: &PhiValues) -> f64 {
 /// J. Comput. Phys. 280, 579.
 pub static HOCHBRUCK4: ExponentialTableau = ExponentialTableau {
     name: "hochbruck4",
-    title: "exponential Runge-Kutta 4(3) of stiff order 4, Hochbruck and Ostermann, fixed step or adaptive",
     order: 4,
     rows: &[
         (Node::Half, &[(0, |p| 0.5 * p.half[1])]),

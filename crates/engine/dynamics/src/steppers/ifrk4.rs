@@ -9,7 +9,6 @@ use super::exponential::{ExponentialTableau, Node};
 /// Source: Lawson (1967), SIAM J. Numer. Anal. 4, 372; Trefethen (2000), Spectral Methods in MATLAB, program 27.
 pub static IFRK4: ExponentialTableau = ExponentialTableau {
     name: "ifrk4",
-    title: "Runge-Kutta 4 with an integrating factor, fixed step",
     order: 4,
     rows: &[
         (Node::Half, &[(0, |p| 0.5 * p.half[0])]),

@@ -10,7 +10,6 @@ use super::exponential::{ExponentialTableau, Node};
 /// J. Comput. Phys. 280, 579.
 pub static KROGSTAD4: ExponentialTableau = ExponentialTableau {
     name: "krogstad4",
-    title: "exponential time differencing 4(3), Krogstad, fixed step or adaptive",
     order: 4,
     rows: &[
         (Node::Half, &[(0, |p| 0.5 * p.half[1])]),

@@ -35,15 +35,6 @@ impl Method {
         }
     }
 
-    /// Its display name.
-    #[must_use]
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Explicit(tableau) => tableau.title,
-            Self::Exponential(tableau) => tableau.title,
-        }
-    }
-
     /// Returns `true` if the method can control its step.
     #[must_use]
     pub fn is_adaptive(self) -> bool {

@@ -7,7 +7,6 @@ use super::tableau::{Dense, ErrorEstimate, Tableau};
 /// Source: Kutta (1901), Z. Math. Phys. 46, 435.
 pub static RK4: Tableau = Tableau {
     name: "rk4",
-    title: "classical Runge-Kutta 4, fixed step",
     order: 4,
     nodes: &[0.0, 0.5, 0.5, 1.0],
     rows: &[&[], &[(0, 0.5)], &[(1, 0.5)], &[(2, 1.0)]],

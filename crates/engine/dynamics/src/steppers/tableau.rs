@@ -12,8 +12,6 @@ pub type Term = (usize, f64);
 pub struct Tableau {
     /// Name on the command line and in files.
     pub name: &'static str,
-    /// Display name.
-    pub title: &'static str,
     /// Order of the global error, `|error| ~ h^order`.
     pub order: u32,
     /// Nodes `c_i`, one per stage.

@@ -96,12 +96,6 @@ impl Cell {
         self
     }
 
-    /// The mean of phi.
-    #[must_use]
-    pub fn mean(&self) -> f64 {
-        self.mean
-    }
-
     /// Its parameters.
     #[must_use]
     pub fn parameters(&self) -> &CellParameters {

@@ -15,12 +15,13 @@ mod wobble;
 
 pub(crate) use displacement::{by_place, widened};
 pub use forms::{FormNumber, Forms};
+pub use motiform_inference::WalkTests;
 pub use population::{PopulationNumber, PopulationNumbers, Withheld, population_numbers};
 pub(crate) use population::{bare, walk_of_cells};
 pub use rows::{Row, number_columns};
 pub use steps::Steps;
 pub(crate) use together::leaving;
-pub use walk::{OfWalk, StatedWalk, WalkNumbers, WalkTests};
+pub use walk::{OfWalk, StatedWalk, WalkNumbers};
 pub use wobble::Wobble;
 
 use crate::{AtLag, CellTrack};

@@ -146,7 +146,8 @@ const SHORT: usize = 100;
 
 /// The error of the places, where most records are short.
 fn of_short_records(walks: &[&PersistentWalk]) -> Option<Withheld> {
-    let usual = median(walks.iter().map(|walk| walk.steps as f64)).filter(|&usual| usual < SHORT as f64)?;
+    let usual =
+        median(walks.iter().map(|walk| walk.tests.steps as f64)).filter(|&usual| usual < SHORT as f64)?;
     let why = format!(
         "estimates from {usual} steps (median) are too small by some percent, and a mean over cells keeps that; {SHORT} are needed"
     );

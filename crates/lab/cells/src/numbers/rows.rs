@@ -27,16 +27,8 @@ impl Row {
 
     /// A number of the walk.
     fn of_walk(quantity: &'static Quantity, found: &OfWalk) -> Self {
-        match (found.value, &found.reason) {
-            (Some(value), _) => {
-                let interval = found.low.zip(found.high).map(<[f64; 2]>::from);
-                Self::new(quantity, Answer::Known(Measured { value, interval }))
-            }
-            (None, reason) => {
-                let value = Answer::unknown(reason.clone().unwrap_or_default());
-                Self { bounds: [found.low, found.high], ..Self::new(quantity, value) }
-            }
-        }
+        let bounds = if found.value.is_some() { [None; 2] } else { [found.low, found.high] };
+        Self { quantity, value: found.answer(), bounds }
     }
 
     /// The reason why there is no value, after the bound that is known; `None` where there is a value.

@@ -80,7 +80,9 @@ pub(super) fn walk(found: &[Observation]) -> Result<WalkTogether, String> {
     let cell = |one: &'_ Observation| Some((one.numbers.places.pieces.clone(), one.numbers.walk.clone()?));
     let mut cells: Vec<(Vec<Vec<Fix>>, PersistentWalk)> = found.iter().filter_map(cell).collect();
     let first = |pieces: &[Vec<Fix>]| pieces.first().map_or([0.0; 2], |piece| piece[0].at);
-    cells.sort_by(|a, b| a.1.steps.cmp(&b.1.steps).then_with(|| by_place(first(&a.0), first(&b.0))));
+    cells.sort_by(|a, b| {
+        a.1.tests.steps.cmp(&b.1.tests.steps).then_with(|| by_place(first(&a.0), first(&b.0)))
+    });
     let cells: Vec<(&[Vec<Fix>], &PersistentWalk)> =
         cells.iter().map(|(pieces, walk)| (&pieces[..], walk)).collect();
     let found = walk_together(&cells)
@@ -114,11 +116,11 @@ pub(super) fn stated(walk: &WalkTogether) -> WalkNumbers {
 }
 
 /// The sentence that displacements from place to place are not those of walks with errors, taken together, if they are not: the score of
-/// one cell ([`PersistentWalk::diffusion_score`]) for all. Those that show it by themselves count.
+/// one cell ([`WalkTests::diffusion_score`]) for all. Those that show it by themselves count.
 pub(super) fn no_walks(found: &[Observation]) -> Option<String> {
     let meant =
         walks(found).filter(|walk| matches!(walk.misfit(), None | Some(Misfit::Diffuses | Misfit::Smoothed)));
-    let scores: Vec<f64> = meant.map(|walk| walk.diffusion_score).collect();
+    let scores: Vec<f64> = meant.map(|walk| walk.tests.diffusion_score).collect();
     let sum: f64 = scores.iter().sum();
     let p = chi_square_tail(sum * sum / scores.len() as f64, 1.0);
     (scores.len() >= FEWEST && p < TOGETHER).then(|| {
@@ -149,8 +151,8 @@ const FEWEST: usize = 8;
 /// The sentence that walks turn one way, each for itself or all alike, although no single cell shows it, if they do.
 fn turning_together(walks: &[&PersistentWalk]) -> Option<String> {
     let count = walks.len() as f64;
-    let squares: f64 = walks.iter().map(|walk| walk.turning_score * walk.turning_score).sum();
-    let sum: f64 = walks.iter().map(|walk| walk.turning_score).sum();
+    let squares: f64 = walks.iter().map(|walk| walk.tests.turning_score * walk.tests.turning_score).sum();
+    let sum: f64 = walks.iter().map(|walk| walk.tests.turning_score).sum();
     let p = chi_square_tail(squares, count).min(chi_square_tail(sum * sum / count, 1.0));
     (walks.len() >= FEWEST && p < TOGETHER).then(|| {
         format!(
@@ -166,11 +168,11 @@ fn turning_together(walks: &[&PersistentWalk]) -> Option<String> {
 const APART: f64 = 1.5;
 
 /// The sentence that cells displace themselves by far less or more than their walks, over long times, if they do: the test of one cell
-/// ([`PersistentWalk::spread`]) for all together. Those that show it by themselves count.
+/// ([`WalkTests::spread`]) for all together. Those that show it by themselves count.
 fn elsewhere(found: &[Observation]) -> Option<String> {
     let walks = found.iter().filter_map(|one| one.numbers.walk.as_ref());
     let meant = walks.filter(|walk| matches!(walk.misfit(), None | Some(Misfit::Held | Misfit::Keeps)));
-    let spreads: Vec<f64> = meant.map(|walk| walk.spread).collect();
+    let spreads: Vec<f64> = meant.map(|walk| walk.tests.spread).collect();
     let count = spreads.len() as f64;
     let mean = spreads.iter().sum::<f64>() / count;
     // a mean of positive numbers is skew: a gamma variable of the same variance

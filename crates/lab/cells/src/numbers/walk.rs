@@ -1,6 +1,6 @@
 //! The numbers of the persistent random walk that are stated, and why the others are not: one answer for text, pages, tables and JSON.
 
-use motiform_inference::{Bounded, PersistentWalk};
+use motiform_inference::{Bounded, PersistentWalk, WalkTests};
 use motiform_statistics::{Answer, Measured};
 use serde::Serialize;
 
@@ -43,6 +43,16 @@ impl OfWalk {
         };
         Self { value: None, low, high, reason: Some(reason) }
     }
+
+    /// The value with its interval, or why there is none.
+    pub(super) fn answer(&self) -> Answer {
+        match (self.value, &self.reason) {
+            (Some(value), _) => {
+                Answer::Known(Measured { value, interval: self.low.zip(self.high).map(<[f64; 2]>::from) })
+            }
+            (None, reason) => Answer::unknown(reason.clone().unwrap_or_default()),
+        }
+    }
 }
 
 /// The walk as it is stated.
@@ -64,27 +74,6 @@ pub struct StatedWalk {
     pub tests: Option<WalkTests>,
 }
 
-/// Tests of a walk against its path, see [`PersistentWalk`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct WalkTests {
-    /// Steps between places.
-    pub steps: usize,
-    /// Log-likelihood of the places.
-    pub log_likelihood: f64,
-    /// Probability of innovations as far from white as these.
-    pub p_value: f64,
-    /// Score of additional diffusion.
-    pub diffusion_score: f64,
-    /// Score of a turn of the velocity one way.
-    pub turning_score: f64,
-    /// Probability of changes of the velocity with an axis as clear as these.
-    pub direction_p_value: f64,
-    /// Mean over all lags of the mean-square displacement over that of the walk.
-    pub spread: f64,
-    /// Probability of changes of the velocity whose size changes over the record as much as here.
-    pub steady_p_value: f64,
-}
-
 impl StatedWalk {
     /// `without`: the reason why there is no walk at all.
     pub(super) fn of(walk: Option<&PersistentWalk>, without: &str, drift: Option<&str>) -> Self {
@@ -93,16 +82,7 @@ impl StatedWalk {
             Self { persistence, speed, diffusion, error, reason: Some(reason), tests: None }
         };
         let Some(walk) = walk else { return all(without.to_owned()) };
-        let tests = Some(WalkTests {
-            steps: walk.steps,
-            log_likelihood: walk.log_likelihood,
-            p_value: walk.p_value,
-            diffusion_score: walk.diffusion_score,
-            turning_score: walk.turning_score,
-            direction_p_value: walk.direction_p_value,
-            spread: walk.spread,
-            steady_p_value: walk.steady_p_value,
-        });
+        let tests = Some(walk.tests);
         if let Some(misfit) = walk.misfit() {
             return Self { tests, ..all(format!("no persistent random walk describes the path: {misfit}")) };
         }
@@ -147,16 +127,8 @@ impl WalkNumbers {
 
 impl From<&StatedWalk> for WalkNumbers {
     fn from(walk: &StatedWalk) -> Self {
-        let answer = |found: &OfWalk| match (found.value, &found.reason) {
-            (Some(value), _) => {
-                Answer::Known(Measured { value, interval: found.low.zip(found.high).map(<[f64; 2]>::from) })
-            }
-            (None, reason) => Answer::unknown(reason.clone().unwrap_or_default()),
-        };
-        Self {
-            persistence: answer(&walk.persistence),
-            speed: answer(&walk.speed),
-            diffusion: answer(&walk.diffusion),
-        }
+        let [persistence, speed, diffusion] =
+            [&walk.persistence, &walk.speed, &walk.diffusion].map(OfWalk::answer);
+        Self { persistence, speed, diffusion }
     }
 }

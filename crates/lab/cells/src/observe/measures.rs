@@ -288,21 +288,19 @@ fn shape_scatter(frames: &[Observation]) -> f64 {
 
 /// Root mean square deviation of z2 and z3 from their means, without that of errors.
 fn shape_wobble(frames: &[Observation]) -> f64 {
-    let part = |at: usize| {
-        let values: Vec<f64> = frames.iter().map(|frame| frame.y[at]).collect();
-        let noise = mean(frames.iter().map(|frame| frame.covariance[at][at]));
-        scatter(&values) * scatter(&values) - noise
-    };
-    (2..6).map(part).sum::<f64>().max(0.0).sqrt()
+    let part = |(square, noise)| square - noise;
+    (2..6).map(|at| part(variance(frames, at))).sum::<f64>().max(0.0).sqrt()
+}
+
+/// The mean square deviation of a number of the frames from its mean, and that of its errors.
+fn variance(frames: &[Observation], at: usize) -> (f64, f64) {
+    let values: Vec<f64> = frames.iter().map(|frame| frame.y[at]).collect();
+    (scatter(&values) * scatter(&values), mean(frames.iter().map(|frame| frame.covariance[at][at])))
 }
 
 /// Root mean square distance from the mean place, in units of its errors.
 fn wandering(frames: &[Observation]) -> f64 {
-    let part = |at: usize| {
-        let values: Vec<f64> = frames.iter().map(|frame| frame.y[at]).collect();
-        (scatter(&values) * scatter(&values), mean(frames.iter().map(|frame| frame.covariance[at][at])))
-    };
-    let (x, y) = (part(0), part(1));
+    let (x, y) = (variance(frames, 0), variance(frames, 1));
     ((x.0 + y.0) / (x.1 + y.1).max(f64::MIN_POSITIVE)).sqrt()
 }
 
@@ -314,12 +312,8 @@ fn mean_shape(frames: &[Observation]) -> f64 {
 
 /// Root mean square deviation of z2 and z3 from their means, in units of their errors.
 fn shape_change(frames: &[Observation]) -> f64 {
-    let part = |at: usize| {
-        let values: Vec<f64> = frames.iter().map(|frame| frame.y[at]).collect();
-        let noise = mean(frames.iter().map(|frame| frame.covariance[at][at]));
-        scatter(&values) * scatter(&values) / noise.max(f64::MIN_POSITIVE)
-    };
-    (2..6).map(part).fold(0.0, f64::max).sqrt()
+    let part = |(square, noise): (f64, f64)| square / noise.max(f64::MIN_POSITIVE);
+    (2..6).map(|at| part(variance(frames, at))).fold(0.0, f64::max).sqrt()
 }
 
 /// The mean; 0 of nothing.

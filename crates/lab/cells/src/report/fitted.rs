@@ -1,7 +1,6 @@
 //! The fitted equations: coefficients, noise, what the data determine, the motion, what is doubtful.
 
 use crate::Units;
-use crate::report::motion::capital;
 use crate::report::numbers::{estimate, interval, plain, with_error};
 use crate::report::place::notation;
 use crate::report::terms::{typeset, unit};
@@ -11,6 +10,7 @@ use motiform_figures::report::{Cell, Section, Table};
 use motiform_inference::{Coefficient, EquationKnowledge, PValue, Rung, paper};
 use motiform_statistics::to_error;
 use motiform_study::Dimension;
+use motiform_study::titles::capital;
 
 /// Of a fit whose search did not end.
 const NOT_CONVERGED: &str = "not converged";

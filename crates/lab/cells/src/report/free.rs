@@ -1,6 +1,6 @@
 //! Numbers without a model: a table and the displacements; speed, area and aspect ratio over time, for beside the film strip.
 
-use crate::report::motion::{capital, mean_square};
+use crate::report::motion::mean_square;
 use crate::report::numbers::{answer, plain};
 use crate::report::{Case, Setting};
 use crate::{Numbers, Row, Units};
@@ -10,6 +10,7 @@ use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{Curve, Panel, SeriesFigure};
 use motiform_statistics::Answer;
 use motiform_study::quantity::frame;
+use motiform_study::titles::capital;
 use motiform_study::{Error, Quantity};
 use motiform_tracks::modes::{Flag, FrameModes};
 

@@ -1,7 +1,6 @@
 //! The page of the data set: all cells in a table, the population, all places.
 
 use crate::Units;
-use crate::report::motion::capital;
 use crate::report::numbers::estimate;
 use crate::report::place::{self, PLANES, map, notation};
 use crate::report::{Case, Setting, fitted, free, page_name, population, words};
@@ -11,6 +10,7 @@ use motiform_figures::literal;
 use motiform_figures::report::{Cell, Report, Section, Table};
 use motiform_inference::{Place, Placement};
 use motiform_study::quantity::cell;
+use motiform_study::titles::capital;
 use motiform_study::{Error, Quantity};
 
 /// The motion of a cell whose data leave several.

@@ -8,6 +8,7 @@ use motiform_figures::report::{Cell, ReportFigure, Section, Table};
 use motiform_figures::{BandCurve, BandPoint, Chart, literal};
 use motiform_study::quantity::cell;
 use motiform_study::quantity::statistic::MSD;
+use motiform_study::titles::capital;
 use motiform_study::{Dimension, Error, counted};
 
 pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section, Error> {
@@ -36,11 +37,6 @@ pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section,
         small_figures: figures,
         ..Section::default()
     })
-}
-
-pub(crate) fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {

@@ -2,13 +2,13 @@
 
 use crate::Units;
 use crate::report::Setting;
-use crate::report::motion::capital;
 use crate::report::numbers::plain;
 use crate::{Finding, ObservedLegs, ObservedRests, Relatives, SpectralPeak};
 use motiform_figures::palette::CATEGORIES;
 use motiform_figures::report::{Cell, ReportFigure, Table};
 use motiform_figures::{Chart, SpectrumCurve};
 use motiform_study::Error;
+use motiform_study::titles::capital;
 
 /// The motions that the record shows, and why it does not show the others.
 pub(crate) fn table(found: &Relatives, units: &Units) -> Table {

@@ -67,7 +67,7 @@ fn follow_bodies(
         bodies,
         watch,
         stop: &StopOnly(watch),
-        done: before.map_or_else(Branches::none, Branches::whole),
+        done: before.map(Branches::whole).unwrap_or_default(),
         expected: plan.computation.branches,
     };
     if work.done.branches.is_empty() {

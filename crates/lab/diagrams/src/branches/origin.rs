@@ -164,19 +164,6 @@ impl Origin {
         }
     }
 
-    /// The branch on which it lies.
-    #[must_use]
-    pub const fn branch(self) -> Option<usize> {
-        match self {
-            Self::Start => None,
-            Self::Special { branch, .. }
-            | Self::Saddle { branch, .. }
-            | Self::Loop { branch, .. }
-            | Self::Meets { branch, .. }
-            | Self::Shrinks { branch, .. } => Some(branch),
-        }
-    }
-
     /// The branches that begin here, each with its legs: one to each side, or those on which new motions leave.
     pub(super) fn branches<'f>(
         self,

@@ -60,7 +60,7 @@ pub struct Link {
 }
 
 /// Branches, as far as they are followed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Branches {
     /// The branches in the order in which they were found.
     pub branches: Vec<Followed>,
@@ -124,17 +124,6 @@ impl Followed {
 }
 
 impl Branches {
-    pub(super) const fn none() -> Self {
-        Self {
-            branches: Vec::new(),
-            links: Vec::new(),
-            left: 0,
-            doublings_left: 0,
-            sweeps: None,
-            complete: false,
-        }
-    }
-
     /// The point with these numbers: branch, leg and point.
     #[must_use]
     pub fn at(&self, [branch, leg, point]: [usize; 3]) -> Option<&Sample> {

@@ -3,6 +3,7 @@
 use super::origin::Origin;
 use super::result::{Branches, Followed, Leg, Sample};
 use motiform_analysis::regime::Regime;
+use motiform_continuation::Point;
 use motiform_figures::Stability;
 
 /// Ranges of the parameter over which a branch is stable, in its order, each from the smaller to the larger value. They end at special
@@ -118,14 +119,17 @@ pub(crate) fn stability(a: &Sample, b: &Sample) -> Stability {
 }
 
 fn nothing_grows(a: &Sample, b: &Sample) -> bool {
-    let known = |sample: &Sample| sample.point.special.is_none().then_some(sample.point.unstable == 0);
-    let (a, b) = (known(a), known(b));
-    a.or(b).unwrap_or(false) && b.or(a).unwrap_or(false)
+    holds(a, b, |point| point.unstable == 0)
 }
 
-/// Returns `true` if a growth rate is 0 within its error on a stretch between neighbours: at both, or at the one that is no special point.
+/// Returns `true` if a growth rate is 0 within its error on a stretch between neighbours.
 fn is_neutral(a: &Sample, b: &Sample) -> bool {
-    let known = |sample: &Sample| sample.point.special.is_none().then_some(sample.point.neutral > 0);
+    holds(a, b, |point| point.neutral > 0)
+}
+
+/// Returns `true` if this holds at both neighbours, or at the one that is no special point.
+fn holds(a: &Sample, b: &Sample, at: impl Fn(&Point) -> bool) -> bool {
+    let known = |sample: &Sample| sample.point.special.is_none().then(|| at(&sample.point));
     let (a, b) = (known(a), known(b));
     a.or(b).unwrap_or(false) && b.or(a).unwrap_or(false)
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 /// A place where a branch changes or ends.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SpecialEntry {
     /// `hopf`, `fold`, `pitchfork`, `branch-point`, `continuum`, `symmetry-breaking`, `period-doubling`, `torus`, `touch`, or the ends
     /// `homoclinic`, `heteroclinic` and `connection`.
@@ -389,16 +389,7 @@ fn end(leg: &Leg) -> Option<SpecialEntry> {
         kind: connection.name(),
         parameter: connection.parameter,
         error: Some(connection.error),
-        certificate: None,
-        coefficient: None,
-        period: None,
-        period_error: None,
-        criticality: None,
-        undecided: None,
         connection: Some(connection.as_ref().clone()),
-        breaks: None,
-        branch: None,
-        without: None,
-        others: Vec::new(),
+        ..SpecialEntry::default()
     })
 }

@@ -1,10 +1,10 @@
 //! Orbits of a given function: one with rows, or many at given times.
 
 use super::{Flow, Given, Settings, check_start};
-use crate::ensemble::{Track, check_times};
+use crate::ensemble::{Track, check_times, track_of};
 use crate::pool::spread;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Outcome, Part, Request, Section, StopOnly, Trajectory, Watch};
+use motiform_dynamics::{Part, Request, Section, StopOnly, Trajectory, Watch};
 use motiform_study::plan::{MOST_IN_MEMORY, check};
 use motiform_study::{Ending, Error, Scales};
 
@@ -117,19 +117,8 @@ fn track(
 ) -> Result<Option<Track>, Error> {
     check_start(flow, start)?;
     let mut orbit = settings.method.shape_orbit(flow, settings.control, 0.0, start)?;
-    let (mut states, mut outcome) = (Vec::with_capacity(times.len()), Outcome::Completed { t: 0.0 });
-    for &t in times {
-        if t > 0.0 {
-            let request = Request { watch: &StopOnly(watch), ..settings.until(t, start.len()) };
-            outcome = drive(orbit.as_mut(), &request, &mut ())?;
-        }
-        match outcome {
-            Outcome::Completed { .. } => states.push(orbit.state().to_vec()),
-            Outcome::Interrupted { .. } => return Ok(None),
-            _ => break,
-        }
-    }
-    Ok(Some(Track { states, outcome }))
+    let request = Request { watch: &StopOnly(watch), ..settings.until(0.0, start.len()) };
+    track_of(orbit.as_mut(), times, &request, &<[f64]>::to_vec)
 }
 
 impl Settings {

@@ -62,12 +62,6 @@ impl Folder {
         &self.shown
     }
 
-    /// The path, without links.
-    #[must_use]
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// The remarks for the user, in sentences; each is returned once.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {

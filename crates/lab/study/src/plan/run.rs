@@ -2,7 +2,6 @@
 
 use super::{Control, Named, NoiseSettings, Plan, Question};
 use crate::checks::{check, check_figure, check_stability, check_start, check_steps};
-use crate::error::nearest_of;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, Scales, initial};
 use motiform_dynamics::steppers::Method;
@@ -204,7 +203,7 @@ const RTOL: std::ops::RangeInclusive<f64> = 1e-14..=1e-4;
 pub fn stepper(name: &str) -> Result<Method, Error> {
     Method::find(name).ok_or_else(|| {
         let known = Method::names();
-        Error::UnknownStepper { name: name.to_owned(), nearest: nearest_of(name, &known), known }
+        Error::unknown("stepper", name, &known, format!("the steppers are {}", known.join(", ")))
     })
 }
 

@@ -25,7 +25,7 @@ impl Stage<'_> {
         let setting = self.setting.placed(&spot, &seen)?;
         let position = seen.state.last_chunk().copied().unwrap_or_default();
         let (revision, parameters) = (setting.revision(), setting.told().parameters);
-        self.services.branches.orbit(OrbitJob { revision, spot, parameters, t: seen.t, position });
+        self.services.branches.orbits.put(OrbitJob { revision, spot, parameters, t: seen.t, position });
         Ok(setting)
     }
 

@@ -1,11 +1,12 @@
 //! A state of a recorded motion.
 
 use super::{Asked, StartPoint};
+use crate::branches::folder::read;
 use motiform_lab::dataset::table_path;
 use motiform_store::table::Table;
 use motiform_store::{columns, read_groups};
 use motiform_study::plan::Named;
-use motiform_study::{Error, Given, Manifest, input};
+use motiform_study::{Error, Given, Manifest};
 use std::path::Path;
 
 /// Which row is asked for.
@@ -20,7 +21,7 @@ pub(super) fn folder(asked: &Asked<'_>, folder: &Path) -> Result<StartPoint, Err
     let path = table_path(folder, "trajectory").ok_or_else(|| {
         asked.wrong("it has no trajectory.parquet or trajectory.csv: give a run that has one".to_owned())
     })?;
-    state(asked, &path, manifest(folder)?)
+    state(asked, &path, read(folder, "manifest.json")?)
 }
 
 /// A state of a table; its manifest is in it, or in its folder, or there is none.
@@ -31,7 +32,7 @@ pub(super) fn table(asked: &Asked<'_>) -> Result<StartPoint, Error> {
     let beside = || {
         path.parent()
             .filter(|_| path.file_stem().is_some_and(|stem| stem == "trajectory"))
-            .and_then(|folder| manifest(folder).ok())
+            .and_then(|folder| read(folder, "manifest.json").ok())
     };
     match inside.or_else(beside) {
         Some(manifest) => state(asked, path, manifest),
@@ -52,12 +53,6 @@ fn written_in(asked: &Asked<'_>) -> Result<Option<Manifest>, Error> {
             "this is a table of another result than a dataset: of branches, give their folder".to_owned(),
         )
     })
-}
-
-fn manifest(folder: &Path) -> Result<Manifest, Error> {
-    let path = folder.join("manifest.json");
-    let text = input::manifest(&path).map_err(|error| Error::unreadable(&path, error))?;
-    serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(&path, error))
 }
 
 fn state(asked: &Asked<'_>, table: &Path, manifest: Manifest) -> Result<StartPoint, Error> {
