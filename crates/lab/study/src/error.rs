@@ -58,7 +58,7 @@ pub enum Error {
     /// A name that is none of those that are known.
     #[error("unknown {kind} {name:?}{}: {choice}", hint(.nearest))]
     UnknownName {
-        /// What is named.
+        /// The kind of thing that is named.
         kind: &'static str,
         /// The name given.
         name: String,

@@ -84,8 +84,8 @@ pub(crate) fn bare(mut points: Vec<AtLag>, is_selected: bool) -> Vec<AtLag> {
     points
 }
 
-/// What has no bias of short records, which the interval of a mean over cells also holds: P and D of the walk of all paths together; the
-/// root of the mean over cells of squares, of rms speeds and of errors of the places, whose variances may be below 0 by chance.
+/// An interval without the bias of short records, which that of a mean over cells also holds: P and D of the walk of all paths together;
+/// the root of the mean over cells of squares, of rms speeds and of errors of the places, whose variances may be below 0 by chance.
 fn unbiased(
     quantity: &Quantity,
     values: &[f64],
