@@ -26,7 +26,7 @@ const SHARE: f64 = 0.7;
 ///
 /// # Shapes    points of equal length in both sets
 /// # Units     `resolution` (accuracy of the points) in those of the points: closer points count as one
-/// # Errors    [`Error::TooFew`] below 100 points in a set, [`Error::Shape`], [`Error::NotFinite`]
+/// # Errors    [`crate::Error::TooFew`] below 100 points in a set, [`crate::Error::Shape`], [`crate::Error::NotFinite`]
 /// # Checked by  tests/all/same_set.rs: circles, a period, power laws of decay, shrinking spirals, the logistic map
 pub fn same_set(first: &[Vec<f64>], second: &[Vec<f64>], resolution: f64) -> Result<bool> {
     checks::at_least("a comparison of sets, in points of each,", LEAST, first.len().min(second.len()))?;

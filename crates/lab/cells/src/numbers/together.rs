@@ -116,7 +116,7 @@ pub(super) fn stated(walk: &WalkTogether) -> WalkNumbers {
 }
 
 /// The sentence that displacements from place to place are not those of walks with errors, taken together, if they are not: the score of
-/// one cell ([`WalkTests::diffusion_score`]) for all. Those that show it by themselves count.
+/// one cell ([`motiform_inference::WalkTests::diffusion_score`]) for all. Those that show it by themselves count.
 pub(super) fn no_walks(found: &[Observation]) -> Option<String> {
     let meant =
         walks(found).filter(|walk| matches!(walk.misfit(), None | Some(Misfit::Diffuses | Misfit::Smoothed)));
@@ -168,7 +168,7 @@ fn turning_together(walks: &[&PersistentWalk]) -> Option<String> {
 const APART: f64 = 1.5;
 
 /// The sentence that cells displace themselves by far less or more than their walks, over long times, if they do: the test of one cell
-/// ([`WalkTests::spread`]) for all together. Those that show it by themselves count.
+/// ([`motiform_inference::WalkTests::spread`]) for all together. Those that show it by themselves count.
 fn elsewhere(found: &[Observation]) -> Option<String> {
     let walks = found.iter().filter_map(|one| one.numbers.walk.as_ref());
     let meant = walks.filter(|walk| matches!(walk.misfit(), None | Some(Misfit::Held | Misfit::Keeps)));
