@@ -211,9 +211,9 @@ pub(crate) struct LyapunovOptions {
     #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
     /// For transient chaos: compute the exponent of the chaotic saddle from this many initial states, with the rate of
-    /// escape
+    /// escape; with --random, from starts of these sizes
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u16).range(2..), allow_hyphen_values = true)]
-    #[arg(conflicts_with_all = ["samples", "random"])]
+    #[arg(conflicts_with = "samples")]
     pub(crate) saddle: Option<u16>,
 }
 

@@ -59,8 +59,8 @@ enum End {
     Stayed,
 }
 
-/// The chaotic saddle of a plan's parameters: `samples` runs of `t_end` at most (default: ten looks of the model) from
-/// random starts, growth counted from `transient` (default: half a look) to a quarter of a look before a blow-up, and to the way into a
+/// The chaotic saddle of a plan's parameters: `samples` runs of `t_end` at most (default: ten looks of the model) from starts drawn by
+/// `random`, growth counted from `transient` (default: half a look) to a quarter of a look before a blow-up, and to the way into a
 /// stable steady motion before a capture. Runs that move regularly at the end do not count. Both ends are those of
 /// [`crate::lifetimes::lifetimes`].
 ///
@@ -74,7 +74,7 @@ enum End {
 /// # Checked by  tests/all/saddle.rs: Lorenz's equations below and above the chaos
 pub fn saddle(
     plan: &Plan,
-    samples: usize,
+    (samples, random): (usize, Random),
     (transient, t_end): (Option<f64>, Option<f64>),
     threads: usize,
     watch: &dyn Watch,
@@ -93,10 +93,9 @@ pub fn saddle(
     let bounds = (c.escape_norm, c.max_steps);
     let of = (info, &c.parameters.values()[..]);
     let last = analyse::settings_of(of, settings.method, c.control, bounds, LAST_LOOKS * look);
-    let values = c.parameters.values();
-    let (size, small) = (typical(info, &values)?, Random::small(info, &[values])?);
+    let size = typical(info, &c.parameters.values())?;
     let one = |sample: usize| {
-        let start = small.shape(info, model.as_ref(), c.seed, sample as u64 + 1);
+        let start = random.shape(info, model.as_ref(), c.seed, sample as u64 + 1);
         let found = lyapunov(model.as_ref(), &start, &settings, &StopOnly(watch))?;
         let end = match found.outcome {
             Outcome::Interrupted { .. } => return Ok(None),

@@ -120,8 +120,8 @@ impl Context<'_> {
         times: (Option<f64>, Option<f64>),
     ) -> Result<Saddle, Error> {
         let plan = RunPlan::new(study)?;
-        let compute =
-            || saddle(&plan, runs, times, self.threads, &StopOnly(self.watch))?.ok_or(Error::Interrupted);
+        let (starts, watch) = ((runs, Random::SMALL), StopOnly(self.watch));
+        let compute = || saddle(&plan, starts, times, self.threads, &watch)?.ok_or(Error::Interrupted);
         let mut found = self.kept.once(&format!("saddle {runs} {times:?} {}", plan.hash()), compute)?;
         let estimates = found.exponent.iter_mut().chain(&mut found.rate);
         estimates.for_each(|estimate| self.changed(estimate, |fault| fault.estimate));

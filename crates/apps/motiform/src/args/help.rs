@@ -207,7 +207,7 @@ Examples:
 
 Errors are half widths of 95 % confidence intervals. The exponents that must be zero (those of the flow direction and the \
 rotations) are a self-check. If an average is too short, no error is given and this is reported (exit code 1). A run that \
-escapes has no exponents: use --saddle for the exponent of the chaotic saddle.
+escapes has no exponents: use --saddle for the exponent of the chaotic saddle, with --random where small starts do not come to it.
 
 More: docs/regimes.md.";
 

@@ -9,13 +9,15 @@ use motiform_lab::answers::{Exponents, MeanExponents};
 use motiform_lab::pool::all_cores;
 use motiform_lab::saddle::saddle as find_saddle;
 use motiform_lab::samples::{self, Escapes, Samples, Starts};
-use motiform_study::{Error, Plan};
+use motiform_study::{Error, Plan, Random};
 
 /// Default number of exponents.
 const COUNT: usize = 6;
 
 pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
-    let (plan, samples) = subject::plan(subject::motion(&options.motion)?, &options.many)?;
+    let study = subject::motion(&options.motion)?;
+    let random = study.starts(1)?;
+    let (plan, samples) = subject::plan(study, &options.many)?;
     for (key, value) in [("t_end", options.t_end), ("transient", options.transient)] {
         if let Some(value) = value.filter(|&value| value < 0.0 || key == "t_end" && value == 0.0) {
             return Err(Error::Setting {
@@ -27,7 +29,7 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
         }
     }
     if let Some(samples) = options.saddle {
-        return saddle(options, &plan, usize::from(samples));
+        return saddle(options, &plan, (usize::from(samples), random));
     }
     let dim = plan.computation.initial.0.len() - 2;
     let count = options.count.map_or(COUNT.min(dim), usize::from);
@@ -57,10 +59,10 @@ fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) 
 }
 
 /// `--saddle`: the exponent of transient chaos.
-fn saddle(options: &LyapunovOptions, plan: &Plan, samples: usize) -> anyhow::Result<End> {
-    let watch = Progress::new(samples as f64, "runs");
+fn saddle(options: &LyapunovOptions, plan: &Plan, starts: (usize, Random)) -> anyhow::Result<End> {
+    let watch = Progress::new(starts.0 as f64, "runs");
     let threads = all_cores();
-    let found = find_saddle(plan, samples, (options.transient, options.t_end), threads, &watch);
+    let found = find_saddle(plan, starts, (options.transient, options.t_end), threads, &watch);
     watch.finish();
     let Some(found) = found? else { return Ok(End::Interrupted) };
     say(&found, options.motion.json)?;
