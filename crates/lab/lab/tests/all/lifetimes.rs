@@ -113,6 +113,11 @@ fn lives_are_those_of_other_units() {
 /// though the places of all their ends together look uniform.
 #[test]
 fn lives_of_opposite_kinds_are_no_law() {
-    let found = lifetimes(&lorenz([1.0; 2], "18:23.5:6", 64), Some(20.0), 2, &()).unwrap().unwrap();
+    let plan = lorenz([1.0; 2], "18:23.5:6", 64);
+    let found = lifetimes(&plan, Some(20.0), 2, &()).unwrap().unwrap();
     assert!(matches!(found.laws, LifeLaws::NotExponential(_)), "{}", found.laws.words());
+    // r, which is the axis, is the only parameter: no other one is 0
+    let pictures = draw_lifetimes(&plan, &found, &FigureFormat::default()).unwrap();
+    let svg = String::from_utf8(pictures[0].bytes.clone()).unwrap();
+    assert!(svg.contains("model units") && !svg.contains("all other"), "{svg}");
 }
