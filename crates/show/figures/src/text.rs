@@ -91,13 +91,16 @@ pub fn literal(text: &str) -> String {
 const SPELLED: [(&str, &str); 6] =
     [("lambda", "*λ*"), ("tau", "*τ*"), ("gamma", "*γ*"), ("k", "*k*"), ("p", "*p*"), ("pc", "*p*_c")];
 
-/// A sentence of results, as terminals show it, as markup: `lambda_1 = 2.2e-4 +- 3.2e-4` has its letter, its powers of ten and its sign.
+/// A sentence of results, as terminals show it, as markup: `lambda_1 = 2.2e-4 +- 3.2e-4` has its letter, its powers of ten and its sign,
+/// and a difference its minus.
 #[must_use]
 pub fn sentence(text: &str) -> String {
     let mut out = powers(&literal(text))
         .replace("+-", "±")
         .replace("lambda\\_", "lambda_")
-        .replace("\\^-gamma", "^{-gamma}");
+        .replace("\\^-gamma", "^{−gamma}")
+        .replace("(-", "(−")
+        .replace(" - ", " − ");
     for (word, letter) in SPELLED {
         let mut rest = std::mem::take(&mut out);
         while let Some(at) = rest.find(word) {
@@ -329,10 +332,10 @@ mod tests {
 
     #[test]
     fn sentences_of_results_are_typeset() {
-        let text = "lambda_1 = -2.2e-4 +- 3.2e-4, tau = 1.075e5 (pc - p)^-gamma, a constant, file_1e.toml";
+        let text = "lambda_1 = -2.2e-4 +- 3.2e-4, tau = 1.075e5 (pc - p)^-gamma, exp(-k p), a constant, file_1e-b.toml";
         assert_eq!(
             Label::parse(&sentence(text)).terminal(),
-            "λ_1 = −2.2×10^-4 ± 3.2×10^-4, τ = 1.075×10^5 (p_c - p)^{-γ}, a constant, file_1e.toml"
+            "λ_1 = −2.2×10^-4 ± 3.2×10^-4, τ = 1.075×10^5 (p_c − p)^{-γ}, exp(−k p), a constant, file_1e-b.toml"
         );
     }
 
