@@ -5,8 +5,6 @@ use motiform_analysis::regime::Attractor;
 use motiform_analysis::{RelativeEquilibrium, Verdict};
 use motiform_dynamics::Model;
 use motiform_dynamics::escape::norm;
-use motiform_models::ModelInfo;
-use motiform_study::{Error, Scales};
 
 /// A steady motion is sought, which takes time, only where the first step of Newton's method is no longer than so many times the distance
 /// of a capture.
@@ -14,11 +12,6 @@ const STEP: f64 = 10.0;
 
 /// Looks for which the motion at the end may be examined: a transient that lasts for longer is not taken for a regular motion.
 pub(crate) const LAST_LOOKS: f64 = 4.0;
-
-/// The size of typical shapes of a model at these parameters: its own, if that is not 1, or that at which terms of its equations balance.
-pub(crate) fn typical(info: &ModelInfo, values: &[f64]) -> Result<f64, Error> {
-    Ok(if info.size == 1.0 { Scales::of_model(info, values)?.length } else { info.size })
-}
 
 /// The stable steady motion that a shape has come close to; `size`: that of a typical state. Both are measured in the units of the
 /// equations: a steady motion is close or not whatever the unit of length or time.

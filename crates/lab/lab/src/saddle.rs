@@ -1,14 +1,14 @@
 //! Transient chaos: the exponent of the chaotic saddle, and the rate at which orbits leave it.
 
 use crate::analyse;
-use crate::captured::{LAST_LOOKS, captured, is_regular, slow, typical, way};
+use crate::captured::{LAST_LOOKS, captured, is_regular, slow, way};
 use crate::pool::spread;
 use motiform_analysis::{
     Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, classify, escape_rate, lyapunov, survival,
 };
 use motiform_dynamics::distributions::student_quantile;
 use motiform_dynamics::{Model, Outcome, StopOnly, Watch};
-use motiform_study::{Error, Plan, Random};
+use motiform_study::{Error, Plan, Random, Scales};
 use serde::Serialize;
 
 /// The fraction of a first look that is excluded before an escape: there the orbit is escaping and no longer chaotic.
@@ -60,8 +60,9 @@ enum End {
 }
 
 /// The chaotic saddle of a plan's parameters: `samples` runs of `t_end` at most (default: ten looks of the model) from starts drawn by
-/// `random`, growth counted from `transient` (default: half a look) to a quarter of a look before a blow-up, and to the way into a
-/// stable steady motion before a capture. Runs that move regularly at the end do not count. Both ends are those of
+/// `random`, growth counted from `transient` (default: half a look) to a quarter of a look before a blow-up. Where runs are captured by a
+/// stable steady motion, twice the longest way into it is left out before each capture, and before the end of runs that are not captured:
+/// they may be on the way. Runs that move regularly at the end do not count. Both ends are those of
 /// [`crate::lifetimes::lifetimes`].
 ///
 /// lambda_1 = sum of growth / sum of time over all stretches; its error is that of a ratio of sums over independent runs. Where it is not
@@ -93,7 +94,7 @@ pub fn saddle(
     let bounds = (c.escape_norm, c.max_steps);
     let of = (info, &c.parameters.values()[..]);
     let last = analyse::settings_of(of, settings.method, c.control, bounds, LAST_LOOKS * look);
-    let size = typical(info, &c.parameters.values())?;
+    let size = Scales::typical(info, &c.parameters.values())?;
     let one = |sample: usize| {
         let start = random.shape(info, model.as_ref(), c.seed, sample as u64 + 1);
         let found = lyapunov(model.as_ref(), &start, &settings, &StopOnly(watch))?;
@@ -130,17 +131,19 @@ fn summarise(runs: &[(Lyapunov, End)], settings: &LyapunovSettings, way_out: f64
         end => Stay { time: run.outcome.t(), escaped: *end == End::BlewUp },
     };
     let stays: Vec<Stay> = counted().map(stay).collect();
+    // a spiral into a steady motion takes up to twice the time of the linear one, and some runs end within theirs
+    let ways = runs.iter().map(|(_, end)| if let End::Captured(_, way) = end { 2.0 * way } else { 0.0 });
+    let way = ways.fold(0.0, f64::max);
     let until = |(run, end): &(Lyapunov, End)| match end {
         End::BlewUp => run.outcome.t() - way_out,
-        End::Captured(since, way) => since - way,
-        _ => f64::INFINITY,
+        End::Captured(since, _) => since - way,
+        _ => run.outcome.t() - way,
     };
     let stretches: Vec<(f64, f64)> = counted().map(|run| stretch(&run.0, until(run), settings)).collect();
     let exponent = ratio(&stretches);
     let chaotic = exponent.filter(|found| found.value > found.error);
     let left = stays.iter().any(|stay| stay.escaped);
-    let delays = runs.iter().map(|(_, end)| if let End::Captured(_, way) = end { 2.0 * way } else { 0.0 });
-    let delay = delays.fold(settings.transient, f64::max);
+    let delay = settings.transient.max(way);
     let rate = chaotic.and_then(|_| escape_rate(&stays, delay).ok()).map(|found| found.rate);
     Ok(Saddle {
         exponent: chaotic,

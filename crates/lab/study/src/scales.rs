@@ -64,6 +64,14 @@ impl Scales {
         Ok((!ORDINARY_SIZES.contains(&size)).then(|| one_digit(2.0 * size)))
     }
 
+    /// The size of typical shapes of a model at these parameters: its own, if that is not 1, or that at which its terms balance.
+    ///
+    /// # Errors
+    /// Values that the model rejects.
+    pub fn typical(info: &ModelInfo, values: &[f64]) -> Result<f64, Error> {
+        Ok(if info.size == 1.0 { Self::of_model(info, values)?.length } else { info.size })
+    }
+
     /// The scales of a model at these parameters, in registry order. The models of this program have no dimensions: their sizes are
     /// ordinary.
     ///

@@ -16,7 +16,8 @@ const COUNT: usize = 6;
 
 pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let study = subject::motion(&options.motion)?;
-    let random = study.starts(1)?;
+    let runs =
+        options.saddle.map(|runs| study.starts(1).map(|random| (usize::from(runs), random))).transpose()?;
     let (plan, samples) = subject::plan(study, &options.many)?;
     for (key, value) in [("t_end", options.t_end), ("transient", options.transient)] {
         if let Some(value) = value.filter(|&value| value < 0.0 || key == "t_end" && value == 0.0) {
@@ -28,8 +29,8 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
             .into());
         }
     }
-    if let Some(samples) = options.saddle {
-        return saddle(options, &plan, (usize::from(samples), random));
+    if let Some(runs) = runs {
+        return saddle(options, &plan, runs);
     }
     let dim = plan.computation.initial.0.len() - 2;
     let count = options.count.map_or(COUNT.min(dim), usize::from);
@@ -59,10 +60,10 @@ fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) 
 }
 
 /// `--saddle`: the exponent of transient chaos.
-fn saddle(options: &LyapunovOptions, plan: &Plan, starts: (usize, Random)) -> anyhow::Result<End> {
-    let watch = Progress::new(starts.0 as f64, "runs");
+fn saddle(options: &LyapunovOptions, plan: &Plan, runs: (usize, Random)) -> anyhow::Result<End> {
+    let watch = Progress::new(runs.0 as f64, "runs");
     let threads = all_cores();
-    let found = find_saddle(plan, starts, (options.transient, options.t_end), threads, &watch);
+    let found = find_saddle(plan, runs, (options.transient, options.t_end), threads, &watch);
     watch.finish();
     let Some(found) = found? else { return Ok(End::Interrupted) };
     say(&found, options.motion.json)?;

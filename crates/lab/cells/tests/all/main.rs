@@ -10,6 +10,7 @@ mod field;
 mod format_writers;
 mod matrix;
 mod numbers;
+mod numbers_together;
 mod observed;
 mod pages;
 mod population;

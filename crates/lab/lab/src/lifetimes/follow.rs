@@ -1,7 +1,7 @@
 //! Orbits followed look by look until they blow up, are captured, or time is over.
 
 use crate::analyse::settings_of;
-use crate::captured::{LAST_LOOKS, captured, is_regular, typical};
+use crate::captured::{LAST_LOOKS, captured, is_regular};
 use crate::pool::Jobs;
 use motiform_analysis::classify;
 use motiform_analysis::regime::Settings;
@@ -10,7 +10,7 @@ use motiform_dynamics::ensemble::Propagation;
 use motiform_dynamics::simd::has_lanes;
 use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly, Watch};
 use motiform_kernels::{Kernel, Start, propagate_bodies};
-use motiform_study::{Error, ScanPlan};
+use motiform_study::{Error, Scales, ScanPlan};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -66,7 +66,7 @@ impl<'p> Follower<'p> {
         let of = (info, &plan.parameters_of(0)?[..]);
         let settings = settings_of(of, plan.method()?, c.control, bounds, LAST_LOOKS * look);
         let sizes = (0..plan.cells())
-            .map(|cell| typical(info, &plan.parameters_of(cell)?))
+            .map(|cell| Scales::typical(info, &plan.parameters_of(cell)?))
             .collect::<Result<_, Error>>()?;
         let adaptive = matches!(c.control.into(), StepControl::Adaptive { .. });
         let suited = c.stepper == "dop853" && adaptive;

@@ -5,35 +5,35 @@
 use motiform_lab::saddle::{Saddle, saddle};
 use motiform_study::{Random, RunPlan, Study};
 
-fn found(r: f64, transient: f64, (runs, random): (usize, Option<Random>)) -> Saddle {
+fn found(r: f64, (transient, t_end): (f64, f64), (runs, random): (usize, Option<Random>)) -> Saddle {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/models/lorenz.toml"))
         .unwrap();
     let mut study = Study::parse(&text.replace("r = 28", &format!("r = {r:?}")), "text", "test").unwrap();
     study.random = random;
     let starts = (runs, study.starts(1).unwrap());
-    saddle(&RunPlan::new(&study).unwrap(), starts, (Some(transient), Some(200.0)), 2, &()).unwrap().unwrap()
+    saddle(&RunPlan::new(&study).unwrap(), starts, (Some(transient), Some(t_end)), 2, &()).unwrap().unwrap()
 }
 
 #[test]
 fn the_exponent_of_a_focus_or_of_an_attractor_is_not_that_of_a_saddle() {
-    let focus = found(22.0, 10.0, (24, None));
+    let focus = found(22.0, (10.0, 200.0), (24, None));
     assert!(focus.exponent.is_none() && !focus.is_one(), "{focus:?}");
     assert!(focus.captured == 24 && focus.missing.starts_with("no chaotic saddle"), "{focus:?}");
     assert!(!focus.to_string().contains("of the chaotic saddle"), "{focus}");
-    let attractor = found(28.0, 100.0, (24, None));
+    let attractor = found(28.0, (100.0, 200.0), (24, None));
     assert!((attractor.exponent.unwrap().value - 0.906).abs() < 0.02, "{attractor:?}");
     assert!(!attractor.is_one() && attractor.to_string().contains("no run left"), "{attractor}");
 }
 
 /// Small starts follow the unstable direction of the origin into a focus; of larger ones a quarter comes to the chaos that lasts for a
-/// while. Its exponent is that of 400 orbits by Runge and Kutta's method with a fixed step, in a program of its own: 0.710 (from 61000
-/// units of time).
+/// while. Its exponent is that of 400 orbits by Runge and Kutta's method with a fixed step, in a program of its own: 0.711 +- 0.004
+/// (from 120000 units of time; mean life 350 to 360). Spirals into the foci, which are long beside an unstable cycle, are left out.
 #[test]
 fn larger_starts_come_to_the_saddle() {
-    let small = found(23.0, 10.0, (24, None));
+    let small = found(23.0, (10.0, 200.0), (24, None));
     assert!(small.captured == 24 && small.missing.starts_with("no chaotic saddle"), "{small:?}");
-    let large = found(23.0, 10.0, (100, Some(Random::Sizes { min: 10.0, max: 60.0 })));
+    let large = found(23.0, (10.0, 1500.0), (50, Some(Random::Sizes { min: 10.0, max: 60.0 })));
     let exponent = large.exponent.unwrap();
-    assert!(large.is_one() && (exponent.value - 0.71).abs() < 1.5 * exponent.error, "{large:?}");
+    assert!(large.is_one() && (exponent.value - 0.711).abs() < exponent.error + 0.004, "{large:?}");
     assert!(exponent.error < 0.05, "{large:?}");
 }
