@@ -56,21 +56,3 @@ pub fn canonical<'s>(specs: &'s [ParameterSpec], name: &'s str) -> &'s str {
     let meant = specs.iter().find(|spec| !known && plain(spec.symbol) == name);
     meant.map_or(name, |spec| spec.name)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::registry::ModelInfo;
-
-    #[test]
-    fn greek_letters_are_spelled_and_symbols_are_known() {
-        for typed in ["κ2", "κ₂", "κ_2", "kappa2"] {
-            assert_eq!(ascii(typed), "kappa2");
-        }
-        assert_eq!(ascii("alpha3_per_length"), "alpha3_per_length");
-        let cell = ModelInfo::find("cell").expect("a model").parameters();
-        assert_eq!(canonical(cell, "L"), "length");
-        assert_eq!(canonical(cell, "length"), "length");
-        assert_eq!(canonical(cell, "Lx"), "Lx");
-    }
-}

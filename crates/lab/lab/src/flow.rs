@@ -43,27 +43,3 @@ impl<M: AsRef<dyn Model>> Flow<M> {
         velocity(model, &self.shape)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use motiform_models::MODELS;
-
-    /// Property of [`Model::encode`] that rates in coordinates need: both maps are linear, and inverse to each other.
-    #[test]
-    fn coordinates_are_linear_in_the_state() {
-        for info in MODELS {
-            let values: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
-            let model = info.build(&values).unwrap();
-            let dim = model.dim();
-            let a: Vec<f64> = (0..dim).map(|i| 0.3 + i as f64).collect();
-            let b: Vec<f64> = (0..dim).map(|i| 1.7 - 0.5 * i as f64).collect();
-            let sum: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 2.0 * a + b).collect();
-            let read = |state: &[f64]| model.decoded(state);
-            for ((a, b), sum) in read(&a).iter().zip(read(&b)).zip(read(&sum)) {
-                assert!((2.0 * a + b - sum).abs() < 1e-12 * sum.abs().max(1.0), "{}", info.name);
-            }
-            let back = model.encoded(&read(&a));
-            assert!(back.iter().zip(&a).all(|(x, y)| (x - y).abs() < 1e-13 * y.abs().max(1.0)));
-        }
-    }
-}

@@ -55,31 +55,3 @@ fn in_lanes(
     classify_rows(kernel, settings, &mut next, &mut done, &StopOnly(watch));
     found.into_iter().map(|verdict| verdict.unwrap_or(Ok(None))).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use motiform_study::Study;
-
-    fn plans(text: &str) -> Vec<RunPlan> {
-        let plan = |kappa2: f64| {
-            let mut study = Study::parse(text, "text", "test").unwrap();
-            study.set("kappa2", kappa2).unwrap();
-            RunPlan::new(&study).unwrap()
-        };
-        [0.3, 0.5, 0.7, 0.9, 1.2].map(plan).to_vec()
-    }
-
-    /// In lanes, and one by one with a method that has none.
-    #[test]
-    fn verdicts_are_those_of_each_plan() {
-        for text in ["preset = \"fig4\"", "preset = \"fig4\"\n[run]\nstepper = \"dopri5\""] {
-            let plans = plans(text);
-            let alone = |plan: &RunPlan| analyse::classify(plan, 0.0, &()).unwrap().unwrap();
-            let alone: Vec<Verdict> = plans.iter().map(alone).collect();
-            assert_eq!(classify(&plans, 0.0, &()).unwrap().unwrap(), alone);
-            assert!(alone[0].regime != alone[4].regime);
-        }
-        assert_eq!(classify(&[], 0.0, &()).unwrap(), Some(Vec::new()));
-    }
-}

@@ -64,12 +64,6 @@ mod stripes;
 mod style;
 mod survival;
 pub mod svg;
-#[cfg(test)]
-mod tests;
-#[cfg(test)]
-mod tests_of_measurements;
-#[cfg(test)]
-mod tests_of_phase_diagrams;
 mod text;
 pub mod ticks;
 mod track_panels;

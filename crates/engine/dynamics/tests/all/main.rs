@@ -12,3 +12,4 @@ mod projection;
 mod restart;
 mod scalars;
 mod sections;
+mod tangent;

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+use motiform_dynamics::Model;
+use motiform_models::spelling::{ascii, canonical};
 use motiform_models::{Error, MODELS, ModelInfo, nearest};
 use std::collections::HashSet;
 
@@ -43,5 +45,36 @@ fn values_that_cannot_be_computed_with_are_refused() {
     for bad in [f64::NAN, f64::INFINITY, 1e300] {
         values[0] = bad;
         assert!(matches!(tensor.build(&values), Err(Error::OutOfRange { ref name, .. }) if name == "gamma"));
+    }
+}
+
+#[test]
+fn greek_letters_are_spelled_and_symbols_are_known() {
+    for typed in ["κ2", "κ₂", "κ_2", "kappa2"] {
+        assert_eq!(ascii(typed), "kappa2");
+    }
+    assert_eq!(ascii("alpha3_per_length"), "alpha3_per_length");
+    let cell = ModelInfo::find("cell").expect("a model").parameters();
+    assert_eq!(canonical(cell, "L"), "length");
+    assert_eq!(canonical(cell, "length"), "length");
+    assert_eq!(canonical(cell, "Lx"), "Lx");
+}
+
+/// Property of [`Model::encode`] that rates in coordinates need: both maps are linear, and inverse to each other.
+#[test]
+fn coordinates_are_linear_in_the_state() {
+    for info in MODELS {
+        let values: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
+        let model = info.build(&values).unwrap();
+        let dim = model.dim();
+        let a: Vec<f64> = (0..dim).map(|i| 0.3 + i as f64).collect();
+        let b: Vec<f64> = (0..dim).map(|i| 1.7 - 0.5 * i as f64).collect();
+        let sum: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 2.0 * a + b).collect();
+        let read = |state: &[f64]| model.decoded(state);
+        for ((a, b), sum) in read(&a).iter().zip(read(&b)).zip(read(&sum)) {
+            assert!((2.0 * a + b - sum).abs() < 1e-12 * sum.abs().max(1.0), "{}", info.name);
+        }
+        let back = model.encoded(&read(&a));
+        assert!(back.iter().zip(&a).all(|(x, y)| (x - y).abs() < 1e-13 * y.abs().max(1.0)));
     }
 }

@@ -16,6 +16,3 @@ pub use returns::{crossings_of_path, maxima_of_speed};
 pub use settled::{settled, start};
 pub use spectra::{Spectra, spectra};
 pub use stretch::Stretch;
-
-#[cfg(test)]
-mod tests;

@@ -14,6 +14,8 @@ mod given;
 mod hdf5;
 mod lasting;
 mod lifetimes;
+mod live;
+mod many;
 mod naming;
 mod noise;
 mod noisy_lanes;
@@ -22,6 +24,7 @@ mod plan;
 mod presets;
 mod questions;
 mod random;
+mod recorder;
 mod saddle;
 #[path = "../../../../samples.rs"]
 mod samples;

@@ -4,8 +4,6 @@ pub(crate) mod element;
 pub(crate) mod painter;
 mod pixels;
 pub(crate) mod shapes;
-#[cfg(test)]
-mod tests;
 
 use tiny_skia::Pixmap;
 

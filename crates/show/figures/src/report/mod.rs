@@ -8,8 +8,6 @@ mod page;
 mod section;
 mod sentence;
 mod table;
-#[cfg(all(test, feature = "raster"))]
-mod tests;
 
 pub use claim::{Claim, Counts, Source, Verdict};
 pub use glossary::Definition;

@@ -2,6 +2,11 @@
 
 use motiform_figures::{Label, literal};
 
+/// The text of the document without its fonts.
+pub(crate) fn drawing(svg: &str) -> &str {
+    svg.split_once("</style>").map_or("", |(_, drawing)| drawing)
+}
+
 /// Width and height of a sheet in units of its drawing.
 pub(crate) fn sides(svg: &str) -> [f64; 2] {
     let view = svg.split("viewBox=\"0 0 ").nth(1).and_then(|rest| rest.split('"').next()).expect("a view");

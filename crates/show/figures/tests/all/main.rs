@@ -4,7 +4,13 @@
 
 mod colours;
 mod drawing;
+mod every_figure;
 #[path = "../../examples/gallery/kinds/mod.rs"]
 mod kinds;
+mod measurements;
+mod phase_diagrams;
+mod picture;
+mod pixels;
 mod references;
+mod reports;
 mod sizes;

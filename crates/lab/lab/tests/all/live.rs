@@ -1,8 +1,10 @@
+//! A body that is watched moves as the run of its plan does, and what is computed from its record is that of the run.
+
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use super::*;
-use crate::simulate::simulate;
 use motiform_dynamics::{InPlane, Model, Outcome};
+use motiform_lab::live::{Record, Stretch, crossings_of_path, dataset, maxima_of_speed, spectra};
+use motiform_lab::simulate::simulate;
 use motiform_models::ModelInfo;
 use motiform_store::table::same_bits;
 use motiform_study::study::ReturnMapSettings;
@@ -175,7 +177,7 @@ fn maxima_and_spectra_of_a_periodic_motion() {
     let maxima = maxima_of_speed(&record);
     let highest = maxima.iter().copied().fold(0.0, f64::max);
     assert!(maxima.len() > 20, "{}", maxima.len());
-    let verdict = crate::analyse::classify(&plan, 0.0, &()).unwrap().unwrap();
+    let verdict = motiform_lab::analyse::classify(&plan, 0.0, &()).unwrap().unwrap();
     let period = verdict.period.unwrap();
     let per_period = maxima.len() as f64 * period / plan.computation.t_end;
     assert!((per_period - per_period.round()).abs() < 0.05, "{per_period}");

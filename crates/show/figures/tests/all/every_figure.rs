@@ -1,9 +1,15 @@
 //! The properties of every figure: same bytes, no NaN, readable files, refusal of bad data.
 
-use super::palette::BLUE;
-use super::*;
+use crate::drawing::drawing;
+use crate::picture::Picture;
+use motiform_figures::palette::{self, BLUE};
+use motiform_figures::svg::Svg;
+use motiform_figures::{
+    Animation, Camera, Chart, Curve, FigureError, Frame, OutlineStamp, Panel, PathFigure, PathPoint,
+    SectionLine, SeriesFigure, SpaceTimeFigure, SpectrumCurve, png,
+};
 
-pub(super) fn wave(count: usize) -> Vec<PathPoint> {
+fn wave(count: usize) -> Vec<PathPoint> {
     let point = |i: usize| {
         let t = 0.1 * i as f64;
         PathPoint { t, x: t, y: t.sin() }
@@ -15,7 +21,7 @@ fn ellipse([x, y]: [f64; 2]) -> Vec<[f64; 2]> {
     (0..40).map(|i| (0.157 * f64::from(i)).sin_cos()).map(|(s, c)| [x + 0.8 * c, y + 0.5 * s]).collect()
 }
 
-pub(super) fn path(points: Vec<PathPoint>) -> PathFigure {
+fn path(points: Vec<PathPoint>) -> PathFigure {
     let stamps = points.iter().step_by(20).map(|p| OutlineStamp { t: p.t, points: ellipse([p.x, p.y]) });
     let section = SectionLine {
         from: [0.0, 0.5],
@@ -33,20 +39,20 @@ pub(super) fn path(points: Vec<PathPoint>) -> PathFigure {
     }
 }
 
-pub(super) fn series(values: Vec<Option<f64>>) -> SeriesFigure {
+fn series(values: Vec<Option<f64>>) -> SeriesFigure {
     let times = (0..values.len()).map(|i| i as f64).collect();
     let curve = Curve { label: "speed".into(), colour: BLUE, values };
     let panel = Panel { label: "speed".into(), curves: vec![curve], least: 0.0 };
     SeriesFigure { times, panels: vec![panel.clone(), panel], ..SeriesFigure::default() }
 }
 
-pub(super) fn field(columns: usize, rows: usize, f: fn(f64, f64) -> f64) -> SpaceTimeFigure {
+fn field(columns: usize, rows: usize, f: fn(f64, f64) -> f64) -> SpaceTimeFigure {
     let value = |i: usize| f((i % columns) as f64 / columns as f64, (i / columns) as f64 / rows as f64);
     let values = (0..columns * rows).map(value).collect();
     SpaceTimeFigure { columns, rows, values, ..SpaceTimeFigure::default() }
 }
 
-pub(super) fn spectrum(power: &[f64]) -> Chart {
+fn spectrum(power: &[f64]) -> Chart {
     let frequencies = (0..power.len()).map(|i| i as f64).collect();
     let curve = SpectrumCurve { label: "*x*".into(), colour: BLUE, power: power.to_vec() };
     Chart::spectra(frequencies, vec![curve.clone(), curve])
@@ -56,11 +62,6 @@ fn film(count: usize, camera: Camera) -> Animation {
     let frame = |p: &PathPoint| Frame { t: p.t, centre: [p.x, p.y], outline: ellipse([p.x, p.y]) };
     let frames = wave(count).iter().map(frame).collect();
     Animation { frames, size: 200, camera, ..Animation::default() }
-}
-
-/// The text of the document without its fonts.
-pub(super) fn drawing(svg: &str) -> &str {
-    svg.split_once("</style>").map_or("", |(_, drawing)| drawing)
 }
 
 #[test]
@@ -175,12 +176,9 @@ fn the_heat_map_is_drawn_with_its_first_row_and_column_at_the_lower_left() {
         }
     };
     let svg = field(2, 2, corner).svg().expect("a figure");
-    let picture = raster::pixmap(&svg, 1.0).expect("a picture");
+    let picture = Picture::of(&svg);
     let seen = |c: palette::Colour| {
-        let hits = picture.pixels().iter().enumerate();
-        let hits = hits.filter(|(_, p)| (p.red(), p.green(), p.blue()) == (c.0, c.1, c.2)).map(|(i, _)| i);
-        let places: Vec<_> =
-            hits.map(|i| (i % picture.width() as usize, i / picture.width() as usize)).collect();
+        let places = picture.places(c);
         let n = places.len();
         assert!(n > 29_000, "{n} of 300 x 100 pixels have the colour {c}");
         (places.iter().map(|p| p.0).sum::<usize>() / n, places.iter().map(|p| p.1).sum::<usize>() / n)
@@ -191,7 +189,7 @@ fn the_heat_map_is_drawn_with_its_first_row_and_column_at_the_lower_left() {
 
 #[test]
 fn png_has_the_size_and_text_asked_for() {
-    let svg = svg::Svg::new(60.0, 40.0).finish();
+    let svg = Svg::new(60.0, 40.0).finish();
     let bytes = png(&svg, 2.5, &[("Software", "motiform")]).expect("a png");
     let mut reader = ::png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("a header");
     let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];

@@ -1,22 +1,25 @@
 //! Error bars and survival curves: axes, what is left out, what is refused.
 
-use super::tests::drawing;
-use super::*;
+use crate::drawing::drawing;
+use motiform_figures::geometry::Point;
+use motiform_figures::{
+    Chart, ErrorBarSeries, ExpectedLine, FigureError, LineStyle, Measured, SurvivalCurve, SurvivalStep,
+};
 
-pub(super) fn measured(points: &[(f64, f64, f64)]) -> Chart {
+fn measured(points: &[(f64, f64, f64)]) -> Chart {
     let points = points.iter().map(|(x, y, error)| Measured { x: *x, y: *y, error: *error }).collect();
     let series = [ErrorBarSeries { label: "*λ*_1".into(), points, joined: true }];
     Chart::default().with(series)
 }
 
-pub(super) fn survival(shares: &[f64]) -> Chart {
+fn survival(shares: &[f64]) -> Chart {
     let step = |(i, s): (usize, &f64)| SurvivalStep { t: i as f64, share: *s, low: s - 0.1, high: s + 0.1 };
     let steps = shares.iter().enumerate().map(step).collect();
     let curve = SurvivalCurve { label: "runs".into(), steps, end: shares.len() as f64 };
     Chart::survival([curve])
 }
 
-fn line(points: Vec<geometry::Point>) -> ExpectedLine {
+fn line(points: Vec<Point>) -> ExpectedLine {
     ExpectedLine { label: "expected".into(), style: LineStyle::Dashed, points }
 }
 

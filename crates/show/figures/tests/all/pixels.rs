@@ -1,11 +1,11 @@
 //! Pixels of single shapes, whose places follow from what was drawn.
 
-use super::{pixmap, png};
-use crate::geometry::Rect;
-use crate::paint::Paint;
-use crate::palette::BLACK;
-use crate::svg::{Anchor, Svg};
-use crate::text::Label;
+use crate::picture::Picture;
+use motiform_figures::geometry::Rect;
+use motiform_figures::paint::Paint;
+use motiform_figures::palette::BLACK;
+use motiform_figures::svg::{Anchor, Svg};
+use motiform_figures::{Label, png};
 
 const SIDE: usize = 100;
 
@@ -13,8 +13,7 @@ const SIDE: usize = 100;
 fn ink(draw: impl FnOnce(&mut Svg)) -> Vec<u8> {
     let mut svg = Svg::new(SIDE as f64, SIDE as f64);
     draw(&mut svg);
-    let picture = pixmap(&svg.finish(), 1.0).expect("a picture");
-    picture.pixels().iter().map(|pixel| 255 - pixel.red()).collect()
+    Picture::of(&svg.finish()).pixels.iter().map(|pixel| 255 - pixel.0).collect()
 }
 
 /// The first and the last column and row with ink.

@@ -1,7 +1,7 @@
 //! The properties of every report.
 
-use crate::report::*;
-use crate::{Chart, png};
+use motiform_figures::report::*;
+use motiform_figures::{Chart, png};
 
 fn claim(verdict: Verdict) -> Claim {
     Claim {

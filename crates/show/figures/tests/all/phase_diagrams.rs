@@ -1,14 +1,18 @@
 //! Phase diagrams: what is drawn for which grid, and what is refused.
 
-use super::tests::drawing;
-use super::*;
+use crate::drawing::drawing;
+use crate::picture::Picture;
+use motiform_figures::{
+    Cell, ExpectedLine, Figure, FigureError, LineStyle, MapPlace, PhaseDiagram, PlaceMap, TrackPanel,
+    TrackPanels, regime_mark,
+};
 
 fn cell(x: f64, y: f64, shares: &[(&str, f64)]) -> Cell {
     Cell { x, y, shares: shares.iter().map(|(name, share)| ((*name).to_owned(), *share)).collect() }
 }
 
 /// A grid of one motion, with two of them in the first cell.
-pub(super) fn diagram(columns: usize, rows: usize) -> PhaseDiagram {
+fn diagram(columns: usize, rows: usize) -> PhaseDiagram {
     let (x, y) = ((0..columns).map(|i| i as f64).collect(), (0..rows).map(|i| 0.1 * i as f64).collect());
     let mut diagram = PhaseDiagram { x, y, x_label: "*κ*_2".into(), ..PhaseDiagram::default() };
     let places = diagram.y.iter().flat_map(|y| diagram.x.iter().map(move |x| (*x, *y)));
@@ -17,7 +21,7 @@ pub(super) fn diagram(columns: usize, rows: usize) -> PhaseDiagram {
     diagram
 }
 
-pub(super) fn strip(columns: usize) -> PhaseDiagram {
+fn strip(columns: usize) -> PhaseDiagram {
     PhaseDiagram { y: Vec::new(), ..diagram(columns, 1) }
 }
 
@@ -90,10 +94,7 @@ fn small_grids_have_a_marker_a_cell_and_large_ones_a_picture() {
 
 #[test]
 fn colours_take_their_share_of_the_area() {
-    let count = |svg: &str, c: palette::Colour| {
-        let picture = raster::pixmap(svg, 1.0).expect("a picture");
-        picture.pixels().iter().filter(|p| (p.red(), p.green(), p.blue()) == (c.0, c.1, c.2)).count()
-    };
+    let count = |svg: &str, colour| Picture::of(svg).places(colour).len();
     let all = |n| PhaseDiagram {
         cells: diagram(n, n)
             .cells
@@ -125,13 +126,9 @@ fn colours_take_their_share_of_the_area() {
 fn the_first_cell_is_at_the_lower_left() {
     let mut diagram = diagram(50, 50);
     diagram.cells[0] = cell(0.0, 0.0, &[("chaotic", 1.0)]);
-    let picture = raster::pixmap(&text(&diagram), 1.0).expect("a picture");
-    let area = regime_mark("chaotic").area;
-    let width = picture.width() as usize;
-    let hits = picture.pixels().iter().enumerate();
-    let hits = hits.filter(|(_, p)| (p.red(), p.green(), p.blue()) == (area.0, area.1, area.2));
+    let places = Picture::of(&text(&diagram)).places(regime_mark("chaotic").area);
     // beneath the legend
-    let places: Vec<_> = hits.map(|(i, _)| (i % width, i / width)).filter(|(_, y)| *y > 100).collect();
+    let places: Vec<_> = places.into_iter().filter(|(_, y)| *y > 100).collect();
     assert!(places.len() > 50 && places.iter().all(|(x, y)| *x < 100 && *y > 400), "{places:?}");
 }
 
