@@ -68,8 +68,8 @@ fn correlated_series_are_covered_up_to_a_fiftieth_of_their_length() {
     }
 }
 
-/// Short records have an error whatever their correlation time, and it is not that of those which look uncorrelated by chance: of the
-/// series of 60 samples and correlation time 5, [`series_mean`] keeps none (below 64), and of those of 100 and 12 a tenth, of which it covers .57.
+/// Short records have an error whatever their correlation time, and not only those that look uncorrelated by chance: of the series of 100
+/// samples and correlation time 12 [`series_mean`] keeps 7 %, and covers .57 of these.
 #[test]
 fn means_of_short_series_are_covered_whatever_their_correlation_time() {
     let shares = [
