@@ -56,7 +56,7 @@ pub use regime::{Attractor, Course, Form, Regime, Settings, Spread, Verdict, cla
 pub use rests::{Rest, Rests, rests};
 pub use returns::{Dimension, correlation_dimension, return_pairs};
 pub use same_set::same_set;
-pub use series_mean::series_mean;
+pub use series_mean::{series_mean, short_series_mean};
 pub use share::Share;
 pub use spectrum::{Spectrum, welch};
 pub use steady::SteadyMotion;

@@ -10,8 +10,12 @@ const COSINES: (usize, usize) = (4, 16);
 /// spectrum of the series is flat to a few per cent (AR(1): 6 % lower at the highest one).
 const PER_COSINE: f64 = 4.0;
 
-/// Fewest samples.
+/// Independent samples for each cosine of a short series, whose correlation time is underestimated.
+const PER_COSINE_OF_FEW: f64 = 6.0;
+
+/// Fewest samples, and fewest of a short series: its highest cosine has a period of two samples.
 const LEAST: usize = 64;
+const LEAST_OF_FEW: usize = 16;
 
 /// Mean of a correlated stationary series, with its 95 % error from the lowest cosines of its fluctuations.
 ///
@@ -51,10 +55,43 @@ pub fn series_mean(samples: &[f64]) -> Result<Estimate> {
     mean_over(samples, &vec![1.0; samples.len()])
 }
 
+/// [`series_mean`] of records that are what they are: 16 samples and more have an error, whatever their correlation time.
+///
+/// nu = n / (6 tau), at least 1
+///
+/// A rule that refuses series of few independent samples keeps those whose correlation time looks short by chance, and with it
+/// their error: of AR(1) series of 20, 15 and 8 correlation times [`series_mean`] refuses 61, 75 and 93 %, and the others hold the mean
+/// in 87, 78 and 57 %. Here one cosine has an error of its own, with 12.7 standard errors, and all of them hold it in 91 to 93 %.
+///
+/// Measured coverage (1500 series each): AR(1) of 40 correlation times and more 94 to 95 %, of 3 to 20 91 to 93 %; log-normal series
+/// 87 to 92 %; series that jump between two values 90 to 94 % from 12 correlation times on, below that they hardly return (75 % of 3).
+///
+/// # Units     those of the samples
+/// # Errors    [`crate::Error::TooFew`] below 16 samples, [`crate::Error::NotFinite`], [`crate::Error::Overflow`]
+/// # Checked by  tests/all/series_mean.rs: coverage of short series
+pub fn short_series_mean(samples: &[f64]) -> Result<Estimate> {
+    // below twice as many independent samples as a cosine takes there is one, whatever their number
+    with_cosines(samples, &vec![1.0; samples.len()], LEAST_OF_FEW, |off| {
+        Some(cosines(independent(off, 2.0 * PER_COSINE_OF_FEW), PER_COSINE_OF_FEW).max(1))
+    })
+}
+
 /// [`series_mean`] of samples that stand for times of different lengths: `m = sum d_i x_i / sum d_i`, and the error is that of
 /// the sum of the `d_i (x_i - m)` (a ratio of sums), with cosines of the time.
 pub(crate) fn mean_over(samples: &[f64], durations: &[f64]) -> Result<Estimate> {
-    checks::at_least("the error of a mean, in samples,", LEAST, samples.len())?;
+    with_cosines(samples, durations, LEAST, |off| {
+        Some(cosines(independent(off, FEWEST_INDEPENDENT), PER_COSINE)).filter(|count| *count >= COSINES.0)
+    })
+}
+
+/// The mean with the error of as many cosines as the fluctuations have; infinite for `None`.
+fn with_cosines(
+    samples: &[f64],
+    durations: &[f64],
+    least: usize,
+    count: impl Fn(&[f64]) -> Option<usize>,
+) -> Result<Estimate> {
+    checks::at_least("the error of a mean, in samples,", least, samples.len())?;
     checks::finite(samples)?;
     let total: f64 = durations.iter().sum();
     let value = mean(samples, durations, samples[0]);
@@ -62,8 +99,7 @@ pub(crate) fn mean_over(samples: &[f64], durations: &[f64]) -> Result<Estimate> 
     if !(value.is_finite() && off.iter().map(|x| x * x).sum::<f64>().is_finite()) {
         return Err(checks::overflow(samples));
     }
-    let cosines = cosines(independent(&off, FEWEST_INDEPENDENT));
-    let error = cosines.map_or(f64::INFINITY, |count| {
+    let error = count(&off).map_or(f64::INFINITY, |count| {
         student_quantile(count) * (2.0 / count as f64 * slowest(&off, durations, total, count)).sqrt() / total
     });
     Ok(Estimate { value, error })
@@ -80,11 +116,10 @@ pub(crate) fn independent_samples(samples: &[f64], durations: &[f64]) -> f64 {
 /// Fewest independent samples that have an error.
 pub(crate) const FEWEST_INDEPENDENT: f64 = PER_COSINE * COSINES.0 as f64;
 
-/// The number of cosines for so many independent samples; `None` where they are too few.
+/// The number of cosines for so many independent samples, `each` for one of them.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number of at least 0")]
-fn cosines(independent: f64) -> Option<usize> {
-    let count = (independent / PER_COSINE).min(COSINES.1 as f64) as usize;
-    (count >= COSINES.0).then_some(count)
+fn cosines(independent: f64, each: f64) -> usize {
+    (independent / each).min(COSINES.1 as f64) as usize
 }
 
 /// `n / tau` for fluctuations around a mean; tau is at least 1, and 1 for none at all.

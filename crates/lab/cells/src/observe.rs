@@ -107,11 +107,15 @@ pub fn observe(cell: &CellTrack) -> Observation {
         return bare("there are positions and no outlines: motions are named by path and shape".to_owned());
     }
     if frames < LEAST_FRAMES {
-        let count = if frames == 1 { "1 frame counts".to_owned() } else { format!("{frames} frames count") };
+        let are = |count: usize, one: &str, more: &str| {
+            if count == 1 { format!("1 frame {one}") } else { format!("{count} frames {more}") }
+        };
+        let count = are(frames, "counts", "count");
         let seen = numbers(cell).seen;
         let others = match seen > frames {
             true => format!(
-                " ({seen} frames are seen: numbers without a model are from all of them, names from those with modes of the radius)"
+                " ({}: numbers without a model are from all of them, names from those with modes of the radius)",
+                are(seen, "is seen", "are seen")
             ),
             false => String::new(),
         };

@@ -147,7 +147,7 @@ impl Display for Fits<'_> {
             write!(text, "\n{}", fitted(&fitted_population(fits), &Units::of(sample))?)?;
         }
         if let Some(path) = folder {
-            write!(text, "\nwritten        {}", path.display())?;
+            write!(text, "\nwritten            {}", path.display())?;
         }
         f.write_str(text.trim_end())
     }
@@ -158,11 +158,11 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
         Ok(fitted) => fitted,
         Err(why) => {
             let frames = quality(sample.cells.iter().find(|cell| cell.name == fit.name), fit.frames)?;
-            return Ok(format!("cell {:<9} undecided\nbecause        {why}\n{frames}", fit.name));
+            return Ok(format!("cell {:<13} undecided\nbecause            {why}\n{frames}", fit.name));
         }
     };
-    let mut text = format!("cell {:<9} {}\n", fit.name, fitted.motion_words());
-    writeln!(text, "because        {}", fitted.why())?;
+    let mut text = format!("cell {:<13} {}\n", fit.name, fitted.motion_words());
+    writeln!(text, "because            {}", fitted.why())?;
     text += &quality(sample.cells.iter().find(|cell| cell.name == fit.name), fit.frames)?;
     let handedness = &fitted.handedness;
     let symmetry = match fitted.symmetry() {
@@ -171,7 +171,7 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
         Symmetry::Undecided => "not decidable whether it is handed",
     };
     let p = PValue(handedness.p_value);
-    writeln!(text, "symmetry       {symmetry}, {p}; {}", handedness.excluded_parts())?;
+    writeln!(text, "symmetry           {symmetry}, {p}; {}", handedness.excluded_parts())?;
     let model = fitted.model();
     for (place, coefficient) in model.coefficients.iter().enumerate() {
         let part = if coefficient.imaginary { "imaginary part of " } else { "" };
@@ -209,10 +209,10 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
         )?;
     }
     if let Some(reason) = fitted.no_intervals() {
-        writeln!(text, "no intervals   {reason}")?;
+        writeln!(text, "no intervals       {reason}")?;
     }
     for reason in fitted.checks.no_weak() {
-        writeln!(text, "no weak form   {reason}")?;
+        writeln!(text, "no weak form       {reason}")?;
     }
     text += &sets(fitted)?;
     text += &ladder(fitted)?;
@@ -220,38 +220,38 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
     let Units { length, time, .. } = Units::of(sample);
     let velocity = fitted.noise_of_velocity(&format!("{length}/{time}^1.5"));
     let shape = fitted.noise_of_shape(&format!("{length}/{time}^0.5"));
-    writeln!(text, "noise          velocity {velocity}, shape {shape}")?;
+    writeln!(text, "noise              velocity {velocity}, shape {shape}")?;
     if noise.is_of_centre() {
         let centre = with_error(noise.centre.value, noise.centre.error);
         writeln!(
             text,
-            "centre         {centre} {length} in each coordinate, beside the errors of the contour: outlines move as a whole"
+            "centre             {centre} {length} in each coordinate, beside the errors of the contour: outlines move as a whole"
         )?;
     }
     for [x, y] in &fitted.stage {
         let [x, y] = [*x, *y].map(four_digits);
         writeln!(
             text,
-            "stage          a velocity of ({x}, {y}) {length}/{time} that does not turn with the cell is subtracted"
+            "stage              a velocity of ({x}, {y}) {length}/{time} that does not turn with the cell is subtracted"
         )?;
     }
     let (known, of) = fitted.determined();
     if known.equations.iter().any(|of| of.fixed() < of.combinations.len()) {
         for equation in &known.equations {
-            writeln!(text, "equation of z{}  {} ({of})", equation.equation + 1, equation.text)?;
+            writeln!(text, "equation of z{}      {} ({of})", equation.equation + 1, equation.text)?;
         }
     }
     for (name, placement) in ["plane of Fig. 4", "plane of Fig. 1"].into_iter().zip(&fitted.places) {
-        writeln!(text, "{name:<15}{}", place(placement))?;
+        writeln!(text, "{name:<19}{}", place(placement))?;
     }
     if let Some(prediction) = &fit.prediction {
-        writeln!(text, "simulated      {}", simulated(prediction))?;
+        writeln!(text, "simulated          {}", simulated(prediction))?;
     }
     for near in &fit.bifurcations {
-        writeln!(text, "bifurcation    {}", near.sentence())?;
+        writeln!(text, "bifurcation        {}", near.sentence())?;
     }
     for warning in fit.warnings() {
-        writeln!(text, "warning        {warning}")?;
+        writeln!(text, "warning            {warning}")?;
     }
     Ok(text)
 }
@@ -265,7 +265,11 @@ fn sets(fitted: &Fitted) -> Result<String, std::fmt::Error> {
         let not_in_all = subsets.counts().into_iter().filter(|(_, count)| *count < all);
         let words: Vec<String> = not_in_all.map(|(name, count)| format!("{name} in {count}")).collect();
         let real = if fitted.model().handed { " (with real coefficients)" } else { "" };
-        writeln!(text, "sets of terms  {all} are as good{real}; not in all of them: {}", words.join(", "))?;
+        writeln!(
+            text,
+            "sets of terms      {all} are as good{real}; not in all of them: {}",
+            words.join(", ")
+        )?;
     }
     Ok(text)
 }
@@ -275,9 +279,9 @@ fn ladder(fitted: &Fitted) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
     match &fitted.ladder {
         None => {}
-        Some(Err(why)) => writeln!(text, "ladder         not computed: {why}")?,
+        Some(Err(why)) => writeln!(text, "ladder             not computed: {why}")?,
         Some(Ok(found)) => {
-            writeln!(text, "ladder         {}", found.sentence())?;
+            writeln!(text, "ladder             {}", found.sentence())?;
             for rung in &found.rungs {
                 let gain = rung.in_words();
                 writeln!(text, "  {:<55} {:>3} coefficients  {gain}", rung.model.words(), rung.coefficients)?;
@@ -307,7 +311,7 @@ fn simulated(prediction: &Prediction) -> String {
 
 fn place(placement: &Placement) -> String {
     match placement {
-        Placement::Refused { reasons } => format!(" no place: {}", reasons.join("; ")),
+        Placement::Refused { reasons } => format!("no place: {}", reasons.join("; ")),
         Placement::Placed(found) => {
             let Place { coordinates, distance, deviation, .. } = &**found;
             let at: Vec<String> = coordinates
@@ -317,7 +321,7 @@ fn place(placement: &Placement) -> String {
                     format!("{} = {} (95 %: {})", c.name, with_error(value, error), interval(value, ends))
                 })
                 .collect();
-            format!(" {}; {distance:.3} off the slice ({deviation:.1} standard errors)", at.join(", "))
+            format!("{}; {distance:.3} off the slice ({deviation:.1} standard errors)", at.join(", "))
         }
     }
 }

@@ -104,7 +104,7 @@ impl Display for Observed<'_> {
             write!(text, "\n{}", observed(&observed_population(found), &population_numbers(found), &units)?)?;
         }
         for path in *files {
-            write!(text, "\nwritten        {}", path.display())?;
+            write!(text, "\nwritten            {}", path.display())?;
         }
         f.write_str(text.trim_end())
     }
@@ -116,9 +116,9 @@ fn sentences(
     units: &Units,
 ) -> Result<String, std::fmt::Error> {
     let name = found.motion.regime.map_or_else(|| "undecided".to_owned(), Regime::words);
-    let mut text = format!("cell {:<9} {name}\nbecause        {}\n", found.cell, found.motion.why);
+    let mut text = format!("cell {:<13} {name}\nbecause            {}\n", found.cell, found.motion.why);
     if let Some(confidence) = found.motion.confidence {
-        writeln!(text, "confidence     {:.0} % of resamples of this record", 100.0 * confidence)?;
+        writeln!(text, "confidence         {:.0} % of resamples of this record", 100.0 * confidence)?;
     }
     text += &quality(cell, found.frames)?;
     if let Some(measures) = &found.measures
@@ -126,7 +126,7 @@ fn sentences(
     {
         let [from, to] = measures.span.map(four_digits);
         let stretch = format!("{} frames, t = {from} to {to} {}", measures.frames, units.time);
-        writeln!(text, "seen           the longest stretch without gaps: {stretch}")?;
+        writeln!(text, "seen               the longest stretch without gaps: {stretch}")?;
     }
     text += &numbers(found, units)?;
     Ok(text)
@@ -150,17 +150,17 @@ fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error
             bare.push(row.quantity.symbol);
         }
         let value = answer(&row.value, &unit);
-        writeln!(text, "{:<14} {}", row.quantity.symbol, value.trim_end())?;
+        writeln!(text, "{:<18} {}", row.quantity.symbol, value.trim_end())?;
     }
     for (reason, names) in missing {
-        writeln!(text, "not given      {}: {reason}", names.join(", "))?;
+        writeln!(text, "not given          {}: {reason}", names.join(", "))?;
     }
     if !bare.is_empty() {
-        let reason = "the record is too short beside their correlation times";
-        writeln!(text, "no interval    {}: {reason}", bare.join(", "))?;
+        let reason = "fewer than 16 values, or, of the rms speed, errors of the places without an upper end";
+        writeln!(text, "no interval        {}: {reason}", bare.join(", "))?;
     }
     if let Some(remark) = found.numbers.remark(&units.length) {
-        writeln!(text, "centroid       {remark}")?;
+        writeln!(text, "centroid           {remark}")?;
     }
     Ok(text)
 }
@@ -182,7 +182,7 @@ fn answer(found: &Answer, unit: &str) -> String {
 pub(crate) fn quality(cell: Option<&CellTrack>, frames: usize) -> Result<String, std::fmt::Error> {
     let Some(cell) = cell else { return Ok(String::new()) };
     let all = cell.modes.frames.len();
-    let mut text = format!("frames         {frames} of {all} count");
+    let mut text = format!("frames             {frames} of {all} count");
     let flags: Vec<String> =
         cell.flags().into_iter().map(|(name, count)| format!("{count} {name}")).collect();
     if !flags.is_empty() {
@@ -205,7 +205,7 @@ pub(crate) fn head(sample: &Sample) -> String {
     let mut text =
         format!("{}; lengths in {}, times in {}\n", tracks.size(), tracks.length_unit, tracks.time_unit);
     for (name, words) in sample.field.in_words(&Units::of(sample)) {
-        text += &format!("{name:<15}{words}\n");
+        text += &format!("{name:<19}{words}\n");
     }
     text
 }

@@ -14,7 +14,7 @@ pub(crate) fn observed(
     numbers: &PopulationNumbers,
     units: &Units,
 ) -> std::result::Result<String, std::fmt::Error> {
-    let mut text = format!("population     {}\n", counted(population.cells, "cell"));
+    let mut text = format!("population         {}\n", counted(population.cells, "cell"));
     shares(&mut text, &population.regimes)?;
     for number in &numbers.numbers {
         let quantity = number.quantity;
@@ -31,17 +31,17 @@ pub(crate) fn fitted(
     population: &FittedPopulation,
     units: &Units,
 ) -> std::result::Result<String, std::fmt::Error> {
-    let mut text = format!("population     {}\n", counted(population.cells, "cell"));
+    let mut text = format!("population         {}\n", counted(population.cells, "cell"));
     shares(&mut text, &population.regimes)?;
     if population.fitted < 2 {
-        text += "               no means of coefficients: they need two cells of one motion whose fits with all terms \
+        text += "no means           coefficients: they need two cells of one motion whose fits with all terms \
          converged with bounded coefficients\n";
         return Ok(text);
     }
     let law = in_words(population.law.unwrap_or_default());
     writeln!(
         text,
-        "               coefficients {}, over {} ({law}):",
+        "                   coefficients {}, over {} ({law}):",
         population.of_which_fits(),
         counted(population.fitted, "cell")
     )?;
@@ -65,7 +65,7 @@ fn shares(text: &mut String, names: &[NameShare]) -> Result {
         let [value, low, high] = [share.value, share.lower, share.upper].map(|part| 100.0 * part);
         writeln!(
             text,
-            "  {name:<16} {value:>5.1} % ({low:.1} to {high:.1}), {}",
+            "  {name:<18} {value:>5.1} % ({low:.1} to {high:.1}), {}",
             counted(share.count, "cell")
         )?;
     }
@@ -81,7 +81,7 @@ fn line(text: &mut String, name: &str, over: &OverCells, unit: &str) -> Result {
     writeln!(
         text,
         "{}",
-        format!("  {name:<16} mean {mean}, median {median} {unit}").trim_end().to_owned()
+        format!("  {name:<18} mean {mean}, median {median} {unit}").trim_end().to_owned()
             + &format!(" ({})", counted(over.cells, "cell"))
     )
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// A number of the outline over time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FormNumber {
-    /// Mean over frames; its interval is that of the mean of a correlated series, where the record is long enough.
+    /// Mean over frames; its interval is that of the mean of a correlated series, from 16 frames on.
     pub mean: Measured,
     /// Standard deviation over frames, errors included; `None` with one frame.
     pub scatter: Option<f64>,
@@ -38,16 +38,17 @@ impl Forms {
             .filter(|frame| frame.is_seen())
             .filter_map(|frame| Some((frame, frame.form?)))
             .collect();
-        let number = |of: &dyn Fn(&(&FrameModes, Form)) -> f64| {
+        let number = |range: [f64; 2], of: &dyn Fn(&(&FrameModes, Form)) -> f64| {
             let values: Vec<f64> = seen.iter().map(of).collect();
-            Some(FormNumber { mean: averaged(&values)?, scatter: scatter(&values) })
+            Some(FormNumber { mean: averaged(&values, range)?, scatter: scatter(&values) })
         };
+        let (size, share) = ([0.0, f64::INFINITY], [0.0, 1.0]);
         Self {
-            area: number(&|(frame, _)| frame.area),
-            perimeter: number(&|(frame, _)| frame.perimeter),
-            aspect_ratio: number(&|(_, form)| form.aspect_ratio),
-            solidity: number(&|(_, form)| form.solidity),
-            circularity: number(&|(_, form)| form.circularity),
+            area: number(size, &|(frame, _)| frame.area),
+            perimeter: number(size, &|(frame, _)| frame.perimeter),
+            aspect_ratio: number([1.0, f64::INFINITY], &|(_, form)| form.aspect_ratio),
+            solidity: number(share, &|(_, form)| form.solidity),
+            circularity: number(share, &|(_, form)| form.circularity),
         }
     }
 }

@@ -25,7 +25,7 @@ pub use walk::{OfWalk, StatedWalk, WalkNumbers};
 pub use wobble::Wobble;
 
 use crate::{AtLag, CellTrack};
-use motiform_analysis::series_mean;
+use motiform_analysis::short_series_mean;
 use motiform_inference::{PersistentWalk, persistent_walk};
 use motiform_statistics::{Measured, four_digits};
 use places::Places;
@@ -111,12 +111,14 @@ impl Numbers {
     }
 }
 
-/// Mean of a series in time, with its interval where the series is long enough to show one ([`series_mean`]); `None` of nothing.
-fn averaged(samples: &[f64]) -> Option<Measured> {
+/// Mean of a series in time of a number between `least` and `most`, with an interval that ends there, from 16 samples on
+/// ([`short_series_mean`]); `None` of nothing.
+fn averaged(samples: &[f64], [least, most]: [f64; 2]) -> Option<Measured> {
     if samples.is_empty() {
         return None;
     }
     let value = samples.iter().sum::<f64>() / samples.len() as f64;
-    let error = series_mean(samples).ok().map(|found| found.error).filter(|error| error.is_finite());
-    Some(Measured { value, interval: error.map(|error| [value - error, value + error]) })
+    let error = short_series_mean(samples).ok().map(|found| found.error);
+    let interval = error.map(|error| [(value - error).max(least), (value + error).min(most)]);
+    Some(Measured { value, interval })
 }

@@ -11,6 +11,8 @@ use serde::Serialize;
 const PARTS: usize = 12;
 /// A step is of one sampling interval if its time differs from that by at most this part.
 const ALIKE: f64 = 0.25;
+/// A number with no bounds of its own.
+const SIGNED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 /// Longest step without a gap, in sampling intervals.
 const NO_GAP: f64 = 1.5;
 
@@ -56,7 +58,7 @@ impl Steps {
         let squares: Vec<f64> = rates.iter().map(|rate| rate * rate).collect();
         let own = |error: Bounded| {
             let inverse = sample::mean(whole().map(|pair| (pair[1].t - pair[0].t).powi(-2)))?;
-            Some(less(reaching_up(averaged(&squares)?), error, 4.0 * inverse))
+            Some(less(reaching_up(averaged(&squares, SIGNED)?), error, 4.0 * inverse))
         };
         let no_gap = |pair: &[Fix]| pair[1].t - pair[0].t <= NO_GAP * places.interval;
         let (mut way, mut time) = (0.0, 0.0);
@@ -74,30 +76,38 @@ impl Steps {
         }
         Some(Self {
             count: rates.len(),
-            speed: averaged(&rates).map(reaching_up).map(|speed| holding(speed, way / time)),
+            speed: averaged(&rates, SIGNED).map(reaching_up).map(|speed| holding(speed, way / time)),
             rms_speed: error.and_then(own),
             path,
             net,
             directionality: (path > 0.0).then(|| net / path),
-            turning_cosine: averaged(&cosines),
-            turning_rate: averaged(&turning),
+            turning_cosine: averaged(&cosines, [-1.0, 1.0]),
+            turning_rate: averaged(&turning, SIGNED),
             turning_angles: counts,
         })
     }
 }
 
 /// The mean of speeds, or of their squares, with an upper end for an error that grows with the speed, as that of a speed does: where the
-/// true mean is m (1 + r), the error of the estimate m is as much larger. The upper end is `m/(1 - r)`, r the relative error; no interval
-/// where that has no end. With the same error to both sides means of few independent samples are too low more often than they should.
+/// true mean is m (1 + r), the error of the estimate m is as much larger. The upper end is `m/(1 - r)`, r the relative error, and goes on
+/// as its tangent, `4 m r`, from r = 1/2 on; the lower one is 0 at least. With the same error to both sides means of few samples
+/// are too low more often than they should.
 fn reaching_up(mean: Measured) -> Measured {
-    let upper = |[low, high]: [f64; 2]| {
-        if high <= mean.value {
-            return Some([low, high]);
-        }
-        let left = 1.0 - (high - mean.value) / mean.value;
-        (left > 0.0).then(|| [low, mean.value / left])
+    let m = mean.value;
+    let ends = |[low, high]: [f64; 2]| {
+        let r = (high - m) / m;
+        [
+            low.max(0.0),
+            if m <= 0.0 {
+                high
+            } else if r < 0.5 {
+                m / (1.0 - r)
+            } else {
+                4.0 * m * r
+            },
+        ]
     };
-    Measured { interval: mean.interval.and_then(upper), ..mean }
+    Measured { interval: mean.interval.map(ends), ..mean }
 }
 
 /// The root of a mean square without `times` the variance of an error; no interval where that of the error has an open end.

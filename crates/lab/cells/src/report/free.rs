@@ -19,10 +19,13 @@ pub(crate) fn section(case: &Case<'_>, setting: &Setting<'_>) -> Result<Section,
     let seen = numbers.seen;
     let figures = displacement(numbers, setting)?.into_iter().collect();
     let frames = case.cell.modes.frames.len();
-    let mut about = format!(
-        "From the centroids and polygons of the {seen} of {frames} frames whose outline is seen, whatever its radius. \
-         In brackets 95 % intervals."
-    );
+    let source = match case.cell.has_no_outlines() {
+        true => format!("From the positions in {seen} of {frames} frames."),
+        false => format!(
+            "From the centroids and polygons of the {seen} of {frames} frames whose outline is seen, whatever its radius."
+        ),
+    };
+    let mut about = format!("{source} In brackets 95 % intervals, from 16 values on.");
     if numbers.pieces > 1 {
         about += &format!(
             " The record has {} pieces between which place or area step; no displacement is taken across.",
@@ -52,10 +55,21 @@ pub(crate) fn over_time(case: &Case<'_>, setting: &Setting<'_>) -> Result<Option
 }
 
 fn table(numbers: &Numbers, units: &Units) -> Table {
+    // a reason is said once
+    let mut said: Vec<(String, &str)> = Vec::new();
     let row = |row: Row| {
-        let unit = units.behind(row.quantity.dimension);
-        let words = row.reason(&unit).unwrap_or_else(|| answer(&row.value, &unit));
-        vec![Cell::text(row.quantity.symbol), Cell::text(words)]
+        let (unit, symbol) = (units.behind(row.quantity.dimension), row.quantity.symbol);
+        let words = match row.reason(&unit) {
+            None => answer(&row.value, &unit),
+            Some(reason) => match said.iter().find(|(other, _)| *other == reason) {
+                Some((_, first)) => format!("not given, as {first}"),
+                None => {
+                    said.push((reason.clone(), symbol));
+                    reason
+                }
+            },
+        };
+        vec![Cell::text(symbol), Cell::text(words)]
     };
     Table {
         caption: "Path, persistence and form.".to_owned(),

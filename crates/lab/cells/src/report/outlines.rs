@@ -91,10 +91,17 @@ fn polygons(case: &Case<'_>, drawn: Option<&Cell>, setting: &Setting<'_>) -> Res
         return Ok(None);
     }
     let strip = TrackPanels { unit: units.length.clone(), columns: STRIP, panels, ..TrackPanels::default() };
-    let words = "The outline at up to eight times, as it was read, with the path of the centroid before. There are no modes of the radius.";
+    let (title, words) = if case.cell.has_no_outlines() {
+        ("Path", "The path up to eight times, from the ring on.")
+    } else {
+        (
+            "Outlines",
+            "The outline at up to eight times, as it was read, with the path of the centroid before. There are no modes of the radius.",
+        )
+    };
     let mut figures = vec![setting.figure(strip, words)?];
     figures.extend(free::over_time(case, setting)?);
-    Ok(Some(Section { title: "Outlines".to_owned(), figures, ..Section::default() }))
+    Ok(Some(Section { title: title.to_owned(), figures, ..Section::default() }))
 }
 
 /// The outline of a frame.

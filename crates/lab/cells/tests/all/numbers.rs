@@ -217,6 +217,35 @@ fn intervals_of_speeds_hold_the_truth() {
     }
 }
 
+/// Means of records of 37 frames have intervals, which end at the bounds of their numbers; below 16 frames they have none.
+#[test]
+fn means_of_short_records_have_intervals() {
+    let (below, above) = (f64::NEG_INFINITY, f64::INFINITY);
+    let numbers: [(&str, [f64; 2]); 8] = [
+        ("speed", [0.0, above]),
+        ("turning_cosine", [-1.0, 1.0]),
+        ("turning_rate", [below, above]),
+        ("area", [0.0, above]),
+        ("perimeter", [0.0, above]),
+        ("aspect_ratio", [1.0, above]),
+        ("solidity", [0.0, 1.0]),
+        ("circularity", [0.0, 1.0]),
+    ];
+    for seed in 0..20 {
+        let [long, short] = [37, 15].map(|frames| of(tracks(vec![Walker { frames, ..WALK }.outlines(seed)])));
+        for (key, [least, most]) in numbers {
+            assert_eq!(known(&short, key).interval, None, "{key}");
+            let Measured { value, interval } = known(&long, key);
+            let [low, high] = interval.unwrap_or_else(|| panic!("{key} has no interval"));
+            assert!(
+                least <= low && low <= value && value <= high && high <= most,
+                "{key}: {low} {value} {high}"
+            );
+            assert!(high.is_finite(), "{key}");
+        }
+    }
+}
+
 /// The centroid of the area of R(theta) = R0 + 2 Re(z2 exp(2 i theta)) + 2 Re(z3 exp(3 i theta)) from its centre is
 /// int R^3 exp(i theta)/3 over the area: by quadrature the same as from the polygons.
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::statistics::Measurement;
 use motiform_statistics::{
-    Answer, Diffusion, Errors, MeanTime, Measured, Oscillation, Side, four_digits, with_interval,
+    Answer, Diffusion, Errors, MeanTime, Measured, Oscillation, Side, Walk, four_digits, with_interval,
 };
 use motiform_study::{Dimension, Shown};
 use serde_json::{Value, json};
@@ -84,32 +84,9 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
         ("", format!("not stationary: {why}{of_model}. The numbers below are those of these records"))
     };
     all.extend(found.not_stationary.iter().map(doubt));
-    all.extend([
-        (
-            "speed",
-            format!(
-                "mean {}, root mean square {}",
-                value(Dimension::SPEED, &found.mean_speed),
-                value(Dimension::SPEED, &found.rms_speed)
-            ),
-        ),
-        ("persistence", format!("time {}", answer(Dimension::TIME, &found.walk.persistence))),
-        ("", format!("speed {}", answer(Dimension::SPEED, &found.walk.speed))),
-        (
-            "",
-            format!(
-                "the displacements deviate from a persistent random walk by {:.1} % (root mean square)",
-                100.0 * found.walk.deviation
-            ),
-        ),
-        (
-            "diffusion",
-            format!(
-                "coefficient {} (persistent random walk)",
-                answer(Dimension::DIFFUSION, &found.walk.diffusion)
-            ),
-        ),
-    ]);
+    let [mean, rms] = [&found.mean_speed, &found.rms_speed].map(|speed| value(Dimension::SPEED, speed));
+    all.push(("speed", format!("mean {mean}, root mean square {rms}")));
+    all.extend(walk(&found.walk, &answer));
     all.extend(diffusion(&found.diffusion, units));
     all.extend([
         ("exponent", format!("{} at the shortest lag", answer(Dimension::NUMBER, &found.exponents[0]))),
@@ -172,11 +149,33 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
 /// Half widths of a 95 % interval that are three standard errors.
 const CHANCE: f64 = 1.5;
 
+/// The persistent random walk; a reason that several of its numbers share is said once.
+fn walk(found: &Walk, answer: &impl Fn(Dimension, &Answer) -> String) -> Vec<(&'static str, String)> {
+    let shared = |other: &Answer| other.reason().is_some() && other.reason() == found.persistence.reason();
+    let time = answer(Dimension::TIME, &found.persistence);
+    let mut all = match shared(&found.speed) {
+        true => vec![("persistence", format!("time and speed {time}"))],
+        false => vec![
+            ("persistence", format!("time {time}")),
+            ("", format!("speed {}", answer(Dimension::SPEED, &found.speed))),
+        ],
+    };
+    let deviation = 100.0 * found.deviation;
+    let words = "the displacements deviate from a persistent random walk by";
+    all.push(("", format!("{words} {deviation:.1} % (root mean square)")));
+    let diffusion = match shared(&found.diffusion) {
+        true => "unknown".to_owned(),
+        false => answer(Dimension::DIFFUSION, &found.diffusion),
+    };
+    all.push(("diffusion", format!("by the persistent random walk: {diffusion}")));
+    all
+}
+
 fn diffusion(found: &Diffusion, units: &Shown) -> Vec<(&'static str, String)> {
     let answer = |found: &Answer| answer_in(units, Dimension::DIFFUSION, found);
     let mut all = vec![
-        ("", format!("coefficient {} (velocities: Green-Kubo)", answer(&found.green_kubo))),
-        ("", format!("coefficient {} (displacements: slope)", answer(&found.displacements))),
+        ("", format!("by velocities (Green-Kubo): {}", answer(&found.green_kubo))),
+        ("", format!("by displacements (slope): {}", answer(&found.displacements))),
     ];
     all.extend(found.difference.iter().map(|difference| {
         let agree = difference.value.abs() <= CHANCE * difference.half_width();
