@@ -26,8 +26,9 @@ fn the_exponent_of_a_focus_or_of_an_attractor_is_not_that_of_a_saddle() {
 }
 
 /// Small starts follow the unstable direction of the origin into a focus; of larger ones a quarter comes to the chaos that lasts for a
-/// while. Its exponent is that of 16000 orbits by Runge and Kutta's method with a fixed step, in a program of its own: 0.7160 +- 0.0008,
-/// whether 10 or 400 units of time are left out at first, and 2 or 80 before the last change of sides; mean life 323. Spirals into the foci, which are long beside an unstable cycle, are left out.
+/// while. Its exponent is that of 16000 orbits by Runge and Kutta's method with a fixed step, in a program of its own:
+/// 0.7160 +- 0.0008, whether 10 or 400 units of time are left out at first, and 2 or 80 before the last change of sides; mean life 323.
+/// Spirals into the foci, which are long beside an unstable cycle, are left out.
 #[test]
 fn larger_starts_come_to_the_saddle() {
     let small = found(23.0, (10.0, 200.0), (24, None));
