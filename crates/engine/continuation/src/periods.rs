@@ -111,7 +111,8 @@ impl Periods {
     }
 
     /// `p = p0 + A/T^k + B/T^(k+1) + C/T^(k+2)` through the point number `last` and one well before it, with their slopes, and how far the
-    /// points between them are from it, as a part of what remains. The first term must be the largest one.
+    /// points between them are from it, as a part of what remains. The first term must be the largest one. Times are parts of the last one:
+    /// whatever the unit of time, the powers have one size.
     fn fit(&self, law: Algebraic, last: usize) -> Option<(Connection, f64)> {
         let power = law as i32;
         let (time, parameter, _) = self.points[last];
@@ -121,20 +122,23 @@ impl Periods {
         }
         let ends = [self.points[first], self.points[last]];
         let column = |power: i32| {
-            let value = |t: f64| [t.powi(-power), -f64::from(power) * t.powi(-power)]; // and t times the slope
+            let value = |t: f64| [1.0, -f64::from(power)].map(|factor| factor * (t / time).powi(-power)); // and t times the slope
             ends.map(|(t, _, _)| value(t)).concat()
         };
         let powers = [0, power, power + 1, power + 2];
         let fit = solve(&powers.map(column), &ends.map(|(t, p, q)| [p, q * t]).concat(), 1e-14)?;
-        let at = |t: f64| fit[0] + (fit[1] + (fit[2] + fit[3] / t) / t) / t.powi(power);
+        let at = |t: f64| {
+            let t = t / time;
+            fit[0] + (fit[1] + (fit[2] + fit[3] / t) / t) / t.powi(power)
+        };
         let remaining = (fit[0] - parameter).abs();
         let off = |&(t, p, _): &(f64, f64, f64)| (at(t) - p).abs() / remaining;
         let worst = self.points[first..last].iter().map(off).fold(0.0, f64::max);
-        let term = (fit[1] / time.powi(power)).abs();
+        let term = fit[1].abs();
         let leads = term > 0.7 * remaining && term < 1.3 * remaining;
         let law = match law {
-            Algebraic::Resonant => PeriodLaw::Resonant { amplitude: fit[1].abs() },
-            Algebraic::SquareRoot => PeriodLaw::SquareRoot { amplitude: fit[1].abs().sqrt() },
+            Algebraic::Resonant => PeriodLaw::Resonant { amplitude: term * time },
+            Algebraic::SquareRoot => PeriodLaw::SquareRoot { amplitude: term.sqrt() * time },
         };
         (leads && worst < 1e-3).then_some((Connection::at(fit[0], remaining, law), worst))
     }
@@ -170,4 +174,30 @@ fn exponent(points: &[(f64, f64, f64)]) -> Option<(f64, f64)> {
     let (early, late) = (slowing(first, middle), slowing(middle, last));
     let (mean, spread) = (slowing(first, last), (early - late).abs());
     (mean > 0.0 && spread < AGREE * mean).then_some((mean, spread))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+
+    /// `p = 0.4 - 0.009/T - 0.02/T^2` and `p = 0.4 - 0.009/T^2 - 0.02/T^3` up to T = 60, with T in other units.
+    #[test]
+    fn algebraic_laws_are_those_of_other_units_of_time() {
+        for (law, amplitude) in [(Algebraic::Resonant, 0.009), (Algebraic::SquareRoot, 0.009_f64.sqrt())] {
+            for unit in [1e-6, 1.0, 1e3, 1e6] {
+                let mut periods = Periods::default();
+                for time in (20..=60).map(f64::from) {
+                    let (first, second) = (0.009 / time.powi(law as i32), 0.02 / time.powi(law as i32 + 1));
+                    let slope = (f64::from(law as i32) * first + f64::from(law as i32 + 1) * second) / time;
+                    periods.push((unit * time, unit), (0.4 - first - second, slope));
+                }
+                let found = periods.algebraic(law).unwrap();
+                let of_law = super::amplitude(&found) / unit;
+                assert!((found.parameter - 0.4).abs() < 1e-12, "{unit}: {found:?}");
+                assert!((of_law / amplitude - 1.0).abs() < 1e-9, "{unit}: {found:?}");
+            }
+        }
+    }
 }

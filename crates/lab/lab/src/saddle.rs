@@ -6,6 +6,7 @@ use crate::pool::spread;
 use motiform_analysis::{
     Estimate, Lyapunov, LyapunovSettings, Stay, SurvivalStep, classify, escape_rate, lyapunov, survival,
 };
+use motiform_dynamics::digits::four_digits;
 use motiform_dynamics::distributions::student_quantile;
 use motiform_dynamics::{Model, Outcome, StopOnly, Watch};
 use motiform_study::{Error, Plan, Random, Scales};
@@ -147,7 +148,7 @@ fn summarise(runs: &[(Lyapunov, End)], settings: &LyapunovSettings, way_out: f64
     let rate = chaotic.and_then(|_| escape_rate(&stays, delay).ok()).map(|found| found.rate);
     Ok(Saddle {
         exponent: chaotic,
-        missing: missing(exponent, left, &runs.iter().map(|run| &run.0).collect::<Vec<_>>()),
+        missing: missing((exponent, left), way, &runs.iter().map(|run| &run.0).collect::<Vec<_>>()),
         rate,
         runs: runs.len(),
         escaped: count(|end| *end == End::BlewUp),
@@ -159,7 +160,7 @@ fn summarise(runs: &[(Lyapunov, End)], settings: &LyapunovSettings, way_out: f64
 }
 
 /// The reason why the exponent is that of no chaotic saddle; nothing where it is.
-fn missing(exponent: Option<Estimate>, left: bool, runs: &[&Lyapunov]) -> String {
+fn missing((exponent, left): (Option<Estimate>, bool), way: f64, runs: &[&Lyapunov]) -> String {
     let with = |found: Estimate| format!("{:.5} +- {:.1e}", found.value, found.error);
     match exponent {
         Some(found) if found.value > found.error && left => String::new(),
@@ -185,7 +186,16 @@ fn missing(exponent: Option<Estimate>, left: bool, runs: &[&Lyapunov]) -> String
                     with(found)
                 )
             });
-            format!("no chaotic saddle is seen: fewer than eight runs were chaotic after the transient{ends}")
+            let before = match way > 0.0 {
+                true => format!(
+                    " and before the last {} model time, the way into the steady motion",
+                    four_digits(way)
+                ),
+                false => String::new(),
+            };
+            format!(
+                "no chaotic saddle is seen: fewer than eight runs were chaotic after the transient{before}{ends}"
+            )
         }
     }
 }

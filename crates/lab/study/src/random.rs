@@ -2,6 +2,7 @@
 
 use crate::initial::Uniform;
 use crate::plan::check;
+use crate::scales::SMALL_BESIDE;
 use crate::{Error, Scales};
 use motiform_dynamics::Model;
 use motiform_dynamics::digits::given;
@@ -39,7 +40,7 @@ impl Random {
     /// # Errors
     /// Values that the model rejects.
     pub fn small(info: &ModelInfo, all: &[Vec<f64>]) -> Result<Self, Error> {
-        Ok(Scales::starts(info, all)?.map_or(Self::SMALL, |size| Self::Within(0.01 * size)))
+        Ok(Scales::starts(info, all, &SMALL_BESIDE)?.map_or(Self::SMALL, |size| Self::Within(0.01 * size)))
     }
 
     /// The default distribution of several starts: from a hundredth of the typical size of a model to the full size.

@@ -5,12 +5,16 @@ use crate::checks::check;
 use motiform_analysis::equilibrium::{Units, balance, largest_balance, prefix};
 use motiform_dynamics::Equivariant;
 use motiform_models::ModelInfo;
+use std::ops::RangeInclusive;
 
 /// Maximum model time of equations with rates of ordinary size: beyond it, the time has too few digits for steps of order 1.
 const LONGEST: f64 = 1e9;
 
-/// Sizes at which the terms of ordinary equations balance.
-const ORDINARY_SIZES: std::ops::RangeInclusive<f64> = 0.1..=10.0;
+/// Sizes at which terms balance and beside which 0.01 is small.
+pub(crate) const SMALL_BESIDE: RangeInclusive<f64> = 0.1..=10.0;
+
+/// Sizes at which terms balance and twice of which starts up to the size 1 reach.
+pub(crate) const REACHED_BY_ONE: RangeInclusive<f64> = 0.1..=0.5;
 
 /// The scales of equations, from the sizes at which their terms balance: powers of 1000, 1 for equations of ordinary size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,8 +53,12 @@ impl Scales {
     }
 
     /// The size of random starts of a model at all of these parameters: its own, if that is not 1, or twice the size at which terms
-    /// balance. `None` where shapes have ordinary sizes.
-    pub(crate) fn starts(info: &ModelInfo, all: &[Vec<f64>]) -> Result<Option<f64>, Error> {
+    /// balance. `None` where that is one of the `ordinary` ones.
+    pub(crate) fn starts(
+        info: &ModelInfo,
+        all: &[Vec<f64>],
+        ordinary: &RangeInclusive<f64>,
+    ) -> Result<Option<f64>, Error> {
         if info.is_built_in() {
             return Ok(None);
         }
@@ -61,7 +69,7 @@ impl Scales {
         let bodies: Vec<&dyn Equivariant> =
             bodies.iter().map(|body| body.as_ref() as &dyn Equivariant).collect();
         let size = balance(&bodies);
-        Ok((!ORDINARY_SIZES.contains(&size)).then(|| one_digit(2.0 * size)))
+        Ok((!ordinary.contains(&size)).then(|| one_digit(2.0 * size)))
     }
 
     /// The size of typical shapes of a model at these parameters: its own, if that is not 1, or that at which its terms balance.

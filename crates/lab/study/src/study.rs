@@ -6,6 +6,7 @@ pub use crate::follow_settings::FollowSettings;
 use crate::input;
 use crate::random::Random;
 pub use crate::run_settings::RunSettings;
+use crate::scales::REACHED_BY_ONE;
 use crate::scan::Axis;
 pub use crate::study_reader::schema;
 use crate::{Error, Scales, Ties, presets};
@@ -192,8 +193,8 @@ impl Study {
     }
 
     /// The distribution of so many random starts: the given one; otherwise one start is small ([`Random::SMALL`]), and several sample
-    /// basins ([`Random::basins`]). Of equations given as text in other units than 1 the size is twice that at which their terms
-    /// balance.
+    /// basins ([`Random::basins`]). Of equations given as text their size is twice that at which terms balance, where it is no ordinary
+    /// one.
     ///
     /// # Errors
     /// Values that the model rejects.
@@ -211,7 +212,7 @@ impl Study {
         }
         let (info, all) = (self.info()?, self.values_over(axes)?);
         if samples > 1 {
-            return Ok(Random::basins(Scales::starts(info, &all)?.unwrap_or(info.size)));
+            return Ok(Random::basins(Scales::starts(info, &all, &REACHED_BY_ONE)?.unwrap_or(info.size)));
         }
         Random::small(info, &all)
     }

@@ -8,6 +8,7 @@ use motiform_dynamics::{InPlane, Model, Watch};
 use motiform_lab::clock::Moment;
 use motiform_lab::live::{Record, Stretch, crossings_of_path, maxima_of_speed};
 use motiform_store::table::Table;
+use motiform_study::plan::check;
 use motiform_study::study::ReturnMapSettings;
 use motiform_study::{Error, Plan};
 use serde::{Deserialize, Serialize};
@@ -127,13 +128,14 @@ impl Task for Ahead {
 
 /// Moves a body on until there are as many returns as were asked for, or it takes too long; `None` if nobody waits any more.
 fn ahead(job: &Job, watch: &dyn Watch) -> Result<Option<ReturnsTold>, Error> {
+    check("count", f64::from(job.count), (1..=LIMITS.0).contains(&job.count), "give 1 to 2000 returns")?;
     let plan = &job.plan;
     let model = plan.body()?;
     let body = InPlane(model.as_ref());
     let kept = LIMITS.2 / (2 * job.state.len() + 8);
     let mut record = Record::new(model.as_ref(), &plan.computation, kept);
     let mut stretch = Stretch::new(plan, &body, job.t, &job.state, u64::from(job.revision))?;
-    let wanted = usize::from(job.count.min(LIMITS.0));
+    let wanted = usize::from(job.count);
     let (begun, mut samples) = (Moment::now(), FIRST);
     loop {
         let to = job.t + samples * plan.computation.dt_out;

@@ -8,6 +8,7 @@ use motiform_diagrams::{Branches, follow};
 use motiform_dynamics::Watch;
 use motiform_lab::clock::Moment;
 use motiform_study::branches::{Along, BranchSettings};
+use motiform_study::plan::check;
 use motiform_study::{BranchPlan, Error, Study};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
@@ -116,7 +117,11 @@ pub(super) fn plan(follow: &Follow, study: &Study) -> Result<BranchPlan, Error> 
     let Side { name, low, high } = follow.along.clone();
     let value = study.info()?.parameters().iter().position(|spec| spec.name == name);
     let value = value.and_then(|place| Some(*study.values().ok()?.get(place)?)).unwrap_or(low);
-    let along = Along { name, from: low.min(value), to: high.max(value) };
+    let branches = f64::from(follow.branches);
+    check("branches", branches, (1..=MOST.1).contains(&follow.branches), "give 1 to 24 branches")?;
+    // a range that does not rise is refused as it is
+    let (from, to) = if low < high { (low.min(value), high.max(value)) } else { (low, high) };
+    let along = Along { name, from, to };
     BranchPlan::new(&study, &BranchSettings { points: MOST.0, branches: 1, ..BranchSettings::over(along) })
 }
 
@@ -144,7 +149,7 @@ impl<'w> Telling<'w> {
             epoch: job.epoch,
             watch,
             tell,
-            total: usize::from(job.branches.clamp(1, MOST.1)),
+            total: usize::from(job.branches),
             count: AtomicUsize::new(1),
             told: Mutex::new(None),
             gone: AtomicBool::new(false),

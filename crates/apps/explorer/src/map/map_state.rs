@@ -7,10 +7,12 @@ use super::store::Store;
 use crate::protocol::Side;
 use motiform_lab::scan::{Axis, Row, ScanComputation};
 use motiform_models::parameters::index_of;
+use motiform_study::plan::check;
 use motiform_study::{Error, RunPlan, ScanPlan, Study};
+use std::ops::RangeInclusive;
 
-/// Maximum and minimum number of cells along an axis.
-const COUNTS: (u16, u16) = (8, 160);
+/// Numbers of cells along an axis.
+const COUNTS: RangeInclusive<u16> = 8..=160;
 
 /// No window reaches further, and no start lies further away.
 pub(crate) const FARTHEST: f64 = 1e9;
@@ -83,7 +85,8 @@ impl MapState {
     pub(super) fn turn(&mut self, job: &Job, shipped: &[&str]) -> Result<(), Error> {
         let sides: Vec<&Side> = std::iter::once(&job.window.x).chain(&job.window.y).collect();
         let ranges = sides.iter().map(|side| Range::of(&job.study, side)).collect::<Result<Vec<_>, _>>()?;
-        let count = usize::from(job.window.count.clamp(COUNTS.0, COUNTS.1));
+        let count = job.window.count;
+        check("count", f64::from(count), COUNTS.contains(&count), "give 8 to 160 cells along an axis")?;
         let plane = plane(&job.study, &sides)?;
         if self.plane.as_ref() != Some(&plane) {
             *self = Self::default();
@@ -98,7 +101,9 @@ impl MapState {
         }
         let within = self.lattices.iter().zip(sides.iter().zip(&ranges));
         let cells: Vec<Cells> = within
-            .map(|(lattice, (side, range))| lattice.cells((side.low, side.high), count, range.allowed))
+            .map(|(lattice, (side, range))| {
+                lattice.cells((side.low, side.high), usize::from(count), range.allowed)
+            })
             .collect();
         let axes = sides.iter().zip(&cells).map(|(side, cells)| axis(side, cells.values.clone())).collect();
         let plan = ScanPlan::new(&of_map(&job.study, axes)?)?;

@@ -177,11 +177,35 @@ fn what_is_no_message_is_refused_and_the_connection_stays() {
         (r#"{"do":"begin","model":"tensor","preset":null,"state":[1,2]}"#, "6"),
         (r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":1,"high":1},"y":null,"count":9}"#, "window"),
         (r#"{"do":"map","epoch":1,"x":{"name":"nothing","low":0,"high":1},"y":null,"count":9}"#, "nothing"),
+        (
+            r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":0,"high":1},"y":null,"count":7}"#,
+            "count = 7: give 8 to 160",
+        ),
+        (
+            r#"{"do":"map","epoch":1,"x":{"name":"kappa2","low":0,"high":1},"y":null,"count":161}"#,
+            "count = 161: give 8 to 160",
+        ),
+        (r#"{"do":"returns","section":"speed","count":0}"#, "count = 0: give 1 to 2000"),
+        (r#"{"do":"returns","section":"speed","count":2001}"#, "count = 2001: give 1 to 2000"),
+        (r#"{"do":"put","position":[1.001e12,0]}"#, "up to 1e12"),
+        (r#"{"do":"put","position":[0,-1.001e12]}"#, "up to 1e12"),
         (r#"{"do":"export","id":3,"what":"/etc/passwd"}"#, "no file"),
     ] {
         page.say(bad);
         let why = page.json("refused")["why"].as_str().unwrap().to_owned();
         assert!(why.contains(says), "{bad}: {why}");
+    }
+    for (range, branches, says) in [
+        ((1.6, 0.3), 8, "kappa2=1.6:0.3: the range must rise"),
+        ((0.9, 0.9), 8, "kappa2=0.9:0.9: the range must rise"),
+        ((0.3, 1.6), 0, "branches = 0: give 1 to 24"),
+        ((0.3, 1.6), 25, "branches = 25: give 1 to 24"),
+    ] {
+        let (low, high) = range;
+        let along = format!(r#"{{"name":"kappa2","low":{low},"high":{high}}}"#);
+        page.say(&format!(r#"{{"do":"follow","epoch":1,"along":{along},"branches":{branches}}}"#));
+        let why = page.json("followed")["why"].as_str().unwrap().to_owned();
+        assert!(why.contains(says), "{along} {branches}: {why}");
     }
     assert!(page.advance(1.0).t > 0.0);
 }

@@ -33,7 +33,7 @@ import { SwarmPanel } from "./swarm";
 import { toast } from "./toasts";
 import { Tour } from "./tour/tour";
 import { Undo } from "./undo";
-import { unitsOf, useUnits } from "./units";
+import { units, unitsOf, useUnits } from "./units";
 
 /** The body's colour while its motion has no name. */
 const NAMELESS = "#888888";
@@ -300,7 +300,7 @@ export class App implements Hearer {
   }
 
   named({ regime, why }: Named): void {
-    this.name(this.regimes().find((one) => one.name === regime) ?? null, typeset(why));
+    this.name(this.regimes().find((one) => one.name === regime) ?? null, typeset(why, units().time));
   }
 
   private name(regime: Regime | null, why: string): void {

@@ -127,9 +127,10 @@ export function duration(seconds: number): string {
   return `${Math.round(seconds / 60)} min`;
 }
 
-/** The server's plain sentences with the signs that people write. */
-export function typeset(text: string): string {
+/** The server's plain sentences with the signs that people write, and the unit of its times where they have one. */
+export function typeset(text: string, time: string | null = null): string {
   return text
+    .replace(/\b(period|a time of) \d+(\.\d+)?(e-?\d+)?/g, (found) => (time ? `${found} ${time}` : found))
     .replaceAll("+-", "\u00b1")
     .replace(/\blambda_(\d)/g, (_, digit: string) => `\u03bb${String.fromCharCode(0x2080 + Number(digit))}`)
     .replace(/\blambda_([+-])/g, (_, sign: string) => `\u03bb${sign === "+" ? "\u208a" : "\u208b"}`)

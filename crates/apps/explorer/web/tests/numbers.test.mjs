@@ -7,7 +7,7 @@ import { transformWithOxc } from "vite";
 
 const path = new URL("../src/numbers.ts", import.meta.url).pathname;
 const { code } = await transformWithOxc(readFileSync(path, "utf8"), path);
-const { fitting, given, inWords, pretty, scaledLabel, ticks, withError } = await import(`data:text/javascript;base64,${Buffer.from(code).toString("base64")}`);
+const { fitting, given, inWords, pretty, scaledLabel, ticks, typeset, withError } = await import(`data:text/javascript;base64,${Buffer.from(code).toString("base64")}`);
 
 test("a value has the digits of its error", () => {
   const cases = [
@@ -46,4 +46,10 @@ test("given numbers are those that were typed, names are words", () => {
   assert.equal(given(0.4982946571290721), "0.4982946571290721", "all digits of what is no round number");
   const names = ["pulsating-straight", "quasi-periodic", "quasi-periodic, clockwise", "blow-up"];
   assert.deepEqual(names.map(inWords), ["pulsating straight", "quasi-periodic", "quasi-periodic, clockwise", "blow-up"]);
+});
+
+test("a time in a sentence has its unit where there is one", () => {
+  const why = "zigzag; period 45.313103, largest multiplier -3.749e-1: stable; it stayed for a time of 2.5e3";
+  assert.equal(typeset(why), "zigzag; period 45.313103, largest multiplier \u22120.3749: stable; it stayed for a time of 2500");
+  assert.equal(typeset(why, "min"), "zigzag; period 45.313103 min, largest multiplier \u22120.3749: stable; it stayed for a time of 2500 min");
 });

@@ -79,6 +79,9 @@ fn laws(found: &Lifetimes, factor: f64) -> Vec<ExpectedLine> {
 fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo, units: &Shown) -> Vec<String> {
     let c = &plan.computation;
     let events: usize = found.values.iter().map(|at| at.life.events).sum();
+    let until =
+        [found.until().0, found.until().1].map(|time| units.words(time, LIFE.dimension, " model time"));
+    let until = if until[0] == until[1] { until[0].clone() } else { until.join(" to ") };
     vec![
         words::named_in(info, &c.parameters, (&[&found.parameter], &c.ties), units),
         format!(
@@ -87,7 +90,7 @@ fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo, units: &Shown) 
             c.samples,
             c.random.words(),
             c.seed,
-            units.words(found.until, LIFE.dimension, " model time")
+            until
         ),
         format!("Law: {}.", verdict(found, units)),
     ]

@@ -1,5 +1,6 @@
 //! Orbits followed look by look until they blow up, are captured, or time is over.
 
+use super::Looks;
 use crate::analyse::settings_of;
 use crate::captured::{LAST_LOOKS, captured, is_regular};
 use crate::pool::Jobs;
@@ -40,15 +41,21 @@ pub(super) struct Followed {
 /// Follows the orbits of a plan.
 pub(super) struct Follower<'p> {
     plan: &'p ScanPlan,
-    models: Vec<Box<dyn Model>>,
-    looks: usize,
-    look: f64,
-    /// Size of a typical state of each model.
-    sizes: Vec<f64>,
-    settings: Settings,
+    /// One for each value of the axis.
+    bodies: Vec<Followable>,
     watch: &'p dyn Watch,
     /// The kernel of all orbits, whether or not this machine has lanes: with one, the position is integrated too.
     kernel: Option<Kernel>,
+}
+
+/// A body whose orbits are followed.
+struct Followable {
+    model: Box<dyn Model>,
+    /// Size of a typical state.
+    size: f64,
+    /// The looks of an orbit, and the time of each.
+    looks: Looks,
+    settings: Settings,
 }
 
 /// An orbit on its way: looks done, and its state then.
@@ -58,31 +65,42 @@ struct Way {
     shape: Vec<f64>,
 }
 
-impl<'p> Follower<'p> {
-    pub(super) fn new(plan: &'p ScanPlan, looks: usize, watch: &'p dyn Watch) -> Result<Self, Error> {
-        let (info, c, look) = (plan.info()?, &plan.computation, plan.look_of(0)?);
-        let models: Vec<_> = (0..plan.cells()).map(|cell| plan.model_of(cell)).collect::<Result<_, _>>()?;
+impl Followable {
+    fn new(plan: &ScanPlan, cell: usize) -> Result<Self, Error> {
+        let (info, c, values) = (plan.info()?, &plan.computation, plan.parameters_of(cell)?);
+        let looks = Looks::of(plan, cell)?;
         let bounds = (c.escape_norm, c.max_steps);
-        let of = (info, &plan.parameters_of(0)?[..]);
-        let settings = settings_of(of, plan.method()?, c.control, bounds, LAST_LOOKS * look);
-        let sizes = (0..plan.cells())
-            .map(|cell| Scales::typical(info, &plan.parameters_of(cell)?))
-            .collect::<Result<_, Error>>()?;
-        let adaptive = matches!(c.control.into(), StepControl::Adaptive { .. });
-        let suited = c.stepper == "dop853" && adaptive;
-        let kernel = suited.then(|| Kernel::of_all(models.iter().map(AsRef::as_ref))).flatten();
-        Ok(Self { plan, models, looks, look, sizes, settings, watch, kernel })
+        let settings =
+            settings_of((info, &values), plan.method()?, c.control, bounds, LAST_LOOKS * looks.time);
+        Ok(Self { model: plan.model_of(cell)?, size: Scales::typical(info, &values)?, looks, settings })
+    }
+}
+
+impl<'p> Follower<'p> {
+    pub(super) fn new(plan: &'p ScanPlan, watch: &'p dyn Watch) -> Result<Self, Error> {
+        let bodies: Vec<_> =
+            (0..plan.cells()).map(|cell| Followable::new(plan, cell)).collect::<Result<_, _>>()?;
+        let c = &plan.computation;
+        let suited = c.stepper == "dop853" && matches!(c.control.into(), StepControl::Adaptive { .. });
+        let kernel = suited.then(|| Kernel::of_all(bodies.iter().map(|body| body.model.as_ref()))).flatten();
+        Ok(Self { plan, bodies, watch, kernel })
     }
 
     /// Follows the orbits that a thread takes, in lanes where there are any.
     pub(super) fn run(&self, jobs: &Jobs<'_, Followed>) {
-        let StepControl::Adaptive { rtol, atol } = self.settings.control else {
+        let kernel = self.kernel.filter(|_| has_lanes());
+        let (Some(kernel), StepControl::Adaptive { rtol, atol }) =
+            (kernel, self.plan.computation.control.into())
+        else {
             return self.one_by_one(jobs);
         };
-        let Some(kernel) = self.kernel.filter(|_| has_lanes()) else { return self.one_by_one(jobs) };
-        let times = [self.look];
-        let how = Propagation { times: &times, rtol, atol, escape_norm: self.settings.escape_norm };
-        self.in_lanes(kernel, &how, jobs);
+        let mut first = jobs.next();
+        while let Some(job) = first.filter(|_| !self.watch.stopped()) {
+            let times = [self.body(job).looks.time];
+            let how =
+                Propagation { times: &times, rtol, atol, escape_norm: self.plan.computation.escape_norm };
+            first = self.in_lanes(kernel, &how, (job, jobs));
+        }
     }
 
     pub(super) fn one_by_one(&self, jobs: &Jobs<'_, Followed>) {
@@ -96,15 +114,26 @@ impl<'p> Follower<'p> {
         });
     }
 
-    /// Each lane runs a look; what goes on enters again.
-    fn in_lanes(&self, kernel: Kernel, how: &Propagation<'_>, jobs: &Jobs<'_, Followed>) {
+    /// Each lane runs a look; what goes on enters again. Returns the next job, which has looks of another duration.
+    fn in_lanes(
+        &self,
+        kernel: Kernel,
+        how: &Propagation<'_>,
+        (first, jobs): (usize, &Jobs<'_, Followed>),
+    ) -> Option<usize> {
         let on_the_way: RefCell<BTreeMap<usize, Way>> = RefCell::new(BTreeMap::new());
         let waiting: RefCell<Vec<usize>> = RefCell::new(Vec::new());
+        let mut following = Some(first);
         let mut next = || {
-            let key = waiting.borrow_mut().pop().or_else(|| self.enter(jobs, &on_the_way))?;
+            let mut enter = || {
+                let job = following.filter(|job| [self.body(*job).looks.time] == how.times)?;
+                following = jobs.next();
+                self.enter(job, jobs, &on_the_way)
+            };
+            let key = waiting.borrow_mut().pop().or_else(&mut enter)?;
             let mut state = on_the_way.borrow().get(&key)?.shape.clone();
             state.extend([0.0, 0.0]);
-            Some(Start { key, body: self.model(key), state })
+            Some(Start { key, body: self.body(key).model.as_ref(), state })
         };
         let mut done = |key: usize, states: Option<Vec<&[f64]>>| {
             let Some(mut way) = on_the_way.borrow_mut().remove(&key) else { return };
@@ -122,11 +151,16 @@ impl<'p> Follower<'p> {
             }
         };
         propagate_bodies(kernel, how, &mut next, &mut done, self.watch);
+        following
     }
 
-    /// Takes a job of which the start is sound.
-    fn enter(&self, jobs: &Jobs<'_, Followed>, on_the_way: &RefCell<BTreeMap<usize, Way>>) -> Option<usize> {
-        let job = jobs.next()?;
+    /// Takes a job if its start is sound.
+    fn enter(
+        &self,
+        job: usize,
+        jobs: &Jobs<'_, Followed>,
+        on_the_way: &RefCell<BTreeMap<usize, Way>>,
+    ) -> Option<usize> {
         match self.start(job) {
             Ok(shape) => {
                 on_the_way.borrow_mut().insert(job, Way { looks: 0, shape });
@@ -139,36 +173,36 @@ impl<'p> Follower<'p> {
         }
     }
 
-    fn model(&self, job: usize) -> &dyn Model {
-        self.models[job / self.plan.computation.samples].as_ref()
+    fn body(&self, job: usize) -> &Followable {
+        &self.bodies[job / self.plan.computation.samples]
     }
 
     fn start(&self, job: usize) -> Result<Vec<f64>, Error> {
         let samples = self.plan.computation.samples;
-        self.plan.start(job / samples, job % samples, self.model(job))
+        self.plan.start(job / samples, job % samples, self.body(job).model.as_ref())
     }
 
     /// One look of a single orbit; `None` if it goes on, `Some(None)` if it was stopped.
     fn single(&self, job: usize, way: &mut Way) -> Result<Option<Option<Followed>>, Error> {
-        let (model, method, control) = (self.model(job), self.settings.method, self.settings.control);
+        let Followable { model, looks, settings, .. } = self.body(job);
         let dim = way.shape.len();
         let mut state = way.shape.clone();
-        let body = InPlane(model);
+        let body = InPlane(model.as_ref());
         let mut orbit = if self.kernel.is_some() {
             state.extend([0.0, 0.0]);
-            method.orbit(&body, control, 0.0, &state)?
+            settings.method.orbit(&body, settings.control, 0.0, &state)?
         } else {
-            method.shape_orbit(model, control, 0.0, &state)?
+            settings.method.shape_orbit(model.as_ref(), settings.control, 0.0, &state)?
         };
         let request = Request {
-            max_steps: self.settings.max_steps,
-            escape_norm: self.settings.escape_norm,
+            max_steps: settings.max_steps,
+            escape_norm: settings.escape_norm,
             watched: dim,
             watch: &StopOnly(self.watch),
-            ..Request::until(self.look, state.len())
+            ..Request::until(looks.time, state.len())
         };
         let outcome = drive(orbit.as_mut(), &request, &mut ())?;
-        let time = way.looks as f64 * self.look + outcome.t();
+        let time = way.looks as f64 * looks.time + outcome.t();
         match outcome {
             Outcome::Completed { .. } => self.arrived(job, way, &orbit.state()[..dim]),
             Outcome::Interrupted { .. } => Ok(Some(None)),
@@ -179,18 +213,18 @@ impl<'p> Follower<'p> {
 
     /// After a look: captured, at the end, or `None` if it goes on.
     fn arrived(&self, job: usize, way: &mut Way, shape: &[f64]) -> Result<Option<Option<Followed>>, Error> {
-        let model = self.model(job);
+        let Followable { model, size, looks, settings } = self.body(job);
         way.looks += 1;
         way.shape.copy_from_slice(shape);
-        let time = way.looks as f64 * self.look;
-        if let Some(steady) = captured(model, shape, self.sizes[job / self.plan.computation.samples]) {
+        let time = way.looks as f64 * looks.time;
+        if let Some(steady) = captured(model.as_ref(), shape, *size) {
             let end = End::Captured { rate: -steady.growth() };
-            return Ok(Some(Some(Followed { end, time: time - 0.5 * self.look }))); // at some moment of this look
+            return Ok(Some(Some(Followed { end, time: time - 0.5 * looks.time }))); // at some moment of this look
         }
-        if way.looks < self.looks {
+        if way.looks < looks.count {
             return Ok(None);
         }
-        let Some(verdict) = classify(model, shape, &self.settings, &StopOnly(self.watch))? else {
+        let Some(verdict) = classify(model.as_ref(), shape, settings, &StopOnly(self.watch))? else {
             return Ok(Some(None));
         };
         let end = if is_regular(&verdict) { End::Regular } else { End::Lasting };

@@ -16,8 +16,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
 
-/// The longest time of an orbit if the plan has no budget, in looks of the model
-/// (that of the first cell, [`ScanPlan::look_of`]).
+/// The longest time of an orbit if the plan has no budget, in looks of the model.
 const LOOKS: f64 = 100.0;
 
 /// The time between savings: a killed run loses at most this, beside the orbits under way.
@@ -28,8 +27,6 @@ const KEPT_EVERY: Duration = Duration::from_secs(5);
 pub struct Lifetimes {
     /// The parameter.
     pub parameter: String,
-    /// Longest time for which an orbit was followed (model time).
-    pub until: f64,
     /// The results for each of its values, in the order of the axis.
     pub values: Vec<LifeAt>,
     /// The law of the mean lives.
@@ -41,6 +38,8 @@ pub struct Lifetimes {
 pub struct LifeAt {
     /// Value of the parameter.
     pub value: f64,
+    /// Longest time for which an orbit was followed (model time).
+    pub until: f64,
     /// Starts.
     pub starts: usize,
     /// Those that blew up.
@@ -62,7 +61,7 @@ pub struct LifeAt {
 }
 
 /// The lifetimes of chaos along the only axis of a plan, from its random starts, each followed to `plan`'s
-/// budget (0 for 100 looks of the model), in whole looks. A life ends by a blow-up, or when the orbit has
+/// budget (0 for 100 looks of the model), in whole looks of the model at each value. A life ends by a blow-up, or when the orbit has
 /// come close to a stable steady motion; both count alike.
 ///
 /// Lives count from `delay` on, which has to cover the way onto the chaotic set. If it is not given: one look, and if
@@ -127,17 +126,27 @@ pub fn follow_lives_kept(
 ) -> Result<Lives, Error> {
     let keep = |orbits: &[Option<Followed>]| keep(&Lives::of(plan, orbits.to_vec()));
     let keeping = Keeping { every: KEPT_EVERY, keep: &keep };
-    let follower = Follower::new(plan, looks(plan)? as usize, watch)?;
+    let follower = Follower::new(plan, watch)?;
     let mut orbits = before.map_or_else(Vec::new, |lives| lives.orbits);
     orbits.resize(plan.rows(), None);
     let orbits = complete(orbits, threads, keeping, watch, |jobs| follower.run(jobs))?;
     Ok(Lives::of(plan, orbits))
 }
 
-/// The longest time of an orbit, in whole looks of the first cell ([`ScanPlan::look_of`]).
-fn looks(plan: &ScanPlan) -> Result<f64, Error> {
-    let (look, budget) = (plan.look_of(0)?, plan.computation.budget);
-    Ok((if budget > 0.0 { budget / look } else { LOOKS }).ceil())
+/// The looks of an orbit at a value of the axis, which are those of the body there ([`ScanPlan::look_of`]).
+#[derive(Clone, Copy, Debug)]
+struct Looks {
+    /// The most of them.
+    count: usize,
+    /// Model time of each.
+    time: f64,
+}
+
+impl Looks {
+    fn of(plan: &ScanPlan, cell: usize) -> Result<Self, Error> {
+        let (time, budget) = (plan.look_of(cell)?, plan.computation.budget);
+        Ok(Self { count: (if budget > 0.0 { budget / time } else { LOOKS }).ceil() as usize, time })
+    }
 }
 
 impl Lives {
@@ -175,14 +184,14 @@ impl Lives {
     /// As [`lifetimes`].
     pub fn summarised(&self, plan: &ScanPlan, delay: Option<f64>) -> Result<Lifetimes, Error> {
         let axis = check_axis(plan, delay)?;
-        let (look, looks) = (plan.look_of(0)?, looks(plan)?);
         let values: Vec<LifeAt> = axis
             .values
             .iter()
             .zip(self.orbits.chunks(plan.computation.samples))
-            .map(|(&value, all)| {
+            .enumerate()
+            .map(|(cell, (&value, all))| {
                 let all: Vec<Followed> = all.iter().flatten().copied().collect();
-                summarise(value, &all, delay, look)
+                summarise(value, &all, delay, Looks::of(plan, cell)?)
             })
             .collect::<Result<_, _>>()?;
         let count =
@@ -191,7 +200,7 @@ impl Lives {
         let sets = self.orbits.chunks(plan.computation.samples).zip(&values);
         let sets: Vec<_> = sets.map(|(all, at)| (stays(all.iter().flatten()), at.delay)).collect();
         let laws = laws.held_against(memory(&sets)?);
-        Ok(Lifetimes { parameter: axis.name.clone(), until: looks * look, values, laws })
+        Ok(Lifetimes { parameter: axis.name.clone(), values, laws })
     }
 }
 
@@ -221,15 +230,16 @@ fn check_axis(plan: &ScanPlan, delay: Option<f64>) -> Result<&motiform_study::sc
     Ok(axis)
 }
 
-fn summarise(value: f64, all: &[Followed], delay: Option<f64>, look: f64) -> Result<LifeAt, Error> {
+fn summarise(value: f64, all: &[Followed], delay: Option<f64>, looks: Looks) -> Result<LifeAt, Error> {
     let count = |is: fn(&End) -> bool| all.iter().filter(|followed| is(&followed.end)).count();
     let rate =
         |followed: &Followed| if let End::Captured { rate } = followed.end { rate } else { f64::INFINITY };
     let slowest = all.iter().map(rate).fold(f64::INFINITY, f64::min);
-    let delay = delay.unwrap_or_else(|| look.max(2.0 * way(slowest)));
+    let delay = delay.unwrap_or_else(|| looks.time.max(2.0 * way(slowest)));
     let stays = stays(all.iter());
     Ok(LifeAt {
         value,
+        until: looks.count as f64 * looks.time,
         starts: all.len(),
         blew_up: count(|end| *end == End::BlewUp),
         captured: count(|end| matches!(end, End::Captured { .. })),
@@ -249,6 +259,13 @@ fn stays<'f>(all: impl Iterator<Item = &'f Followed>) -> Vec<Stay> {
 }
 
 impl Lifetimes {
+    /// The shortest and the longest of the times for which orbits were followed: looks may differ from value to value.
+    #[must_use]
+    pub fn until(&self) -> (f64, f64) {
+        let all = self.values.iter().map(|at| at.until);
+        all.fold((f64::INFINITY, 0.0), |(least, most), until| (least.min(until), most.max(until)))
+    }
+
     /// Remarks that the numbers do not tell by themselves: one line each.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {

@@ -77,7 +77,7 @@ fn classify_in_lanes(
     let mut done = |key, found: motiform_analysis::Result<Option<Verdict>>| {
         asked.jobs.done(key, found.map_err(Error::from));
     };
-    classify_rows(kernel, settings, &mut next, &mut done, asked.population.watch);
+    classify_rows(kernel, settings, &mut next, &mut done, &StopOnly(asked.population.watch));
 }
 
 /// Exponents of many orbits.
@@ -136,7 +136,7 @@ fn exponents_in_lanes(settings: &LyapunovSettings, asked: &Asked<'_, '_, '_, Lya
         asked.jobs.done(key, found.map(lasted).map_err(Error::from));
     };
     let Population { model, watch, .. } = asked.population;
-    exponents_of_body(model.as_ref(), settings, &mut next, &mut done, *watch);
+    exponents_of_body(model.as_ref(), settings, &mut next, &mut done, &StopOnly(*watch));
 }
 
 /// Largest exponents that differ by more than this many errors do not belong to one attractor.

@@ -28,7 +28,7 @@ fn threads_change_nothing_and_orbits_blow_up() {
     let plan = plan(0.1, "0.1,0.2,0.3", 12, 1000.0);
     let one = found(&plan, 1);
     assert_eq!(one, found(&plan, 3));
-    assert_eq!((one.until, one.values.len()), (1000.0, 3));
+    assert_eq!((one.until(), one.values.len()), ((1000.0, 1000.0), 3));
     for at in &one.values {
         assert_eq!(at.blew_up + at.captured + at.lasting + at.regular + at.lost, 12, "{at:?}");
         assert_eq!((at.captured, at.delay), (0, 200.0));
@@ -76,7 +76,7 @@ fn a_stop_is_heard_and_nonsense_refused() {
     assert!(lifetimes(&start, None, 1, &()).unwrap_err().to_string().contains("a coordinate of the start"));
 }
 
-/// Lorenz's equations at r = 23 with amplitudes in units of `length` and rates in units of `rate`.
+/// Lorenz's equations at r = 23 with amplitudes in units of `length` and rates `k` in units of `rate`, along an axis.
 fn lorenz([length, rate]: [f64; 2], axis: &str, samples: usize) -> ScanPlan {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/models/lorenz.toml"))
         .unwrap();
@@ -90,9 +90,9 @@ fn lorenz([length, rate]: [f64; 2], axis: &str, samples: usize) -> ScanPlan {
             "z3 = \"k*((q*re(z2)*im(z2)-8/3*re(z3)) + i*((-im(z3))))\"",
         )
         .replace("r = 28", &format!("r = 23\nq = {:e}\nk = {rate:e}", 1.0 / length));
-    let (low, high, until) = (length, 30.0 * length, 4000.0 / rate);
+    let (low, high) = (length, 30.0 * length);
     let starts = format!(
-        "[initial]\nrandom = \"{low:e}:{high:e}\"\n[scan]\naxes = [\"r={axis}\"]\nsamples = {samples}\nbudget = {until:e}\n"
+        "[initial]\nrandom = \"{low:e}:{high:e}\"\n[scan]\naxes = [\"{axis}\"]\nsamples = {samples}\n"
     );
     ScanPlan::new(&Study::parse(&format!("{text}\n{starts}"), "text", "test").unwrap()).unwrap()
 }
@@ -102,10 +102,22 @@ fn lorenz([length, rate]: [f64; 2], axis: &str, samples: usize) -> ScanPlan {
 #[test]
 fn lives_are_those_of_other_units() {
     for units in [[1.0, 1.0], [1e-6, 1.0], [1e6, 1.0], [1.0, 1e3], [1.0, 1e-3]] {
-        let found = found(&lorenz(units, "23", 160), 2);
+        let found = found(&lorenz(units, "r=23", 160), 2);
         let life = &found.values[0].life;
         let (lower, upper) = (units[1] * life.lower, units[1] * life.upper.unwrap());
         assert!(lower < 327.0 && 327.0 < upper && upper < 4.0 * lower, "{units:?}: {found:?}");
+    }
+}
+
+/// Where rates vary along the axis, each value has looks of its own, in any order of the values.
+#[test]
+fn lives_are_those_of_other_units_along_an_axis_of_rates() {
+    for axis in ["k=1,1000", "k=1000,1"] {
+        let found = found(&lorenz([1.0; 2], axis, 160), 2);
+        for at in &found.values {
+            let (lower, upper) = (at.value * at.life.lower, at.value * at.life.upper.unwrap());
+            assert!(lower < 327.0 && 327.0 < upper && upper < 4.0 * lower, "{axis}: {found:?}");
+        }
     }
 }
 
@@ -113,7 +125,7 @@ fn lives_are_those_of_other_units() {
 /// though the places of all their ends together look uniform.
 #[test]
 fn lives_of_opposite_kinds_are_no_law() {
-    let plan = lorenz([1.0; 2], "18:23.5:6", 64);
+    let plan = lorenz([1.0; 2], "r=18:23.5:6", 64);
     let found = lifetimes(&plan, Some(20.0), 2, &()).unwrap().unwrap();
     assert!(matches!(found.laws, LifeLaws::NotExponential(_)), "{}", found.laws.words());
     // r, which is the axis, is the only parameter: no other one is 0

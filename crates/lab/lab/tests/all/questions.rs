@@ -5,8 +5,10 @@
 use motiform_dynamics::Direction;
 use motiform_dynamics::Watch;
 use motiform_lab::equilibria::equilibria;
+use motiform_lab::samples::{self, Samples};
 use motiform_lab::section::section;
-use motiform_study::{RunPlan, Study};
+use motiform_study::{Random, RunPlan, Study};
+use std::sync::Mutex;
 
 fn plan(text: &str) -> RunPlan {
     RunPlan::new(&Study::parse(text, "text", "test").unwrap()).unwrap()
@@ -71,4 +73,27 @@ impl Watch for Stopped {
 #[test]
 fn a_stop_is_heard() {
     assert_eq!(equilibria(&plan(UNCOUPLED), 10, &Stopped).unwrap(), None);
+}
+
+/// The parts that were done.
+#[derive(Default)]
+struct Parts(Mutex<Vec<f64>>);
+
+impl Watch for Parts {
+    fn progress(&self, done: f64) {
+        self.0.lock().unwrap().push(done);
+    }
+}
+
+/// Of several starts each is a part of the work: how far the orbit of one has come is none.
+#[test]
+fn the_progress_of_several_starts_only_grows() {
+    let plan = plan("preset = \"fig5b\"");
+    let samples = Samples { count: 4, random: Random::basins(1.0), given: false, threads: 1 };
+    let [motions, exponents] = [Parts::default(), Parts::default()];
+    samples::classify(&plan, samples, 1000.0, &motions).unwrap().unwrap();
+    samples::lyapunov(&plan, samples, 1, (Some(10.0), Some(100.0)), &exponents).unwrap().unwrap();
+    for Parts(parts) in [motions, exponents] {
+        assert_eq!(parts.into_inner().unwrap(), [0.25, 0.5, 0.75, 1.0]);
+    }
 }

@@ -167,11 +167,11 @@ fn a_value_that_an_axis_replaces_changes_no_plan() {
 }
 
 /// Sprott's simplest flow and Lorenz's equations, their variables in all orders, two in an amplitude: sizes of starts that differ by no
-/// more than a factor of two. The simplest flow's terms balance at about 4, so that its starts have ordinary sizes.
+/// more than a factor of two.
 #[test]
 fn the_order_of_equations_does_not_move_the_sizes_of_starts() {
     let flows =
-        [(["y", "z", "y^2-x-2.017*z"], 1.0..=1.0), (["10*(y-x)", "28*x-y-x*z", "x*y-8/3*z"], 30.0..=100.0)];
+        [(["y", "z", "y^2-x-2.017*z"], 4.0..=16.0), (["10*(y-x)", "28*x-y-x*z", "x*y-8/3*z"], 30.0..=100.0)];
     for (rates, expected) in flows {
         for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
             let place = |variable: usize| order.iter().position(|at| *at == variable).unwrap();
@@ -195,4 +195,30 @@ fn the_order_of_equations_does_not_move_the_sizes_of_starts() {
             assert!(expected.contains(&max) && min == max / 100.0, "{order:?}: {min} to {max}\n{text}");
         }
     }
+}
+
+/// A particle with friction in three wells, at 0 and at +-2: its terms balance at 1 to 4. Starts by Runge and Kutta's method come to all.
+#[test]
+fn starts_reach_the_wells_between_which_terms_balance() {
+    let rate = |[x, v]: [f64; 2]| [v, -0.3 * v - x * (x * x - 1.0) * (x * x - 4.0)];
+    let text = "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.equations]\n\
+                z1 = \"im(z1) + i*(-0.3*im(z1) - re(z1)*(re(z1)^2 - 1)*(re(z1)^2 - 4))\"\n";
+    let study = Study::parse(text, "text", "test").unwrap();
+    let random = study.starts(24).unwrap();
+    let well = |stream| {
+        let coordinates = random.coordinates(study.info().unwrap(), 2, 1, stream);
+        let mut at = [coordinates[0], coordinates[1]];
+        for _ in 0..10_000 {
+            let beside = |k: [f64; 2], h: f64| rate([at[0] + h * k[0], at[1] + h * k[1]]);
+            let first = rate(at);
+            let second = beside(first, 0.005);
+            let third = beside(second, 0.005);
+            let fourth = beside(third, 0.01);
+            let step = |i: usize| (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]) * 0.01 / 6.0;
+            at = [at[0] + step(0), at[1] + step(1)];
+        }
+        at[0].round() as i32
+    };
+    let wells: std::collections::BTreeSet<i32> = (1..=24).map(well).collect();
+    assert_eq!(wells, [-2, 0, 2].into(), "{random:?}");
 }

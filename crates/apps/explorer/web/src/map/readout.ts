@@ -6,6 +6,7 @@ import { pretty, typeset } from "../numbers";
 import type { Evidence, Parameter, Regime } from "../protocol";
 import { symbol } from "../symbols";
 import { explained } from "../terms";
+import { units } from "../units";
 
 const GAP = 1000 / 15;
 
@@ -66,7 +67,7 @@ export class Readout {
 
   answer(evidence: Evidence): void {
     if (!this.cell || evidence.cell[0] !== this.cell[0] || evidence.cell[1] !== this.cell[1]) return;
-    this.show(evidence.regime, evidence.regime === null ? evidence.why || "not computed yet" : typeset(evidence.why));
+    this.show(evidence.regime, evidence.regime === null ? evidence.why || "not computed yet" : typeset(evidence.why, units().time));
   }
 
   private show(name: string | null | undefined, why: string): void {
