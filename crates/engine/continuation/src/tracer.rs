@@ -256,8 +256,7 @@ impl<P: Problem> Tracer<P> {
         watch: &dyn Watch,
     ) -> Result<Examined<P::Local>, End> {
         let changes = |tracer: &Self, new: &Place<P::Local>, length| {
-            let step = Step { old: &tracer.place, new, before: tracer.before.as_ref(), length };
-            locate(&tracer.problem, &step, watch).map_err(|_| End::Stopped)
+            locate(&tracer.step_to(new, length, watch)).map_err(|_| End::Stopped)
         };
         let mut found = changes(self, &new, length)?;
         let mut shorter = 0.5 * length;
@@ -269,6 +268,11 @@ impl<P: Problem> Tracer<P> {
             shorter *= 0.5;
         }
         Ok((new, length, found))
+    }
+
+    fn step_to<'s>(&'s self, new: &'s Place<P::Local>, length: f64, watch: &'s dyn Watch) -> Step<'s, P> {
+        let Self { problem, place: old, before, .. } = self;
+        Step { problem, watch, old, new, before: before.as_ref(), length }
     }
 
     /// Returns `true` if the branch was at a special point before, in the same direction: it is closed. (A step may be as long as a small
@@ -300,11 +304,10 @@ impl<P: Problem> Tracer<P> {
     ) {
         let mut last = None;
         for (at, special) in found {
-            let step = Step { old: &self.place, new, before: self.before.as_ref(), length };
             let middle = last
                 .filter(|last| at.arclength - last > NEUTRAL * self.problem.accuracy())
                 .map(|last: f64| 0.5 * (last + at.arclength) - self.place.arclength)
-                .and_then(|s| between(&self.problem, &step, s, watch).ok());
+                .and_then(|s| between(&self.step_to(new, length, watch), s).ok());
             last = Some(at.arclength);
             let special = self.decided(&at, special);
             self.passed.push((at.x.clone(), at.tangent.clone(), special.name(), self.count));
