@@ -116,6 +116,20 @@ impl Progress {
         present.map_or((done, false), |stage| (stage.part(done), !stage.even))
     }
 
+    /// A watch over work in one stage, whose remaining time does not follow from its progress.
+    pub(crate) fn of_stage(name: &str, done: &'static str) -> Self {
+        let watch = Self::staged(1);
+        watch.stage(name, [0.0, 1.0], (done, false));
+        watch
+    }
+
+    /// Watches this work; the bar is removed at its end.
+    pub(crate) fn over<T>(self, work: impl FnOnce(&Self) -> T) -> T {
+        let found = work(&self);
+        self.finish();
+        found
+    }
+
     /// Removes the bar.
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();

@@ -92,12 +92,12 @@ pub(super) fn nothing(parameter: f64) -> Error {
 
 /// Follows the new branch from a point at which as many deviations grow as the special point lets expect, and up to which the parameter
 /// changes as a branch begins: otherwise there may be another special point on the way, and a nearer one is looked for.
-pub(super) fn follow<P: Problem>(
+pub(super) fn follow<'f, P: Problem>(
     mut problem: P,
     begin: &Begin<'_>,
     settings: &Settings,
-    watch: &dyn Watch,
-) -> Result<Tracer<P>> {
+    watch: &'f dyn Watch,
+) -> Result<Tracer<'f, P>> {
     let origin = begin.origin;
     let direction = scaled(begin.direction.to_vec(), &problem.weights(origin))
         .ok_or_else(|| nothing(origin.last().copied().unwrap_or(f64::NAN)))?;
@@ -140,7 +140,7 @@ pub(super) fn follow<P: Problem>(
 /// Returns `true` if nothing happens between the special point and the first point of a new branch: the parameter changes with the distance
 /// from the special point, or with its square, and as many deviations grow nearer to it.
 fn is_beginning<P: Problem>(
-    tracer: &Tracer<P>,
+    tracer: &Tracer<'_, P>,
     (origin, direction, distance): (&[f64], &[f64], f64),
     settings: &Settings,
     watch: &dyn Watch,

@@ -21,38 +21,33 @@ const UNSOLVED: f64 = 10.0;
 /// that comes near.
 pub(super) const ASTRAY: f64 = 0.1;
 
-/// The step from `old` to `new`, and the place before it.
-pub(super) struct Step<'s, L> {
-    pub(super) old: &'s Place<L>,
-    pub(super) new: &'s Place<L>,
+/// The step of a problem from `old` to `new`, and the place before it.
+pub(super) struct Step<'s, P: Problem> {
+    pub(super) problem: &'s P,
+    pub(super) watch: &'s dyn Watch,
+    pub(super) old: &'s Place<P::Local>,
+    pub(super) new: &'s Place<P::Local>,
     pub(super) before: Option<&'s Before>,
     pub(super) length: f64,
 }
 
 /// The solution at the length `s` after the beginning of a step. Where branches cross the equations are singular, and Newton's method finds
 /// nothing in a neighbourhood that round-off fills: there it is the middle of the solutions on both sides.
-pub(super) fn between<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    s: f64,
-    watch: &dyn Watch,
-) -> Result<Place<P::Local>, Failure> {
-    between_exact(problem, step, s, watch).map(|found| found.0)
+pub(super) fn between<P: Problem>(step: &Step<'_, P>, s: f64) -> Result<Place<P::Local>, Failure> {
+    between_exact(step, s).map(|found| found.0)
 }
 
 /// The same, and whether it is a solution of Newton's method, not the middle of two.
 pub(super) fn between_exact<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
+    step: &Step<'_, P>,
     s: f64,
-    watch: &dyn Watch,
 ) -> Result<(Place<P::Local>, bool), Failure> {
-    match solution(problem, step, s, watch) {
+    match solution(step, s) {
         // a step of Newton's method that nothing bounds leads where there is no flow, either
         Err(Failure::Obstructed(why)) => {
             let mut found = Err(Failure::Obstructed(why));
             for wider in WIDER {
-                found = middle(problem, step, (s, wider * APART * step.length), watch);
+                found = middle(step, (s, wider * APART * step.length));
                 if !matches!(found, Err(Failure::Obstructed(_))) {
                     break;
                 }
@@ -64,19 +59,15 @@ pub(super) fn between_exact<P: Problem>(
 }
 
 /// The middle of the solutions on both sides of `s`.
-fn middle<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    (s, apart): (f64, f64),
-    watch: &dyn Watch,
-) -> Result<Place<P::Local>, Failure> {
-    let side = |sign: f64| solution(problem, step, s + sign * apart, watch);
+fn middle<P: Problem>(step: &Step<'_, P>, (s, apart): (f64, f64)) -> Result<Place<P::Local>, Failure> {
+    let problem = step.problem;
+    let side = |sign: f64| solution(step, s + sign * apart);
     let (low, high) = (side(-1.0)?, side(1.0)?);
     let mean = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect::<Vec<f64>>();
     let broken = || Failure::Obstructed(Obstruction::Singular);
     let x = mean(&low.x, &high.x);
     let tangent = scaled(mean(&low.tangent, &high.tangent), &problem.weights(&x)).ok_or_else(broken)?;
-    let local = problem.local(&x, watch)?;
+    let local = problem.local(&x, step.watch)?;
     // over a gap between two branches it is no solution
     if norm(&problem.linear(&local).residual) > UNSOLVED * problem.accuracy().max(TIGHT) {
         return Err(broken());
@@ -87,10 +78,8 @@ fn middle<P: Problem>(
 
 /// The solution of Newton's method there.
 fn solution<P: Problem>(
-    problem: &P,
-    &Step { old, new, length, .. }: &Step<'_, P::Local>,
+    &Step { problem, watch, old, new, length, .. }: &Step<'_, P>,
     s: f64,
-    watch: &dyn Watch,
 ) -> Result<Place<P::Local>, Failure> {
     let weights = problem.weights(&old.x);
     let row = normal(&old.tangent, &weights);

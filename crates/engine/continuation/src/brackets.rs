@@ -5,7 +5,6 @@ use super::levels::{Level, unclear};
 use super::place::{Before, Place};
 use super::problem::Problem;
 use super::smooth::{Number, Smooth};
-use motiform_dynamics::Watch;
 use std::cell::RefCell;
 
 /// The function that vanishes at a special point.
@@ -61,13 +60,8 @@ pub(super) const BESIDE: f64 = 1e-3;
 /// The sign changes between special points that are known, at these lengths: as many deviations must grow before each of them as beyond the
 /// one before, and the slope must have the same sign. The slope comes first. Where a test seems to change its sign twice, solutions between
 /// decide.
-pub(super) fn brackets<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    known: &[f64],
-    watch: &dyn Watch,
-) -> Signs {
-    let beside = |s: f64| Some((s, between(problem, step, s, watch).ok()?));
+pub(super) fn brackets<P: Problem>(step: &Step<'_, P>, known: &[f64]) -> Signs {
+    let beside = |s: f64| Some((s, between(step, s).ok()?));
     let apart = BESIDE * step.length;
     let sides: Vec<_> = known.iter().map(|s| (beside(s - apart), beside(s + apart))).collect();
     let mut out = Signs::default();
@@ -81,7 +75,7 @@ pub(super) fn brackets<P: Problem>(
             && low.0 < high.0
         {
             let is_whole = known.is_empty();
-            Stretch { problem, step, low, high, is_whole, watch, seen: RefCell::default() }.add(&mut out);
+            Stretch { step, low, high, is_whole, seen: RefCell::default() }.add(&mut out);
         }
         low = sides.get(place).and_then(|(_, beyond)| beyond.as_ref().map(|(s, place)| (*s, place)));
     }
@@ -91,12 +85,10 @@ pub(super) fn brackets<P: Problem>(
 
 /// Part of a step.
 pub(super) struct Stretch<'s, P: Problem> {
-    pub(super) problem: &'s P,
-    pub(super) step: &'s Step<'s, P::Local>,
+    pub(super) step: &'s Step<'s, P>,
     pub(super) low: (f64, &'s Place<P::Local>),
     pub(super) high: (f64, &'s Place<P::Local>),
     pub(super) is_whole: bool,
-    pub(super) watch: &'s dyn Watch,
     /// Solutions between them: several functions are evaluated in the same places.
     pub(super) seen: RefCell<Vec<(f64, Option<Seen>)>>,
 }
@@ -112,7 +104,7 @@ impl<P: Problem> Stretch<'_, P> {
             self.add_class(class, out);
         }
         // where a branch turns back a level vanishes as well: where the slope is that of round-off the level tells the place
-        let level = [self.step.old, self.step.new].map(|end| is_level(self.problem, end));
+        let level = [self.step.old, self.step.new].map(|end| is_level(self.step.problem, end));
         let folds = &out.brackets[before..];
         let told = !folds.is_empty() && folds.iter().all(|found| self.is_fold(found));
         if level == [true; 2] && folds.is_empty() || level.contains(&true) && told {
@@ -151,7 +143,7 @@ impl<P: Problem> Stretch<'_, P> {
         };
         let before = out.brackets.len();
         out.brackets.extend(tests.iter().filter_map(|&test| self.bracket(test)).filter(clear));
-        let orbits = self.problem.time().is_some();
+        let orbits = self.step.problem.time().is_some();
         for smooth in Smooth::all(orbits) {
             if out.brackets.len() > before {
                 return;
@@ -163,12 +155,12 @@ impl<P: Problem> Stretch<'_, P> {
 
     /// The error of levels; the slope has none that is known.
     pub(super) fn noise(&self) -> f64 {
-        self.problem.noise(&self.low.1.levels).max(self.problem.noise(&self.high.1.levels))
+        self.step.problem.noise(&self.low.1.levels).max(self.step.problem.noise(&self.high.1.levels))
     }
 
     /// The growth below which a level may have either sign at an ordinary place.
     pub(super) fn unclear(&self) -> f64 {
-        let of = |place: &Place<P::Local>| unclear(self.problem, &place.levels);
+        let of = |place: &Place<P::Local>| unclear(self.step.problem, &place.levels);
         of(self.low.1).max(of(self.high.1))
     }
 
@@ -176,7 +168,7 @@ impl<P: Problem> Stretch<'_, P> {
     pub(super) fn seen(&self, s: f64) -> Option<Seen> {
         let known = self.seen.borrow().iter().find(|one| one.0 == s).map(|one| one.1.clone());
         known.unwrap_or_else(|| {
-            let place = between_exact(self.problem, self.step, s, self.watch).ok();
+            let place = between_exact(self.step, s).ok();
             let found = place
                 .filter(|(place, _)| !self.strays(place))
                 .map(|(place, exact)| (place.slope(), place.levels, exact));

@@ -5,10 +5,10 @@ use super::equilibria::Equilibria;
 use super::family::{Bodies, Family};
 use super::orbits::Orbits;
 use super::point::{End, Point};
-use super::problem::Failure;
+use super::problem::{Failure, Problem};
 use super::settings::Settings;
 use super::shooting::shape_after;
-use super::tracer::Tracer;
+use super::tracer::{Follow, Tracer};
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_dynamics::{Equivariant, Watch};
 
@@ -31,13 +31,7 @@ use motiform_dynamics::{Equivariant, Watch};
 /// # Ok::<(), motiform_analysis::Error>(())
 /// ```
 pub struct Branch<'f> {
-    kind: Kind<'f>,
-    watch: &'f dyn Watch,
-}
-
-enum Kind<'f> {
-    Equilibria(Box<Tracer<Equilibria<'f>>>),
-    Orbits(Box<Tracer<Orbits<'f>>>),
+    tracer: Box<dyn Follow + 'f>,
 }
 
 impl<'f> Branch<'f> {
@@ -56,11 +50,10 @@ impl<'f> Branch<'f> {
         settings.check(parameter)?;
         check_dim(family, parameter, &start.shape)?;
         let problem = Equilibria::near(Bodies::One(family), &[parameter], &start.shape, &[settings.width()])?;
-        let mut x = start.shape.clone();
-        x.extend([start.turning_rate, parameter]);
+        let x = [&start.shape[..], &[start.turning_rate, parameter]].concat();
         let tracer = Tracer::start(problem, x, settings, watch)
             .map_err(|f| refused("relative equilibrium", parameter, f))?;
-        Ok(Self { kind: Kind::Equilibria(Box::new(tracer)), watch })
+        Ok(Self::followed(tracer))
     }
 
     /// The branch of relative periodic orbits through `start`, a solution for the parameter `parameter`. The first point is the
@@ -80,24 +73,17 @@ impl<'f> Branch<'f> {
         let refused = |failure| refused("relative periodic orbit", parameter, failure);
         let (problem, x) = shoot(family, parameter, start, settings, watch).map_err(refused)?;
         let tracer = Tracer::start(problem, x, settings, watch).map_err(refused)?;
-        Ok(Self { kind: Kind::Orbits(Box::new(tracer)), watch })
+        Ok(Self::followed(tracer))
     }
 
-    pub(super) fn equilibria(tracer: Tracer<Equilibria<'f>>, watch: &'f dyn Watch) -> Self {
-        Self { kind: Kind::Equilibria(Box::new(tracer)), watch }
-    }
-
-    pub(super) fn orbits(tracer: Tracer<Orbits<'f>>, watch: &'f dyn Watch) -> Self {
-        Self { kind: Kind::Orbits(Box::new(tracer)), watch }
+    pub(super) fn followed(tracer: Tracer<'f, impl Problem + 'f>) -> Self {
+        Self { tracer: Box::new(tracer) }
     }
 
     /// Why the branch ended; `None` while it goes on.
     #[must_use]
     pub fn end(&self) -> Option<&End> {
-        match &self.kind {
-            Kind::Equilibria(tracer) => tracer.end(),
-            Kind::Orbits(tracer) => tracer.end(),
-        }
+        self.tracer.end()
     }
 }
 
@@ -105,10 +91,7 @@ impl Iterator for Branch<'_> {
     type Item = Point;
 
     fn next(&mut self) -> Option<Point> {
-        match &mut self.kind {
-            Kind::Equilibria(tracer) => tracer.next(self.watch),
-            Kind::Orbits(tracer) => tracer.next(self.watch),
-        }
+        self.tracer.next()
     }
 }
 
@@ -163,13 +146,6 @@ pub(super) fn shoot_nodes<'f>(
 ) -> (Orbits<'f>, Vec<f64>) {
     let shapes: Vec<&[f64]> = nodes.iter().map(Vec::as_slice).collect();
     let classes = Classes::of(body, &shapes);
-    let along = (orbit.time, orbit.mirrored);
-    let problem = Orbits::through(bodies, (body, classes), (&shapes, along), (parameters, widths), settings);
-    let mut x = nodes.concat();
-    x.push(orbit.time);
-    if problem.turns {
-        x.push(orbit.angle);
-    }
-    x.extend_from_slice(parameters);
-    (problem, x)
+    let along = (orbit.time, orbit.angle, orbit.mirrored);
+    Orbits::near(bodies, (body, classes), (nodes, along), (parameters, widths), settings)
 }

@@ -9,7 +9,6 @@ use super::place::Place;
 use super::problem::Problem;
 use super::special::Special;
 use super::tracer::TOLERANCE;
-use motiform_dynamics::Watch;
 
 /// Returns `true` if the equations leave two directions to first order.
 pub(super) fn crosses<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
@@ -45,15 +44,10 @@ const SUSPECT: f64 = 0.05;
 /// Returns `true` if the place where a branch turns back may be beside a crossing. Solutions are exact to about the tolerance of the
 /// equations, but next to a crossing, at a distance s, the slope is known up to the tolerance divided by s: the place where it vanishes is
 /// off by the root of the tolerance.
-pub(super) fn nearly_crosses<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    at: &Place<P::Local>,
-    test: Test,
-) -> bool {
+pub(super) fn nearly_crosses<P: Problem>(step: &Step<'_, P>, at: &Place<P::Local>, test: Test) -> bool {
     let nearly = |(second, next): (f64, f64)| second < SUSPECT * next;
-    let may_cross = || test == Test::Slope || kind(problem, step, at, test) == Special::BranchPoint;
-    !crosses(problem, at) && second(problem, at).is_some_and(nearly) && may_cross()
+    let may_cross = || test == Test::Slope || kind(step, at, test) == Special::BranchPoint;
+    !crosses(step.problem, at) && second(step.problem, at).is_some_and(nearly) && may_cross()
 }
 
 /// If a test changes by at most this many of its errors between its zero and a crossing nearby, it vanishes because of the crossing. The
@@ -66,16 +60,15 @@ const BEYOND: f64 = 1.0;
 /// The crossing near a place: there the second part of the equations vanishes, in proportion to the distance on both sides, and exactly so.
 /// (The crossing may lie beyond the distances that are looked at: where a pitchfork is of high order the slope vanishes over a range.)
 pub(super) fn at_crossing<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
+    step: &Step<'_, P>,
     (near, test): (&Place<P::Local>, Test),
-    watch: &dyn Watch,
 ) -> Option<Place<P::Local>> {
+    let problem = step.problem;
     let start = near.arclength - step.old.arclength;
     let mut s = start;
     for part in [1e-2, 1e-3, 1e-5] {
         let (from, to) = (s - part * step.length, s + part * step.length);
-        let size = |s: f64| second(problem, &between(problem, step, s, watch).ok()?).map(|pair| pair.0);
+        let size = |s: f64| second(problem, &between(step, s).ok()?).map(|pair| pair.0);
         let (a, middle, b) = (size(from)?, size(s)?, size(to)?);
         let mean = |b: f64| 0.5 * (a + b).abs();
         let beyond = (middle - mean(b)).abs() < (middle - mean(-b)).abs();
@@ -87,9 +80,8 @@ pub(super) fn at_crossing<P: Problem>(
     }
     // farther away the test vanishes by itself
     let change = || {
-        let value = |side: f64| {
-            Some(value(step, &between(problem, step, start + side * BESIDE * step.length, watch).ok()?, test))
-        };
+        let value =
+            |side: f64| Some(value(step, &between(step, start + side * BESIDE * step.length).ok()?, test));
         Some((value(1.0)? - value(-1.0)?).abs() / (2.0 * BESIDE * step.length) * (s - start).abs())
     };
     let width = problem.weights(&near.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
@@ -98,27 +90,22 @@ pub(super) fn at_crossing<P: Problem>(
         Test::Level(..) => problem.noise(&near.levels),
     };
     let explained = change()? <= NOISE * error;
-    between(problem, step, s, watch).ok().filter(|at| explained && crosses(problem, at))
+    between(step, s).ok().filter(|at| explained && crosses(problem, at))
 }
 
 /// Gives a point where branches cross the tangent of this one, which the equations there do not tell from that of the other: the mean of
 /// those at both ends of the step, or, where the branch turns back, of those on both sides.
-pub(super) fn keep_course<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    (test, at): (Test, &mut Place<P::Local>),
-    watch: &dyn Watch,
-) {
+pub(super) fn keep_course<P: Problem>(step: &Step<'_, P>, (test, at): (Test, &mut Place<P::Local>)) {
     let s = at.arclength - step.old.arclength;
     let mean = |a: &[f64], b: &[f64], part: f64| a.iter().zip(b).map(|(a, b)| a + part * (b - a)).collect();
     let mean = if test == Test::Slope {
-        let side = |side: f64| between(problem, step, s + side * BESIDE * step.length, watch);
+        let side = |side: f64| between(step, s + side * BESIDE * step.length);
         let (Ok(low), Ok(high)) = (side(-1.0), side(1.0)) else { return };
         mean(&low.tangent, &high.tangent, 0.5)
     } else {
         mean(&step.old.tangent, &step.new.tangent, s / step.length)
     };
-    if let Some(tangent) = scaled(mean, &problem.weights(&at.x)) {
+    if let Some(tangent) = scaled(mean, &step.problem.weights(&at.x)) {
         at.tangent = tangent;
     }
 }
@@ -128,22 +115,18 @@ const MOVED: f64 = 0.1;
 
 /// The place where branches cross, solved for; `None` where that fails. (For orbits the second derivatives would cost more than they
 /// bring.)
-pub(super) fn solved<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    at: &Place<P::Local>,
-    watch: &dyn Watch,
-) -> Option<Place<P::Local>> {
+pub(super) fn solved<P: Problem>(step: &Step<'_, P>, at: &Place<P::Local>) -> Option<Place<P::Local>> {
+    let problem = step.problem;
     if problem.time().is_some() || !problem.family().is_empty() {
         return None;
     }
     let weights = problem.weights(&at.x);
-    let x = branch_point(problem, &at.x, watch)?;
+    let x = branch_point(problem, &at.x, step.watch)?;
     let between = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<f64>>();
     let (moved, chord) = (between(&x, &at.x), between(&step.new.x, &step.old.x));
     let part = product(&weights, &chord, &moved) / product(&weights, &chord, &chord);
     let arclength = at.arclength + part * step.length;
-    let local = problem.local(&x, watch).ok()?;
+    let local = problem.local(&x, step.watch).ok()?;
     let levels = problem.levels(&x, &local)?;
     let inside = (step.old.arclength..=step.new.arclength).contains(&arclength);
     let near = product(&weights, &moved, &moved).sqrt() < MOVED * step.length;

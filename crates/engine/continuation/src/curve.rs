@@ -6,7 +6,6 @@ use super::degenerate::Degenerate;
 use super::equilibria::Equilibria;
 use super::family::{Bodies, Family2};
 use super::hopf::first_lyapunov;
-use super::orbits::Orbits;
 use super::point::{End, Motion, Point};
 use super::problem::{Failure, Problem};
 use super::settings::Settings;
@@ -55,16 +54,10 @@ pub struct CurvePoint {
 ///
 /// # Checked by  tests/all/curves.rs: the lines of the reduced model, normal forms, points of the full model
 pub struct Curve<'f> {
-    kind: Kind<'f>,
-    watch: &'f dyn Watch,
+    tracer: Box<dyn Follow + 'f>,
     queue: VecDeque<CurvePoint>,
     end: Option<End>,
     count: usize,
-}
-
-enum Kind<'f> {
-    Equilibria(Box<CurveTracer<Equilibria<'f>>>),
-    Orbits(Box<CurveTracer<Orbits<'f>>>),
 }
 
 impl<'f> Curve<'f> {
@@ -99,13 +92,13 @@ impl<'f> Curve<'f> {
             }
             Some(special) => special,
         };
-        let kind = Kind::start(family, (&point.motion, special), parameters, (settings, range), watch);
-        let kind = kind.map_err(|failure| match failure {
+        let tracer = start(family, (&point.motion, special), parameters, (settings, range), watch);
+        let tracer = tracer.map_err(|failure| match failure {
             Failure::Stopped => refused("stopped from outside".to_owned()),
             Failure::Obstructed(why) => refused(why.to_string()),
         })?;
-        let mut curve = Self { kind, watch, queue: VecDeque::new(), end: None, count: 0 };
-        let first = curve.kind.here();
+        let mut curve = Self { tracer, queue: VecDeque::new(), end: None, count: 0 };
+        let first = curve.tracer.here();
         curve.queue.push_back(first);
         Ok(curve)
     }
@@ -119,10 +112,7 @@ impl<'f> Curve<'f> {
     /// The kinds of points of codimension two that are looked for: those that do not come were not found.
     #[must_use]
     pub fn sought(&self) -> Vec<Degenerate> {
-        match &self.kind {
-            Kind::Equilibria(tracer) => Degenerate::sought(tracer.special, false),
-            Kind::Orbits(tracer) => Degenerate::sought(tracer.special, true),
-        }
+        self.tracer.sought()
     }
 }
 
@@ -137,100 +127,89 @@ impl Iterator for Curve<'_> {
         if self.end.is_some() {
             return None;
         }
-        if self.count >= self.kind.settings().most_points {
+        if self.count >= self.tracer.settings().most_points {
             self.end = Some(End::PointLimit);
             return None;
         }
-        if self.kind.is_spent() {
+        if self.tracer.is_spent() {
             self.end = Some(End::Spent);
             return None;
         }
-        self.end = self.kind.advance(&mut self.queue, self.watch);
+        self.end = self.tracer.advance(&mut self.queue);
         self.next()
     }
 }
 
-impl<'f> Kind<'f> {
-    fn start(
-        family: &'f dyn Family2,
-        (motion, special): (&Motion, Special),
-        parameters: [f64; 2],
-        (settings, range): (&Settings, (f64, f64)),
-        watch: &dyn Watch,
-    ) -> std::result::Result<Self, Failure> {
-        let (bodies, ranges) = (Bodies::Two(family), [settings.range, range]);
-        let widths = ranges.map(|(low, high)| high - low);
-        match motion {
-            Motion::Equilibrium(start) => {
-                let problem = Equilibria::near(bodies, &parameters, &start.shape, &widths)?;
-                let mut x = start.shape.clone();
-                x.push(start.turning_rate);
-                x.extend(parameters);
-                CurveTracer::start(problem, x, (special, false), (settings, ranges), watch)
-                    .map(|tracer| Self::Equilibria(Box::new(tracer)))
-            }
-            Motion::Orbit { orbit, nodes } => {
-                let body = family.at(parameters)?;
-                let (problem, x) =
-                    shoot_nodes(bodies, body.as_ref(), (orbit, nodes), (&parameters, &widths), settings);
-                CurveTracer::start(problem, x, (special, true), (settings, ranges), watch)
-                    .map(|tracer| Self::Orbits(Box::new(tracer)))
-            }
+fn start<'f>(
+    family: &'f dyn Family2,
+    (motion, special): (&Motion, Special),
+    parameters: [f64; 2],
+    (settings, range): (&Settings, (f64, f64)),
+    watch: &'f dyn Watch,
+) -> std::result::Result<Box<dyn Follow + 'f>, Failure> {
+    let (bodies, ranges) = (Bodies::Two(family), [settings.range, range]);
+    let widths = ranges.map(|(low, high)| high - low);
+    Ok(match motion {
+        Motion::Equilibrium(start) => {
+            let problem = Equilibria::near(bodies, &parameters, &start.shape, &widths)?;
+            let x = [&start.shape[..], &[start.turning_rate], &parameters].concat();
+            Box::new(CurveTracer::start(problem, x, special, (settings, ranges), watch)?)
         }
-    }
+        Motion::Orbit { orbit, nodes } => {
+            let body = family.at(parameters)?;
+            let (problem, x) =
+                shoot_nodes(bodies, body.as_ref(), (orbit, nodes), (&parameters, &widths), settings);
+            Box::new(CurveTracer::start(problem, x, special, (settings, ranges), watch)?)
+        }
+    })
+}
 
+/// A curve being followed, whatever its motions are.
+trait Follow {
+    fn settings(&self) -> &Settings;
+    fn is_spent(&self) -> bool;
+    fn sought(&self) -> Vec<Degenerate>;
+    fn here(&self) -> CurvePoint;
+    /// The points of one step.
+    fn advance(&mut self, queue: &mut VecDeque<CurvePoint>) -> Option<End>;
+}
+
+impl<P: Problem> Follow for CurveTracer<'_, P> {
     fn settings(&self) -> &Settings {
-        match self {
-            Self::Equilibria(tracer) => &tracer.settings,
-            Self::Orbits(tracer) => &tracer.settings,
-        }
+        &self.settings
     }
 
     fn is_spent(&self) -> bool {
-        match self {
-            Self::Equilibria(tracer) => tracer.problem.is_spent(),
-            Self::Orbits(tracer) => tracer.problem.is_spent(),
-        }
+        self.problem.is_spent()
+    }
+
+    fn sought(&self) -> Vec<Degenerate> {
+        Degenerate::sought(self.special, self.problem.time().is_some())
     }
 
     fn here(&self) -> CurvePoint {
-        match self {
-            Self::Equilibria(tracer) => point(tracer, &tracer.spot, None),
-            Self::Orbits(tracer) => point(tracer, &tracer.spot, None),
-        }
+        point(self, &self.spot, None)
     }
 
-    fn advance(&mut self, queue: &mut VecDeque<CurvePoint>, watch: &dyn Watch) -> Option<End> {
-        match self {
-            Self::Equilibria(tracer) => advance(tracer, queue, watch),
-            Self::Orbits(tracer) => advance(tracer, queue, watch),
+    fn advance(&mut self, queue: &mut VecDeque<CurvePoint>) -> Option<End> {
+        let stretch = match self.step() {
+            Ok(stretch) => stretch,
+            Err(end) => return Some(end),
+        };
+        for event in &stretch.degenerate {
+            let mut found = point(self, event.spot.as_ref().unwrap_or(&self.spot), Some(event.kind));
+            found.parameters = event.at.unwrap_or(found.parameters);
+            queue.push_back(found);
         }
+        if !matches!(stretch.end, Some(End::Degenerate { .. })) {
+            queue.push_back(point(self, &self.spot, None));
+        }
+        stretch.end
     }
-}
-
-/// The points of one step.
-fn advance<P: Problem>(
-    tracer: &mut CurveTracer<P>,
-    queue: &mut VecDeque<CurvePoint>,
-    watch: &dyn Watch,
-) -> Option<End> {
-    let stretch = match tracer.advance(watch) {
-        Ok(stretch) => stretch,
-        Err(end) => return Some(end),
-    };
-    for event in &stretch.degenerate {
-        let mut found = point(tracer, event.spot.as_ref().unwrap_or(&tracer.spot), Some(event.kind));
-        found.parameters = event.at.unwrap_or(found.parameters);
-        queue.push_back(found);
-    }
-    if !matches!(stretch.end, Some(End::Degenerate { .. })) {
-        queue.push_back(point(tracer, &tracer.spot, None));
-    }
-    stretch.end
 }
 
 fn point<P: Problem>(
-    tracer: &CurveTracer<P>,
+    tracer: &CurveTracer<'_, P>,
     spot: &Spot<P::Local>,
     degenerate: Option<Degenerate>,
 ) -> CurvePoint {

@@ -7,7 +7,6 @@ use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
 use super::special::Special;
 use super::steps::{SHORTER, STRAIGHT, next_step};
-use motiform_dynamics::Watch;
 
 /// A point is one of the curve only where its critical multiplier is as close to where it belongs: what the condition leaves at
 /// ordinary points is below 1e-6.
@@ -36,12 +35,12 @@ pub(super) struct Event<L> {
     pub(super) ends: bool,
 }
 
-impl<P: Problem> CurveTracer<P> {
+impl<P: Problem> CurveTracer<'_, P> {
     /// The next special point and the length of the step to it.
-    fn reach(&mut self, watch: &dyn Watch) -> Result<(Spot<P::Local>, f64), End> {
+    fn reach(&mut self) -> Result<(Spot<P::Local>, f64), End> {
         loop {
             let length = self.step;
-            let why = match self.at(length, watch) {
+            let why = match self.at(length) {
                 Ok((Spot { reading, .. }, _)) if reading.off > RESOLVED => {
                     if length <= SHORT {
                         return Err(End::Lost { off: reading.off });
@@ -69,24 +68,24 @@ impl<P: Problem> CurveTracer<P> {
     }
 
     /// One step; the present place is the new one afterwards.
-    pub(super) fn advance(&mut self, watch: &dyn Watch) -> Result<Stretch<P::Local>, End> {
-        if watch.stopped() {
+    pub(super) fn step(&mut self) -> Result<Stretch<P::Local>, End> {
+        if self.watch.stopped() {
             return Err(End::Stopped);
         }
-        self.refine(watch);
-        let (mut new, mut length) = self.reach(watch)?;
+        self.refine();
+        let (mut new, mut length) = self.reach()?;
         let mut end = None;
-        if let Some((nearer, s)) = self.edge(&new, length, watch)? {
+        if let Some((nearer, s)) = self.edge(&new, length)? {
             (new, length, end) = (nearer, s, Some(End::RangeLeft));
         }
         self.check(&new)?;
-        let mut degenerate = self.degenerate(&new, length, watch)?;
+        let mut degenerate = self.degenerate(&new, length)?;
         if let Some((kind, at)) = self.shrinks(&new) {
             // beyond it the curve goes on with the same orbits, half a period later: the parameters turn back there
             degenerate.retain(|event| event.kind != Degenerate::Cusp);
             degenerate.push(Event { s: length, spot: None, kind, at: Some(at), ends: true });
         }
-        if let Some(symmetric) = self.symmetric(&new, length, watch)? {
+        if let Some(symmetric) = self.symmetric(&new, length)? {
             degenerate.retain(|event| !symmetric.explains(event, length));
             degenerate.push(symmetric);
             degenerate.sort_by(|a, b| a.s.total_cmp(&b.s));
@@ -113,10 +112,10 @@ impl<P: Problem> CurveTracer<P> {
     }
 
     /// More unknowns, where an orbit needs them and a frame is found for them.
-    fn refine(&mut self, watch: &dyn Watch) {
-        let Some(x) = self.problem.refine(&self.spot.x, &self.spot.local, watch) else { return };
+    fn refine(&mut self) {
+        let Some(x) = self.problem.refine(&self.spot.x, &self.spot.local, self.watch) else { return };
         let coarse = std::mem::replace(&mut self.spot.x, x);
-        let Ok(mut spot) = self.framed(watch) else {
+        let Ok(mut spot) = self.framed() else {
             self.spot.x = coarse;
             return self.problem.coarsen();
         };
@@ -129,12 +128,7 @@ impl<P: Problem> CurveTracer<P> {
     }
 
     /// Where the curve leaves the box before `new`.
-    fn edge(
-        &self,
-        new: &Spot<P::Local>,
-        length: f64,
-        watch: &dyn Watch,
-    ) -> Result<Option<At<P::Local>>, End> {
+    fn edge(&self, new: &Spot<P::Local>, length: f64) -> Result<Option<At<P::Local>>, End> {
         let mut nearest: Option<At<P::Local>> = None;
         for (i, (low, high)) in self.ranges.into_iter().enumerate() {
             let value = nearest.as_ref().map_or(new, |found| &found.0).parameters()[i];
@@ -149,7 +143,7 @@ impl<P: Problem> CurveTracer<P> {
             let reach = nearest.as_ref().map_or(length, |found| found.1);
             let off = |spot: &Spot<P::Local>| spot.parameters()[i] - edge;
             let ends = ((0.0, start), (reach, value - edge));
-            nearest = Some(self.zero(ends, &off, watch).map_err(|failure| match failure {
+            nearest = Some(self.zero(ends, &off).map_err(|failure| match failure {
                 Failure::Stopped => End::Stopped,
                 Failure::Obstructed(why) => End::StepUnderflow { step: self.step, why },
             })?);
@@ -158,12 +152,7 @@ impl<P: Problem> CurveTracer<P> {
     }
 
     /// The points of codimension two on the way to `new`, in their order.
-    fn degenerate(
-        &self,
-        new: &Spot<P::Local>,
-        length: f64,
-        watch: &dyn Watch,
-    ) -> Result<Vec<Event<P::Local>>, End> {
+    fn degenerate(&self, new: &Spot<P::Local>, length: f64) -> Result<Vec<Event<P::Local>>, End> {
         let mut out = Vec::new();
         for (sign, kind) in Sign::all(&self.critical, self.special == Special::Fold) {
             let value = |spot: &Spot<P::Local>| sign.value(&self.critical, &self.seen(spot));
@@ -178,7 +167,7 @@ impl<P: Problem> CurveTracer<P> {
             let holds = |spot: &Spot<P::Local>| {
                 sign.holds(&self.seen(spot), [&self.seen(&self.spot), &self.seen(new)])
             };
-            match self.zero(((0.0, low), (length, high)), &value, watch) {
+            match self.zero(((0.0, low), (length, high)), &value) {
                 Ok((spot, _)) if !holds(&spot) => {}
                 Ok((spot, s)) if value(&spot).abs() < 1e-3 * low.abs().max(high.abs()) => {
                     out.push(Event { s, spot: Some(spot), kind, at: None, ends: sign.ends(&self.critical) });
@@ -214,12 +203,11 @@ impl<P: Problem> CurveTracer<P> {
         &self,
         (mut low, mut high): ((f64, f64), (f64, f64)),
         value: &dyn Fn(&Spot<P::Local>) -> f64,
-        watch: &dyn Watch,
     ) -> Result<(Spot<P::Local>, f64), Failure> {
         let (length, mut kept, mut last) = (high.0 - low.0, None, f64::INFINITY);
         for _ in 0..60 {
             let s = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-            let spot = self.at(s, watch)?.0;
+            let spot = self.at(s)?.0;
             let here = value(&spot);
             if here == 0.0 || (s - last).abs() <= 1e-9 * length {
                 return Ok((spot, s));

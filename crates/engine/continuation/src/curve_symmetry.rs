@@ -7,7 +7,6 @@ use super::curve_tracer::{CurveTracer, Spot, last_two};
 use super::degenerate::Degenerate;
 use super::point::End;
 use super::problem::{Failure, Problem};
-use motiform_dynamics::Watch;
 
 /// Steps in which such a place is closed in on, and the part of a step to which it is.
 const TRIES: usize = 60;
@@ -27,7 +26,7 @@ impl<L> Event<L> {
     }
 }
 
-impl<P: Problem> CurveTracer<P> {
+impl<P: Problem> CurveTracer<'_, P> {
     /// The place before `new` at which the motion gains a symmetry: a part of its shape (the unknowns that rotations mix) changes its sign
     /// there.
     ///
@@ -36,7 +35,6 @@ impl<P: Problem> CurveTracer<P> {
         &self,
         new: &Spot<P::Local>,
         length: f64,
-        watch: &dyn Watch,
     ) -> Result<Option<Event<P::Local>>, End> {
         for mode in self.problem.modes(&self.spot.local) {
             let part = |x: &[f64]| -> f64 {
@@ -46,9 +44,9 @@ impl<P: Problem> CurveTracer<P> {
             if part(&new.x) >= 0.0 {
                 continue;
             }
-            let [low, high] = self.closed_in(&part, (length, new.x.clone()), watch)?;
+            let [low, high] = self.closed_in(&part, (length, new.x.clone()))?;
             let middle: Vec<f64> = low.1.iter().zip(&high.1).map(|(a, b)| 0.5 * (a + b)).collect();
-            let gained = self.problem.local(&middle, watch);
+            let gained = self.problem.local(&middle, self.watch);
             if gained.is_ok_and(|local| self.problem.gains(&middle, &local, GAINED).is_some()) {
                 let [a, b] = [&self.spot, new].map(|spot| last_two(&spot.frame.along));
                 // beyond it the curve consists of images of what it was; frequencies that vanish there are rounding beyond
@@ -66,19 +64,14 @@ impl<P: Problem> CurveTracer<P> {
     }
 
     /// The last solutions before and after the place at which `part` changes its sign, as near to it as solutions are found.
-    fn closed_in(
-        &self,
-        part: &dyn Fn(&[f64]) -> f64,
-        mut high: At,
-        watch: &dyn Watch,
-    ) -> Result<[At; 2], End> {
+    fn closed_in(&self, part: &dyn Fn(&[f64]) -> f64, mut high: At) -> Result<[At; 2], End> {
         let (mut low, length) = ((0.0, self.spot.x.clone()), high.0);
         for _ in 0..TRIES {
             if high.0 - low.0 < CLOSE * length {
                 break;
             }
             let s = 0.5 * (low.0 + high.0);
-            match self.at(s, watch) {
+            match self.at(s) {
                 Ok((spot, _)) if part(&spot.x) > 0.0 => low = (s, spot.x),
                 Ok((spot, _)) => high = (s, spot.x),
                 Err(Failure::Stopped) => return Err(End::Stopped),

@@ -63,7 +63,8 @@ struct Probe<L> {
 }
 
 /// A curve being followed.
-pub(super) struct CurveTracer<P: Problem> {
+pub(super) struct CurveTracer<'f, P: Problem> {
+    pub(super) watch: &'f dyn Watch,
     pub(super) problem: P,
     pub(super) settings: Settings,
     /// Ranges of the parameters.
@@ -78,26 +79,27 @@ pub(super) struct CurveTracer<P: Problem> {
     pub(super) sizes: Vec<(f64, [f64; 2])>,
 }
 
-impl<P: Problem> CurveTracer<P> {
+impl<'f, P: Problem> CurveTracer<'f, P> {
     /// From a special point at `x`.
     pub(super) fn start(
         problem: P,
         x: Vec<f64>,
-        (special, orbits): (Special, bool),
+        special: Special,
         (settings, ranges): (&Settings, [(f64, f64); 2]),
-        watch: &dyn Watch,
+        watch: &'f dyn Watch,
     ) -> Result<Self, Failure> {
         let local = problem.local(&x, watch)?;
         let levels = problem.levels(&x, &local).ok_or_else(singular)?;
-        let (critical, reading) =
-            Critical::of(special, &levels, (orbits, problem.rate())).ok_or_else(singular)?;
+        let (critical, reading) = Critical::of(special, &levels, (problem.time().is_some(), problem.rate()))
+            .ok_or_else(singular)?;
         let frame = Frame::any(problem.linear(&local), &problem.weights(&x)).ok_or_else(singular)?;
         let step = settings.first_step.abs().min(settings.largest_step);
         let spot = Spot { x, local, levels, reading, frame, steep: 1.0, arclength: 0.0 };
         let settings = *settings;
         let (before, sizes) = (None, Vec::new());
-        let mut tracer = Self { problem, settings, ranges, critical, special, spot, before, step, sizes };
-        tracer.spot = tracer.polished(watch)?;
+        let mut tracer =
+            Self { problem, watch, settings, ranges, critical, special, spot, before, step, sizes };
+        tracer.spot = tracer.polished()?;
         let [p, q] = last_two(&tracer.spot.frame.along);
         let side = if q.abs() > 1e-6 * p.abs() { q } else { p };
         if side * settings.first_step < 0.0 {
@@ -107,9 +109,9 @@ impl<P: Problem> CurveTracer<P> {
     }
 
     /// The special point at the present place, which must be close to one.
-    fn polished(&self, watch: &dyn Watch) -> Result<Spot<P::Local>, Failure> {
-        let Spot { x, frame, steep, .. } = self.framed(watch)?;
-        let (Probe { x: found, local, levels, reading }, steep, _) = self.solve(&x, &frame, steep, watch)?;
+    fn polished(&self) -> Result<Spot<P::Local>, Failure> {
+        let Spot { x, frame, steep, .. } = self.framed()?;
+        let (Probe { x: found, local, levels, reading }, steep, _) = self.solve(&x, &frame, steep)?;
         let weights = self.problem.weights(&x);
         let moved: Vec<f64> = found.iter().zip(&x).map(|(a, b)| a - b).collect();
         if product(&weights, &moved, &moved).sqrt() > NEAR {
@@ -119,16 +121,16 @@ impl<P: Problem> CurveTracer<P> {
     }
 
     /// The present place with a frame along the curve, from differences of the condition.
-    pub(super) fn framed(&self, watch: &dyn Watch) -> Result<Spot<P::Local>, Failure> {
+    pub(super) fn framed(&self) -> Result<Spot<P::Local>, Failure> {
         let x = &self.spot.x;
         let weights = self.problem.weights(x);
-        let local = self.problem.local(x, watch)?;
+        let local = self.problem.local(x, self.watch)?;
         let levels = self.problem.levels(x, &local).ok_or_else(singular)?;
         let any = Frame::any(self.problem.linear(&local), &weights).ok_or_else(singular)?;
         let slope = |direction: &[f64], other: &[f64]| {
             let at = |length: f64| {
                 let guess = x.iter().zip(direction).map(|(x, d)| x + length * d).collect();
-                self.probe(guess, x, (other, direction), TIGHT, watch).map(|probe| probe.reading.value)
+                self.probe(guess, x, (other, direction), TIGHT).map(|probe| probe.reading.value)
             };
             Ok::<f64, Failure>((at(PROBE)? - at(-PROBE)?) / (2.0 * PROBE))
         };
@@ -145,12 +147,11 @@ impl<P: Problem> CurveTracer<P> {
         centre: &[f64],
         (normal_to, along): (&[f64], &[f64]),
         tolerance: f64,
-        watch: &dyn Watch,
     ) -> Result<Probe<P::Local>, Failure> {
         let weights = self.problem.weights(centre);
         let row = normal(normal_to, &weights);
         let section = Section { equations: &self.problem, row, centre: centre.to_vec() };
-        let found = correct(&section, guess, &normal(along, &weights), tolerance, watch)?;
+        let found = correct(&section, guess, &normal(along, &weights), tolerance, self.watch)?;
         let (x, Cut { inner: local, .. }) = (found.x, found.local);
         let levels = self.problem.levels(&x, &local).ok_or_else(singular)?;
         let reading = self.critical.read(&levels, self.spot.reading.angle).ok_or_else(singular)?;
@@ -164,10 +165,9 @@ impl<P: Problem> CurveTracer<P> {
         centre: &[f64],
         frame: &Frame,
         mut steep: f64,
-        watch: &dyn Watch,
     ) -> Result<(Probe<P::Local>, f64, f64), Failure> {
         let directions = (frame.along.as_slice(), frame.across.as_slice());
-        let mut probe = self.probe(centre.to_vec(), centre, directions, TIGHT, watch)?;
+        let mut probe = self.probe(centre.to_vec(), centre, directions, TIGHT)?;
         let (mut off, mut last) = (0.0, f64::INFINITY);
         for count in 0..TRIES {
             let change = (-probe.reading.value / steep).clamp(-0.1, 0.1);
@@ -182,7 +182,7 @@ impl<P: Problem> CurveTracer<P> {
                 return Ok((Probe { x, ..probe }, steep, off));
             }
             let tolerance = TIGHT.max(FINER * change.abs());
-            let next = self.probe(guess, centre, directions, tolerance, watch)?;
+            let next = self.probe(guess, centre, directions, tolerance)?;
             let secant = (next.reading.value - probe.reading.value) / change;
             if change.abs() > 1e-8 && secant.is_finite() && secant != 0.0 {
                 steep = secant;
@@ -194,7 +194,7 @@ impl<P: Problem> CurveTracer<P> {
     }
 
     /// The special point after the length `s`, and how far it is from where it was expected.
-    pub(super) fn at(&self, s: f64, watch: &dyn Watch) -> Result<(Spot<P::Local>, f64), Failure> {
+    pub(super) fn at(&self, s: f64) -> Result<(Spot<P::Local>, f64), Failure> {
         let Spot { x, frame, steep, arclength, .. } = &self.spot;
         let mut centre: Vec<f64> = x.iter().zip(&frame.along).map(|(x, t)| x + s * t).collect();
         if let Some((before, length)) = self.before.as_ref().filter(|before| s < 2.0 * before.1) {
@@ -203,7 +203,7 @@ impl<P: Problem> CurveTracer<P> {
                 *value += s * s / length * (frame.along[i] - chord);
             }
         }
-        let (found, steep, off) = self.solve(&centre, frame, *steep, watch)?;
+        let (found, steep, off) = self.solve(&centre, frame, *steep)?;
         let weights = self.problem.weights(&found.x);
         let along = scaled(self.tangent(&found.x, s), &weights).ok_or_else(singular)?;
         let guess = Frame { along, across: frame.across.clone() };

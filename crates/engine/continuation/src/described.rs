@@ -31,7 +31,7 @@ fn forms(
     (special, certificate.map(shown))
 }
 
-impl<P: Problem> Tracer<P> {
+impl<P: Problem> Tracer<'_, P> {
     /// Number of growing levels at a special point, those left out that are as close to 0 as the critical one was brought, or not told from
     /// 0.
     fn beside_critical(&self, place: &Place<P::Local>) -> usize {

@@ -19,7 +19,6 @@ use super::tracer::Tracer;
 use motiform_analysis::equilibrium::prefix;
 use motiform_analysis::linear::dot;
 use motiform_analysis::{Isotropy, PeriodicOrbit};
-use motiform_dynamics::Watch;
 
 /// Least part of a shape by which a motion differs from the start of a branch.
 const SAME: f64 = 1e-6;
@@ -48,7 +47,7 @@ const PASSED: f64 = 0.1;
 const SETTLED: f64 = 10.0;
 const HALF_TURNS: f64 = 6.0;
 
-impl<P: Problem> Tracer<P> {
+impl<P: Problem> Tracer<'_, P> {
     /// Returns `true` if beside a saddle-focus the parameter has not changed by more than the errors of the solutions: what the branch does
     /// from here on is that of round-off.
     fn is_settled(&self) -> bool {
@@ -57,27 +56,27 @@ impl<P: Problem> Tracer<P> {
     }
 
     /// The place on the way to `new` beyond which the branch does not go.
-    pub(super) fn limit(&self, new: &Place<P::Local>, watch: &dyn Watch) -> Result<Limit<P::Local>, End> {
+    pub(super) fn limit(&self, new: &Place<P::Local>) -> Result<Limit<P::Local>, End> {
         let (low, high) = self.settings.range;
         if !(low..=high).contains(&new.parameter()) {
             let edge = if new.parameter() < low { low } else { high };
             if self.place.parameter() == edge {
                 return Err(End::RangeLeft);
             }
-            return Ok(Some((self.edge(new, edge, watch)?, End::RangeLeft)));
+            return Ok(Some((self.edge(new, edge)?, End::RangeLeft)));
         }
-        self.closes(new, watch)
+        self.closes(new)
     }
 
     /// The start, where the branch passes it again in the same direction before `new`.
-    fn closes(&self, new: &Place<P::Local>, watch: &dyn Watch) -> Result<Limit<P::Local>, End> {
+    fn closes(&self, new: &Place<P::Local>) -> Result<Limit<P::Local>, End> {
         let (old, first) = (&self.place, &self.first);
         let sides = [old, new].map(|place| place.parameter() - first.parameter);
         let along = [old, new].iter().all(|place| place.slope() * first.slope > 0.0);
         if self.count < 3 || !along || sides[0] * sides[1] > 0.0 || sides[0] == 0.0 {
             return Ok(None);
         }
-        let at = self.edge(new, first.parameter, watch)?;
+        let at = self.edge(new, first.parameter)?;
         let motion = self.problem.motion(&at.x, &at.local, &at.levels);
         let body = self.problem.body(&at.local);
         let same = same_motion(body, &first.motion, &motion, &self.settings.flow, SAME);

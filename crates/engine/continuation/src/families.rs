@@ -134,7 +134,7 @@ pub(super) fn holds<P: Problem>(problem: &P, found: &Corrected<P::Local>, tolera
     problem.family().is_empty() || norm(&problem.linear(&found.local).residual) < SOLVED * tolerance
 }
 
-impl<P: Problem> Tracer<P> {
+impl<P: Problem> Tracer<'_, P> {
     /// Looks for a family of solutions with the value of the parameter, of which the present one is a member, and which goes on along the
     /// branch: one step ahead there must be another one of the same dimension. (At a bifurcation there may be one for one value.)
     /// Its directions have no part in what the branch does: the equations are bordered by them, and their levels left out.

@@ -15,7 +15,6 @@ use super::special::Special;
 use super::touch::touching;
 use super::tracer::neutral;
 use super::zero::solve;
-use motiform_dynamics::Watch;
 
 /// The changes on a step.
 pub(super) struct Changes<L> {
@@ -32,11 +31,7 @@ pub(super) struct Stopped;
 const ROUNDS: usize = 6;
 
 /// The special points on a step: until as many deviations grow before each of them as beyond the one before.
-pub(super) fn locate<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    watch: &dyn Watch,
-) -> Result<Changes<P::Local>, Stopped> {
+pub(super) fn locate<P: Problem>(step: &Step<'_, P>) -> Result<Changes<P::Local>, Stopped> {
     let mut changes = Changes { found: Vec::new(), missed: Vec::new() };
     let mut touches = Vec::new();
     for round in 0..ROUNDS {
@@ -44,13 +39,13 @@ pub(super) fn locate<P: Problem>(
         if round > 0 && known.is_empty() {
             break;
         }
-        let signs = brackets(problem, step, &known, watch);
+        let signs = brackets(step, &known);
         for bracket in &signs.brackets {
-            add(problem, step, bracket, &mut changes, watch)?;
+            add(step, bracket, &mut changes)?;
         }
         if round == 0 {
-            touches = touching(problem, step, &signs, watch);
-            let seen = signs.gaps.iter().map(|&test| kind(problem, step, step.new, test).name());
+            touches = touching(step, &signs);
+            let seen = signs.gaps.iter().map(|&test| kind(step, step.new, test).name());
             changes.missed.extend(seen.take(1));
         }
         changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
@@ -58,8 +53,8 @@ pub(super) fn locate<P: Problem>(
             break;
         }
     }
-    without_folds(problem, &mut changes.found);
-    name_folds(problem, &mut changes.found);
+    without_folds(step.problem, &mut changes.found);
+    name_folds(step.problem, &mut changes.found);
     // beside a special point a growth may come to 0 because of it
     if changes.found.is_empty() {
         changes.found = touches;
@@ -69,28 +64,26 @@ pub(super) fn locate<P: Problem>(
 
 /// The special point at which a test changes its sign, unless it is known.
 fn add<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
+    step: &Step<'_, P>,
     bracket: &Bracket,
     changes: &mut Changes<P::Local>,
-    watch: &dyn Watch,
 ) -> Result<(), Stopped> {
-    let at = match solve(problem, step, bracket, watch) {
+    let problem = step.problem;
+    let at = match solve(step, bracket) {
         Ok(at) => at,
         Err(Failure::Stopped) => return Err(Stopped),
         Err(Failure::Obstructed(_)) => {
-            let seen = kind(problem, step, step.new, bracket.test).name();
+            let seen = kind(step, step.new, bracket.test).name();
             if !changes.missed.contains(&seen) {
                 changes.missed.push(seen); // both of a complex pair are one change
             }
             return Ok(());
         }
     };
-    let crossing = nearly_crosses(problem, step, &at, bracket.test)
-        .then(|| at_crossing(problem, step, (&at, bracket.test), watch))
-        .flatten();
+    let crossing =
+        nearly_crosses(step, &at, bracket.test).then(|| at_crossing(step, (&at, bracket.test))).flatten();
     let at = crossing.unwrap_or(at);
-    let special = kind(problem, step, &at, bracket.test);
+    let special = kind(step, &at, bracket.test);
     // where orbits form a family for one value of the parameter a level is 0 all along, and the slope that of round-off
     let on_family = |end: &&Place<P::Local>| neutral(problem, end) > 0 && is_level(problem, end);
     let family = [step.old, step.new].iter().all(on_family);
@@ -98,7 +91,7 @@ fn add<P: Problem>(
         return Ok(());
     }
     let crosses = special == Special::BranchPoint && !is_alone(problem, &at);
-    let better = if crosses { solved(problem, step, &at, watch) } else { None };
+    let better = if crosses { solved(step, &at) } else { None };
     let blur = match &better {
         _ if !crosses || problem.time().is_some() => 0.0,
         Some(_) => blurred(problem),
@@ -106,19 +99,19 @@ fn add<P: Problem>(
     };
     let mut at = better.unwrap_or(at);
     if crosses {
-        keep_course(problem, step, (bracket.test, &mut at), watch);
+        keep_course(step, (bracket.test, &mut at));
     }
-    let certificate = certified(problem, step, (bracket.test, blur), &at, watch)
+    let certificate = certified(step, (bracket.test, blur), &at)
         .map(|certificate| Certificate { normal_form: normal_form(problem, &at.x, special), ..certificate });
     let at = Place { certificate, ..at };
-    if !is_known((problem, step), &changes.found, (&at, bracket.test), special) {
+    if !is_known(step, &changes.found, (&at, bracket.test), special) {
         changes.found.push((at, special));
     }
     Ok(())
 }
 
 /// The value of a test, of a level that of the critical one.
-pub(super) fn value<L>(step: &Step<'_, L>, at: &Place<L>, test: Test) -> f64 {
+pub(super) fn value<P: Problem>(step: &Step<'_, P>, at: &Place<P::Local>, test: Test) -> f64 {
     match test {
         Test::Slope => test.of(at),
         Test::Level(class, rank) => critical(step, at, (class, rank)).map_or(f64::NAN, |level| level.growth),
@@ -128,15 +121,14 @@ pub(super) fn value<L>(step: &Step<'_, L>, at: &Place<L>, test: Test) -> f64 {
 /// The evidence that a test vanishes at a place; `blur` is the error by round-off of the equations that the growth has
 /// where branches cross: that of the place if it is solved for, its root on the way along a branch.
 fn certified<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
+    step: &Step<'_, P>,
     (test, blur): (Test, f64),
     at: &Place<P::Local>,
-    watch: &dyn Watch,
 ) -> Option<Certificate> {
+    let problem = step.problem;
     let s = at.arclength - step.old.arclength;
     let apart = if s < 0.5 * step.length { BESIDE } else { -BESIDE };
-    let near = between(problem, step, s + apart * step.length, watch).ok()?;
+    let near = between(step, s + apart * step.length).ok()?;
     let passing = |place: &Place<P::Local>| Passing {
         s: place.arclength,
         value: value(step, place, test),
@@ -145,7 +137,7 @@ fn certified<P: Problem>(
     let here = match test {
         // where branches cross the equations do not tell the tangent of this one: its slope is the mean of those on both sides
         Test::Slope if crosses(problem, at) => {
-            let far = between(problem, step, s - apart * step.length, watch).ok()?;
+            let far = between(step, s - apart * step.length).ok()?;
             let slope = 0.5 * (near.slope() + far.slope());
             Passing { s: at.arclength, value: slope, slope }
         }
@@ -207,7 +199,11 @@ fn name_folds<P: Problem>(problem: &P, found: &mut [(Place<P::Local>, Special)])
 
 /// The critical level at a place. A circle has no neutral direction, so it has one level more than the shapes near it, and other ranks:
 /// there the level closest to 0 is taken.
-fn critical<L>(step: &Step<'_, L>, at: &Place<L>, (class, rank): (usize, usize)) -> Option<Level> {
+fn critical<P: Problem>(
+    step: &Step<'_, P>,
+    at: &Place<P::Local>,
+    (class, rank): (usize, usize),
+) -> Option<Level> {
     let levels = at.levels.get(class)?;
     if step.new.levels.get(class).is_some_and(|usual| usual.len() == levels.len()) {
         return levels.get(rank).copied();
@@ -215,19 +211,14 @@ fn critical<L>(step: &Step<'_, L>, at: &Place<L>, (class, rank): (usize, usize))
     levels.iter().copied().min_by(|a, b| a.growth.abs().total_cmp(&b.growth.abs()))
 }
 
-pub(super) fn kind<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    at: &Place<P::Local>,
-    test: Test,
-) -> Special {
+pub(super) fn kind<P: Problem>(step: &Step<'_, P>, at: &Place<P::Local>, test: Test) -> Special {
     match test {
         // where two branches cross there are two directions; the one that turns back is not at a fold
-        Test::Slope if crosses(problem, at) => Special::BranchPoint,
+        Test::Slope if crosses(step.problem, at) => Special::BranchPoint,
         Test::Slope => Special::Fold,
         Test::Level(class, rank) => {
             let none = Level { growth: f64::NAN, angle: 0.0 }; // a place with fewer levels: that of a real one
-            problem.classify(&at.x, critical(step, at, (class, rank)).unwrap_or(none), class)
+            step.problem.classify(&at.x, critical(step, at, (class, rank)).unwrap_or(none), class)
         }
     }
 }

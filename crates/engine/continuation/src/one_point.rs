@@ -15,19 +15,19 @@ const ONE: f64 = 1e-4;
 /// Returns `true` if another test has led to the same point: one of the same kind, close by, where this test vanishes as well within its
 /// error. (The length at which a point lies that was solved for is that of the place from which it was.)
 pub(super) fn is_known<P: Problem>(
-    (problem, step): (&P, &Step<'_, P::Local>),
+    step: &Step<'_, P>,
     found: &[(Place<P::Local>, Special)],
     (at, test): (&Place<P::Local>, Test),
     special: Special,
 ) -> bool {
-    let weights = problem.weights(&at.x);
+    let weights = step.problem.weights(&at.x);
     let is_near = |other: &Place<P::Local>| {
         distance(&weights, &other.x, &at.x).min((other.arclength - at.arclength).abs()) < ONE * step.length
     };
     let vanishes = |other: &Place<P::Local>| {
         let here = value(step, at, test).abs();
         let there = value(step, other, test).abs();
-        test == Test::Slope || there.is_nan() || there <= unclear(problem, &other.levels).max(here)
+        test == Test::Slope || there.is_nan() || there <= unclear(step.problem, &other.levels).max(here)
     };
     let same = found.iter().filter(|(_, kind)| is_alike(*kind, special));
     same.map(|one| &one.0).any(|other| is_near(other) && vanishes(other))

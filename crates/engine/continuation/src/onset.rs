@@ -1,17 +1,14 @@
 //! The motions that begin at a Hopf bifurcation.
 
-use super::beginning::{Begin, follow, nothing};
+use super::beginning::{Begin, nothing};
 use super::branch::Branch;
 use super::correct::scaled;
-use super::family::Family;
 use super::oscillation::{Oscillation, rotating};
-use super::point::Point;
 use super::problem::Equations;
-use super::settings::Settings;
-use super::switch::{cross, orbits, symmetric, those_found, unknowns};
+use super::switch::{Departure, those_found};
 use motiform_analysis::linear::add;
 use motiform_analysis::{RelativeEquilibrium, Result};
-use motiform_dynamics::{Equivariant, Watch};
+use motiform_dynamics::Equivariant;
 use std::f64::consts::TAU;
 
 /// Nodes of the orbits that begin.
@@ -24,12 +21,11 @@ const BESIDE: (usize, usize) = (1, 3);
 /// Orbits, one branch for each kind of oscillation; from a circle the relative equilibria that begin as an oscillation which only turns
 /// too. With [`Settings::steady`] these alone.
 pub(super) fn onset<'f>(
-    family: &'f dyn Family,
-    at: (&Point, &RelativeEquilibrium, f64),
-    settings: &Settings,
-    watch: &'f dyn Watch,
+    from: Departure<'_, 'f>,
+    start: &RelativeEquilibrium,
+    frequency: f64,
 ) -> Result<Vec<Vec<Branch<'f>>>> {
-    let (point, start, frequency) = at;
+    let Departure { family, point, settings, .. } = from;
     let body = family.at(point.parameter)?;
     let oscillations =
         if settings.steady { Vec::new() } else { Oscillation::all(body.as_ref(), &start.shape, frequency) };
@@ -44,28 +40,24 @@ pub(super) fn onset<'f>(
     let growing = point.unstable..=point.unstable + most;
     let turning = rotating.map(|(direction, rate)| {
         let turning = RelativeEquilibrium { turning_rate: rate, ..start.clone() };
-        let mut x = start.shape.clone();
-        x.extend([rate, point.parameter]);
-        let mut along = direction;
-        along.extend([0.0, 0.0]);
-        cross(family, (point, &turning, &Begin::new(&x, &along, growing.clone())), settings, watch)
+        let x = [&start.shape[..], &[rate, point.parameter]].concat();
+        let along = [&direction[..], &[0.0, 0.0]].concat();
+        from.cross(&turning, &Begin::new(&x, &along, growing.clone()))
     });
     let body = body.as_ref();
     let orbits = oscillations.into_iter().map(|oscillation| {
         let oscillation = (oscillation.upright(body), start.turning_rate, frequency);
-        swinging(family, (body, point.parameter), oscillation, growing.clone(), settings, watch)
+        swinging(from, body, oscillation, growing.clone())
     });
     those_found(orbits.chain(turning))
 }
 
 /// The orbits that begin as one oscillation, over the part of the period after which they are back but for a rotation or the mirror.
 fn swinging<'f>(
-    family: &'f dyn Family,
-    (body, parameter): (&dyn Equivariant, f64),
+    from: Departure<'_, 'f>,
+    body: &dyn Equivariant,
     (oscillation, turning_rate, frequency): (Oscillation, f64, f64),
     growing: std::ops::RangeInclusive<usize>,
-    settings: &Settings,
-    watch: &'f dyn Watch,
 ) -> Result<Branch<'f>> {
     let Oscillation { shape, re, im, across, part, turned } = oscillation;
     let time = TAU / frequency * part;
@@ -81,11 +73,10 @@ fn swinging<'f>(
         nodes.push(node);
         swings.push(swing);
     }
-    let problem = orbits(family, (body, parameter), (&nodes, (time, across.is_some())), settings);
-    let x = unknowns(&problem, &nodes, (time, turning_rate * time + turned, parameter));
+    let along = (time, turning_rate * time + turned, across.is_some());
+    let (problem, x) = from.orbits(body, &nodes, along);
     let mut direction = swings.concat();
     direction.resize(x.len(), 0.0);
-    let direction = scaled(direction, &problem.weights(&x)).ok_or_else(|| nothing(parameter))?;
-    let begin = Begin::new(&x, &direction, growing);
-    Ok(Branch::orbits(symmetric(follow(problem, &begin, settings, watch)?), watch))
+    let direction = scaled(direction, &problem.weights(&x)).ok_or_else(|| nothing(from.point.parameter))?;
+    from.oscillate(problem, &Begin::new(&x, &direction, growing))
 }

@@ -57,8 +57,24 @@ pub(super) struct Local {
 }
 
 impl<'f> Orbits<'f> {
-    /// The equations of an orbit of this time, mirrored or not, with nodes at these shapes.
-    pub(super) fn through(
+    /// The equations of an orbit of this time and angle, mirrored or not, with these nodes, and its unknowns.
+    pub(super) fn near(
+        bodies: Bodies<'f>,
+        classes: (&dyn Equivariant, Classes),
+        (nodes, (time, angle, mirrored)): (&[Vec<f64>], (f64, f64, bool)),
+        along: (&[f64], &[f64]),
+        settings: &Settings,
+    ) -> (Self, Vec<f64>) {
+        let shapes: Vec<&[f64]> = nodes.iter().map(Vec::as_slice).collect();
+        let problem = Self::through(bodies, classes, (&shapes, (time, mirrored)), along, settings);
+        let mut x = nodes.concat();
+        x.push(time);
+        x.extend(problem.turns.then_some(angle));
+        x.extend_from_slice(along.0);
+        (problem, x)
+    }
+
+    fn through(
         bodies: Bodies<'f>,
         (body, classes): (&dyn Equivariant, Classes),
         (shapes, (time, mirrored)): (&[&[f64]], (f64, bool)),

@@ -2,9 +2,8 @@
 
 use super::correct::{count_unseen, product, scaled, seen};
 use super::equilibria::Equilibria;
-use super::family::Family;
-use super::point::Point;
 use super::problem::Equations;
+use super::switch::Departure;
 use motiform_analysis::linear::{add, dot, norm};
 use motiform_analysis::symmetry::align;
 use motiform_dynamics::Watch;
@@ -35,12 +34,8 @@ const OTHERS: usize = 48;
 /// branch is among them.
 ///
 /// # Checked by  tests/all/meeting.rs: all branches of decoupled pitchforks, of a square's symmetry, and of cubic forms
-pub(super) fn rays(
-    family: &dyn Family,
-    (problem, point): (&Equilibria<'_>, &Point),
-    x: &[f64],
-    watch: &dyn Watch,
-) -> Vec<Vec<f64>> {
+pub(super) fn rays(from: Departure<'_, '_>, problem: &Equilibria<'_>, x: &[f64]) -> Vec<Vec<f64>> {
+    let Departure { family, point, watch, .. } = from;
     let weights = problem.weights(x);
     let units: Vec<f64> = weights.iter().map(|weight| 1.0 / weight.sqrt()).collect();
     let Ok(local) = problem.local(x, watch) else { return Vec::new() };

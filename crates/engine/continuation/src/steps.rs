@@ -44,13 +44,13 @@ pub(super) fn next_step(length: f64, first: f64, settings: &Settings) -> f64 {
     (length * factor).clamp(settings.smallest_step, settings.largest_step)
 }
 
-impl<P: Problem> Tracer<P> {
+impl<P: Problem> Tracer<'_, P> {
     /// The next solution and the length of the step to it.
-    pub(super) fn reach(&mut self, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), End> {
+    pub(super) fn reach(&mut self) -> Result<(Place<P::Local>, f64), End> {
         loop {
             self.step = self.step.min(self.longest()).max(self.settings.smallest_step);
             let length = self.step;
-            let why = match self.attempt(length, watch) {
+            let why = match self.attempt(length, self.watch) {
                 Ok((place, first)) => {
                     self.step = next_step(length, first, &self.settings);
                     return Ok((place, length));
@@ -198,12 +198,7 @@ impl<P: Problem> Tracer<P> {
     }
 
     /// The solution between the present one and `beyond` whose parameter is `edge`.
-    pub(super) fn edge(
-        &self,
-        beyond: &Place<P::Local>,
-        edge: f64,
-        watch: &dyn Watch,
-    ) -> Result<Place<P::Local>, End> {
+    pub(super) fn edge(&self, beyond: &Place<P::Local>, edge: f64) -> Result<Place<P::Local>, End> {
         let old = &self.place;
         let part = (edge - old.parameter()) / (beyond.parameter() - old.parameter());
         let mut guess: Vec<f64> = old.x.iter().zip(&beyond.x).map(|(a, b)| a + part * (b - a)).collect();
@@ -213,7 +208,7 @@ impl<P: Problem> Tracer<P> {
         }
         let weights = self.problem.weights(&old.x);
         let side = normal(&old.tangent, &weights);
-        let found = correct(&self.problem, guess, &row, self.settings.tolerance, watch)
+        let found = correct(&self.problem, guess, &row, self.settings.tolerance, self.watch)
             .and_then(|found| place(&self.problem, found, &side, 0.0));
         let mut new = found.map_err(|failure| match failure {
             Failure::Stopped => End::Stopped,

@@ -39,6 +39,7 @@ pub fn switch<'f>(
 ) -> Result<Vec<Vec<Branch<'f>>>> {
     settings.check(point.parameter)?;
     let Some(special) = point.special else { return Ok(Vec::new()) };
+    let from = Departure { family, point, settings, watch };
     let sides: &[f64] = if special == Special::BranchPoint { &[1.0, -1.0] } else { &[1.0] };
     match (&point.motion, special) {
         (
@@ -50,31 +51,27 @@ pub fn switch<'f>(
             | Special::Touch { seen: "hopf", .. },
         )
         | (Motion::Orbit { .. }, Special::Touch { .. }) => Ok(Vec::new()),
-        (Motion::Equilibrium(start), Special::Hopf(hopf)) => {
-            onset(family, (point, start, hopf.frequency), settings, watch)
-        }
+        (Motion::Equilibrium(start), Special::Hopf(hopf)) => onset(from, start, hopf.frequency),
         (Motion::Equilibrium(start), _) if point.critical > 1 || matches!(special, Special::Touch { .. }) => {
-            all(family, (point, start), settings, watch)
+            all(from, start)
         }
-        (Motion::Equilibrium(start), Special::Pitchfork { .. }) => {
-            fork(family, (point, start), settings, watch)
-        }
+        (Motion::Equilibrium(start), Special::Pitchfork { .. }) => from.fork(start),
         (Motion::Equilibrium(start), _) => {
             let usual = || {
-                let (problem, x) = crossed(family, point, start, settings)?;
+                let (problem, x) = from.crossed(start)?;
                 let direction = direction(&problem, &x, point).ok_or_else(|| nothing(point.parameter))?;
                 let leg = |&side| {
                     let direction = turned(&direction, side);
-                    cross(family, (point, start, &Begin::at(point, &x, &direction)), settings, watch)
+                    from.cross(start, &Begin::at(point, &x, &direction))
                 };
                 sides.iter().map(leg).collect::<Result<_>>().map(|legs| vec![legs])
             };
             // where terms of higher order decide Newton's method finds nothing along a tangent
-            usual().or_else(|_| all(family, (point, start), settings, watch))
+            usual().or_else(|_| all(from, start))
         }
         (Motion::Orbit { orbit, nodes }, _) => {
             let doubled = matches!(special, Special::PeriodDoubling | Special::SymmetryBreaking);
-            let new = |&side| leave(family, (point, (orbit, nodes), doubled, side), settings, watch);
+            let new = |&side| from.leave((orbit, nodes), doubled, side);
             sides.iter().map(new).collect::<Result<_>>().map(|legs| vec![legs])
         }
     }
@@ -123,36 +120,100 @@ fn turned(direction: &[f64], side: f64) -> Vec<f64> {
     direction.iter().map(|d| side * d).collect()
 }
 
-/// The equations of all relative equilibria near one, and its unknowns.
-pub(super) fn crossed<'f>(
-    family: &'f dyn Family,
-    point: &Point,
-    start: &RelativeEquilibrium,
-    settings: &Settings,
-) -> Result<(Equilibria<'f>, Vec<f64>)> {
-    let parameter = point.parameter;
-    let mut problem = Equilibria::near(Bodies::One(family), &[parameter], &start.shape, &[settings.width()])?;
-    problem.classes = Classes::of(family.at(parameter)?.as_ref(), &[]);
-    let mut x = start.shape.clone();
-    x.extend([start.turning_rate, parameter]);
-    Ok((problem, x))
+/// A special point that branches leave, and how they are followed.
+#[derive(Clone, Copy)]
+pub(super) struct Departure<'d, 'f> {
+    pub(super) family: &'f dyn Family,
+    pub(super) point: &'d Point,
+    pub(super) settings: &'d Settings,
+    pub(super) watch: &'f dyn Watch,
 }
 
-/// The branches that leave a pitchfork, one of each kind; those that Newton's method finds, if it finds any.
-fn fork<'f>(
-    family: &'f dyn Family,
-    (point, start): (&Point, &RelativeEquilibrium),
-    settings: &Settings,
-    watch: &'f dyn Watch,
-) -> Result<Vec<Vec<Branch<'f>>>> {
-    let (problem, x) = crossed(family, point, start, settings)?;
-    let body = family.at(point.parameter)?;
-    let (_, critical) = unseen(&problem, &x, usize::MAX).ok_or_else(|| nothing(point.parameter))?;
-    let directions = leaving(body.as_ref(), &start.shape, &critical, &problem.weights(&x));
-    let branch = |direction: &Vec<f64>| {
-        cross(family, (point, start, &Begin::at(point, &x, direction)), settings, watch)
-    };
-    those_found(directions.iter().map(branch))
+impl<'f> Departure<'_, 'f> {
+    /// The equations of all relative equilibria near one, and its unknowns.
+    pub(super) fn crossed(&self, start: &RelativeEquilibrium) -> Result<(Equilibria<'f>, Vec<f64>)> {
+        let (bodies, parameter) = (Bodies::One(self.family), self.point.parameter);
+        let mut problem = Equilibria::near(bodies, &[parameter], &start.shape, &[self.settings.width()])?;
+        problem.classes = Classes::of(self.family.at(parameter)?.as_ref(), &[]);
+        let x = [&start.shape[..], &[start.turning_rate, parameter]].concat();
+        Ok((problem, x))
+    }
+
+    /// The branches that leave a pitchfork, one of each kind; those that Newton's method finds, if it finds any.
+    fn fork(&self, start: &RelativeEquilibrium) -> Result<Vec<Vec<Branch<'f>>>> {
+        let (problem, x) = self.crossed(start)?;
+        let body = self.family.at(self.point.parameter)?;
+        let none = || nothing(self.point.parameter);
+        let (_, critical) = unseen(&problem, &x, usize::MAX).ok_or_else(none)?;
+        let directions = leaving(body.as_ref(), &start.shape, &critical, &problem.weights(&x));
+        let branch = |direction: &Vec<f64>| self.cross(start, &Begin::at(self.point, &x, direction));
+        those_found(directions.iter().map(branch))
+    }
+
+    /// Another branch of relative equilibria, which begins so.
+    pub(super) fn cross(&self, start: &RelativeEquilibrium, begin: &Begin<'_>) -> Result<Branch<'f>> {
+        let (problem, _) = self.crossed(start)?;
+        let body = self.family.at(self.point.parameter)?;
+        let mut tracer = follow(problem, begin, self.settings, self.watch)?;
+        let dim = start.shape.len();
+        let shape = tracer.unknowns()[..dim].to_vec();
+        tracer.problem_mut().classes = Classes::of(body.as_ref(), &[&shape]);
+        tracer.renew();
+        Ok(Branch::followed(tracer))
+    }
+
+    /// Another branch of orbits, of twice the length if `doubled`.
+    fn leave(
+        &self,
+        (orbit, nodes): (&PeriodicOrbit, &[Vec<f64>]),
+        doubled: bool,
+        side: f64,
+    ) -> Result<Branch<'f>> {
+        let body = self.family.at(self.point.parameter)?;
+        let mut all = nodes.to_vec();
+        let (mut time, mut angle) = (orbit.time, orbit.angle);
+        if doubled {
+            let image = |node: &Vec<f64>| {
+                let mut image = node.clone();
+                if orbit.mirrored {
+                    body.mirror(&mut image);
+                }
+                body.rotate(orbit.angle, &mut image);
+                image
+            };
+            all.extend(nodes.iter().map(image));
+            time *= 2.0;
+            angle = if orbit.mirrored { 0.0 } else { 2.0 * angle };
+        }
+        let mirrored = orbit.mirrored && !doubled;
+        let (problem, x) = self.orbits(body.as_ref(), &all, (time, angle, mirrored));
+        let direction = direction(&problem, &x, self.point).ok_or_else(|| nothing(self.point.parameter))?;
+        self.oscillate(problem, &Begin::at(self.point, &x, &turned(&direction, side)))
+    }
+
+    /// Another branch of orbits, which begins so.
+    pub(super) fn oscillate(&self, problem: Orbits<'f>, begin: &Begin<'_>) -> Result<Branch<'f>> {
+        let tracer = follow(problem, begin, self.settings, self.watch)?;
+        Ok(Branch::followed(symmetric(tracer)))
+    }
+
+    /// The equations of all orbits near one with these nodes, and its unknowns.
+    pub(super) fn orbits(
+        &self,
+        body: &dyn Equivariant,
+        nodes: &[Vec<f64>],
+        along: (f64, f64, bool),
+    ) -> (Orbits<'f>, Vec<f64>) {
+        let (parameters, widths) = ([self.point.parameter], [self.settings.width()]);
+        let classes = Classes::of(body, &[]);
+        Orbits::near(
+            Bodies::One(self.family),
+            (body, classes),
+            (nodes, along),
+            (&parameters, &widths),
+            self.settings,
+        )
+    }
 }
 
 /// Those of several new branches that Newton's method finds; the first error where it finds none.
@@ -166,57 +227,8 @@ pub(super) fn those_found<'f>(
     }
 }
 
-/// Another branch of relative equilibria, which begins so.
-pub(super) fn cross<'f>(
-    family: &'f dyn Family,
-    (point, start, begin): (&Point, &RelativeEquilibrium, &Begin<'_>),
-    settings: &Settings,
-    watch: &'f dyn Watch,
-) -> Result<Branch<'f>> {
-    let (problem, _) = crossed(family, point, start, settings)?;
-    let body = family.at(point.parameter)?;
-    let mut tracer = follow(problem, begin, settings, watch)?;
-    let dim = start.shape.len();
-    let shape = tracer.unknowns()[..dim].to_vec();
-    tracer.problem_mut().classes = Classes::of(body.as_ref(), &[&shape]);
-    tracer.renew();
-    Ok(Branch::equilibria(tracer, watch))
-}
-
-/// Another branch of orbits, of twice the length if `doubled`.
-fn leave<'f>(
-    family: &'f dyn Family,
-    (point, (orbit, nodes), doubled, side): (&Point, (&PeriodicOrbit, &[Vec<f64>]), bool, f64),
-    settings: &Settings,
-    watch: &'f dyn Watch,
-) -> Result<Branch<'f>> {
-    let parameter = point.parameter;
-    let body = family.at(parameter)?;
-    let mut all = nodes.to_vec();
-    let (mut time, mut angle) = (orbit.time, orbit.angle);
-    if doubled {
-        let image = |node: &Vec<f64>| {
-            let mut image = node.clone();
-            if orbit.mirrored {
-                body.mirror(&mut image);
-            }
-            body.rotate(orbit.angle, &mut image);
-            image
-        };
-        all.extend(nodes.iter().map(image));
-        time *= 2.0;
-        angle = if orbit.mirrored { 0.0 } else { 2.0 * angle };
-    }
-    let mirrored = orbit.mirrored && !doubled;
-    let problem = orbits(family, (body.as_ref(), parameter), (&all, (time, mirrored)), settings);
-    let x = unknowns(&problem, &all, (time, angle, parameter));
-    let direction = direction(&problem, &x, point).ok_or_else(|| nothing(parameter))?;
-    let direction: Vec<f64> = direction.iter().map(|d| side * d).collect();
-    Ok(Branch::orbits(symmetric(follow(problem, &Begin::at(point, &x, &direction), settings, watch)?), watch))
-}
-
 /// With the symmetry that all shapes of the first orbit have.
-pub(super) fn symmetric(mut tracer: Tracer<Orbits<'_>>) -> Tracer<Orbits<'_>> {
+fn symmetric<'f>(mut tracer: Tracer<'f, Orbits<'f>>) -> Tracer<'f, Orbits<'f>> {
     let x = tracer.unknowns().to_vec();
     let problem = tracer.problem_mut();
     if let Ok(body) = problem.bodies.at(&x) {
@@ -225,35 +237,4 @@ pub(super) fn symmetric(mut tracer: Tracer<Orbits<'_>>) -> Tracer<Orbits<'_>> {
         tracer.renew();
     }
     tracer
-}
-
-pub(super) fn orbits<'f>(
-    family: &'f dyn Family,
-    (body, parameter): (&dyn Equivariant, f64),
-    (nodes, along): (&[Vec<f64>], (f64, bool)),
-    settings: &Settings,
-) -> Orbits<'f> {
-    let shapes: Vec<&[f64]> = nodes.iter().map(Vec::as_slice).collect();
-    let classes = Classes::of(body, &[]);
-    Orbits::through(
-        Bodies::One(family),
-        (body, classes),
-        (&shapes, along),
-        (&[parameter], &[settings.width()]),
-        settings,
-    )
-}
-
-pub(super) fn unknowns(
-    problem: &Orbits<'_>,
-    nodes: &[Vec<f64>],
-    (time, angle, parameter): (f64, f64, f64),
-) -> Vec<f64> {
-    let mut x = nodes.concat();
-    x.push(time);
-    if problem.turns {
-        x.push(angle);
-    }
-    x.push(parameter);
-    x
 }

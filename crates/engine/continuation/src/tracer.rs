@@ -49,7 +49,8 @@ impl First {
 }
 
 /// A branch being followed.
-pub(super) struct Tracer<P: Problem> {
+pub(super) struct Tracer<'f, P: Problem> {
+    pub(super) watch: &'f dyn Watch,
     pub(super) problem: P,
     pub(super) settings: Settings,
     pub(super) place: Place<P::Local>,
@@ -73,13 +74,47 @@ pub(super) fn neutral<P: Problem>(problem: &P, place: &Place<P::Local>) -> usize
     zeros(problem, &place.levels, NEUTRAL)
 }
 
-impl<P: Problem> Tracer<P> {
+/// A branch being followed, whatever its motions are.
+pub(super) trait Follow {
+    fn end(&self) -> Option<&End>;
+    fn next(&mut self) -> Option<Point>;
+}
+
+impl<P: Problem> Follow for Tracer<'_, P> {
+    fn end(&self) -> Option<&End> {
+        self.end.as_ref().filter(|_| self.queue.is_empty())
+    }
+
+    fn next(&mut self) -> Option<Point> {
+        if let Some(point) = self.queue.pop_front() {
+            self.count += usize::from(point.special.is_none());
+            return Some(point);
+        }
+        if self.end.is_some() {
+            return None;
+        }
+        if self.count >= self.settings.most_points {
+            self.end = Some(End::PointLimit);
+            return None;
+        }
+        if self.problem.is_spent() {
+            self.end = Some(End::Spent);
+            return None;
+        }
+        if let Err(end) = self.advance() {
+            self.end = Some(self.explained(end));
+        }
+        self.next()
+    }
+}
+
+impl<'f, P: Problem> Tracer<'f, P> {
     /// From a solution near `x` with the same parameter.
     pub(super) fn start(
         mut problem: P,
         x: Vec<f64>,
         settings: &Settings,
-        watch: &dyn Watch,
+        watch: &'f dyn Watch,
     ) -> Result<Self, Failure> {
         let mut row = vec![0.0; x.len()];
         if let Some(last) = row.last_mut() {
@@ -98,7 +133,7 @@ impl<P: Problem> Tracer<P> {
         first.iter_mut().for_each(|value| *value *= side);
         let row = normal(&first, &weights);
         let place = place(&problem, found, &row, 0.0)?;
-        Ok(Self::at(problem, place, settings))
+        Ok(Self::at(problem, place, settings, watch))
     }
 
     /// From a solution near `origin + length direction`, on to the side of `direction`; Newton's method begins there, with the parameter
@@ -109,7 +144,7 @@ impl<P: Problem> Tracer<P> {
         (origin, direction, length): (&[f64], &[f64], f64),
         lean: f64,
         settings: &Settings,
-        watch: &dyn Watch,
+        watch: &'f dyn Watch,
     ) -> Result<Self, (P, Failure)> {
         let weights = problem.weights(origin);
         let row = normal(direction, &weights);
@@ -119,16 +154,17 @@ impl<P: Problem> Tracer<P> {
         }
         let found = correct(&problem, guess, &row, settings.tolerance.min(TOLERANCE), watch);
         match found.and_then(|found| place(&problem, found, &row, 0.0)) {
-            Ok(place) => Ok(Self::at(problem, place, settings)),
+            Ok(place) => Ok(Self::at(problem, place, settings, watch)),
             Err(failure) => Err((problem, failure)),
         }
     }
 
-    fn at(problem: P, place: Place<P::Local>, settings: &Settings) -> Self {
+    fn at(problem: P, place: Place<P::Local>, settings: &Settings, watch: &'f dyn Watch) -> Self {
         let mut tracer = Self {
             first: First::of(&problem, &place),
             settings: Settings { tolerance: settings.tolerance.max(problem.resolution()), ..*settings },
             problem,
+            watch,
             place,
             before: None,
             step: settings.first_step.abs().min(settings.largest_step),
@@ -172,10 +208,6 @@ impl<P: Problem> Tracer<P> {
         &mut self.problem
     }
 
-    pub(super) fn end(&self) -> Option<&End> {
-        self.end.as_ref().filter(|_| self.queue.is_empty())
-    }
-
     /// Computes again what belongs to the present place, and the first point: after the problem was changed.
     pub(super) fn renew(&mut self) {
         if let Some(levels) = self.problem.levels(&self.place.x, &self.place.local) {
@@ -187,56 +219,34 @@ impl<P: Problem> Tracer<P> {
         }
     }
 
-    pub(super) fn next(&mut self, watch: &dyn Watch) -> Option<Point> {
-        if let Some(point) = self.queue.pop_front() {
-            self.count += usize::from(point.special.is_none());
-            return Some(point);
-        }
-        if self.end.is_some() {
-            return None;
-        }
-        if self.count >= self.settings.most_points {
-            self.end = Some(End::PointLimit);
-            return None;
-        }
-        if self.problem.is_spent() {
-            self.end = Some(End::Spent);
-            return None;
-        }
-        if let Err(end) = self.advance(watch) {
-            self.end = Some(self.explained(end));
-        }
-        self.next(watch)
-    }
-
     /// One step: the points of it are in the queue; an error is the end of the branch after them.
-    fn advance(&mut self, watch: &dyn Watch) -> Result<(), End> {
-        if watch.stopped() {
+    fn advance(&mut self) -> Result<(), End> {
+        if self.watch.stopped() {
             return Err(End::Stopped);
         }
-        self.refine(watch);
-        let (mut new, mut length) = self.reach(watch)?;
+        self.refine();
+        let (mut new, mut length) = self.reach()?;
         let mut last = None;
-        if let Some((nearer, end)) = self.limit(&new, watch)? {
+        if let Some((nearer, end)) = self.limit(&new)? {
             length = nearer.arclength - self.place.arclength;
             (new, last) = (nearer, Some(end));
         }
         self.check(&new)?;
-        let (new, length, mut changes) = self.examine(new, length, &mut last, watch)?;
+        let (new, length, mut changes) = self.examine(new, length, &mut last)?;
         changes.found.retain(|(at, special)| !self.has_touched(at, *special, length));
         if let Some(again) = changes.found.iter().position(|(at, special)| self.has_passed(at, *special)) {
             changes.found.truncate(again);
-            self.hand_out_special(changes.found, (&new, length), watch);
+            self.hand_out_special(changes.found, (&new, length));
             return Err(End::Closed);
         }
         if let Some(end) = self.meets(length, &mut changes) {
-            self.hand_out_special(changes.found, (&new, length), watch);
+            self.hand_out_special(changes.found, (&new, length));
             return Err(end);
         }
         if let Some(end) = self.shrinks(&new, &changes.found) {
             return Err(end);
         }
-        self.hand_out((&new, length), changes, watch);
+        self.hand_out((&new, length), changes);
         if self.count <= EARLY && new.slope().abs() > STEEPER * self.first.slope.abs() {
             self.first = First::of(&self.problem, &new);
         }
@@ -253,22 +263,25 @@ impl<P: Problem> Tracer<P> {
         mut new: Place<P::Local>,
         mut length: f64,
         last: &mut Option<End>,
-        watch: &dyn Watch,
     ) -> Result<Examined<P::Local>, End> {
         let changes = |tracer: &Self, new: &Place<P::Local>, length| {
-            let step = Step { old: &tracer.place, new, before: tracer.before.as_ref(), length };
-            locate(&tracer.problem, &step, watch).map_err(|_| End::Stopped)
+            locate(&tracer.step_to(new, length)).map_err(|_| End::Stopped)
         };
         let mut found = changes(self, &new, length)?;
         let mut shorter = 0.5 * length;
         while !found.missed.is_empty() && shorter > self.settings.smallest_step {
-            if let Ok((nearer, _)) = self.attempt(shorter, watch) {
+            if let Ok((nearer, _)) = self.attempt(shorter, self.watch) {
                 (new, length, *last) = (nearer, shorter, None);
                 found = changes(self, &new, length)?;
             }
             shorter *= 0.5;
         }
         Ok((new, length, found))
+    }
+
+    fn step_to<'s>(&'s self, new: &'s Place<P::Local>, length: f64) -> Step<'s, P> {
+        let Self { problem, watch, place: old, before, .. } = self;
+        Step { problem, watch: *watch, old, new, before: before.as_ref(), length }
     }
 
     /// Returns `true` if the branch was at a special point before, in the same direction: it is closed. (A step may be as long as a small
@@ -296,15 +309,13 @@ impl<P: Problem> Tracer<P> {
         &mut self,
         found: Vec<(Place<P::Local>, Special)>,
         (new, length): (&Place<P::Local>, f64),
-        watch: &dyn Watch,
     ) {
         let mut last = None;
         for (at, special) in found {
-            let step = Step { old: &self.place, new, before: self.before.as_ref(), length };
             let middle = last
                 .filter(|last| at.arclength - last > NEUTRAL * self.problem.accuracy())
                 .map(|last: f64| 0.5 * (last + at.arclength) - self.place.arclength)
-                .and_then(|s| between(&self.problem, &step, s, watch).ok());
+                .and_then(|s| between(&self.step_to(new, length), s).ok());
             last = Some(at.arclength);
             let special = self.decided(&at, special);
             self.passed.push((at.x.clone(), at.tangent.clone(), special.name(), self.count));
@@ -331,13 +342,8 @@ impl<P: Problem> Tracer<P> {
     }
 
     /// The points of a step.
-    fn hand_out(
-        &mut self,
-        (new, length): (&Place<P::Local>, f64),
-        changes: Changes<P::Local>,
-        watch: &dyn Watch,
-    ) {
-        self.hand_out_special(changes.found, (new, length), watch);
+    fn hand_out(&mut self, (new, length): (&Place<P::Local>, f64), changes: Changes<P::Local>) {
+        self.hand_out_special(changes.found, (new, length));
         let (from, to) = (self.place.parameter(), new.parameter());
         for seen in changes.missed {
             let point = self.point(new, Some(Special::Unresolved { seen, from, to }));
@@ -348,10 +354,10 @@ impl<P: Problem> Tracer<P> {
     }
 
     /// More unknowns, where an orbit needs them and a solution with them is found.
-    fn refine(&mut self, watch: &dyn Watch) {
+    fn refine(&mut self) {
         let kept = self.problem.time().map_or(0, |time| self.place.x.len() - time);
         let old: Vec<f64> = self.place.tangent.iter().rev().take(kept).rev().copied().collect();
-        let Some(x) = self.problem.refine(&self.place.x, &self.place.local, watch) else { return };
+        let Some(x) = self.problem.refine(&self.place.x, &self.place.local, self.watch) else { return };
         let family = self.problem.family().to_vec();
         if !family.is_empty() {
             border_at_start(&mut self.problem, &x); // with more unknowns
@@ -361,7 +367,7 @@ impl<P: Problem> Tracer<P> {
         row[from..].copy_from_slice(&old);
         let weights = self.problem.weights(&x);
         let found = scaled(row, &weights).map(|row| normal(&row, &weights)).and_then(|row| {
-            let found = correct(&self.problem, x, &row, self.settings.tolerance, watch).ok()?;
+            let found = correct(&self.problem, x, &row, self.settings.tolerance, self.watch).ok()?;
             place(&self.problem, found, &row, self.place.arclength).ok()
         });
         let Some(place) = found else {

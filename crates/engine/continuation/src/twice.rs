@@ -102,7 +102,7 @@ impl<P: Problem> Stretch<'_, P> {
         let Looks { mut found, nearest, gap, .. } = looks;
         if found.is_empty() {
             out.touches.extend(nearest.map(|(s, test, _)| (s, test)));
-            out.gaps.extend(self.smallest(tests).filter(|_| gap && self.problem.time().is_none()));
+            out.gaps.extend(self.smallest(tests).filter(|_| gap && self.step.problem.time().is_none()));
         }
         out.brackets.append(&mut found);
     }
@@ -118,18 +118,18 @@ impl<P: Problem> Stretch<'_, P> {
                 [low, here, high].map(|levels| levels.get(k).map_or(f64::NAN, |one| one.growth.abs()));
             here[k].angle == 0.0 && b < a.min(c)
         };
-        let is_singular = self.problem.time().is_none() && (0..here.len()).any(falls);
+        let is_singular = self.step.problem.time().is_none() && (0..here.len()).any(falls);
         is_singular && [self.low.1, self.high.1].iter().any(|end| self.misses(place, end))
     }
 
     /// Returns `true` if the solution along the tangent at `place` is another one than `end`.
     fn misses(&self, place: &Place<P::Local>, end: &Place<P::Local>) -> bool {
-        let weights = self.problem.weights(&place.x);
+        let weights = self.step.problem.weights(&place.x);
         let row = normal(&place.tangent, &weights);
         let apart = |x: &[f64]| end.x.iter().zip(x).map(|(a, b)| a - b).collect::<Vec<f64>>();
         let along = product(&weights, &place.tangent, &apart(&place.x));
         let guess = place.x.iter().zip(&place.tangent).map(|(x, t)| x + along * t).collect();
-        correct(self.problem, guess, &row, TOLERANCE, self.watch).is_ok_and(|found| {
+        correct(self.step.problem, guess, &row, TOLERANCE, self.step.watch).is_ok_and(|found| {
             let off = apart(&found.x);
             product(&weights, &off, &off).sqrt() > SAME * TOLERANCE
         })

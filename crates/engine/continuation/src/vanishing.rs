@@ -12,7 +12,7 @@ const PLACES: usize = 4;
 /// Angles of multipliers below this tend to 0 with the orbits.
 const SMALL: f64 = 0.1;
 
-impl<P: Problem> CurveTracer<P> {
+impl<P: Problem> CurveTracer<'_, P> {
     /// Remembers the size of the orbits at a place, a speed, with the parameters.
     pub(super) fn note_size(&mut self, spot: &Spot<P::Local>) {
         let Some(swing) = self.problem.swing(&spot.local) else { return };

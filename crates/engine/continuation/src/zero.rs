@@ -5,7 +5,6 @@ use super::brackets::{Bracket, Test};
 use super::place::Place;
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
-use motiform_dynamics::Watch;
 
 /// Most solutions on the way to a special point.
 const TRIES: usize = 60;
@@ -18,14 +17,9 @@ const VANISHING: f64 = 0.1;
 
 /// Returns `true` if a test is small on both sides of `s`. Over a gap between two branches it changes its sign without passing 0. (Next to
 /// a crossing the slope is that of round-off: then the sides tell.)
-fn vanishes_beside<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
-    (test, s, scale): (Test, f64, f64),
-    watch: &dyn Watch,
-) -> bool {
+fn vanishes_beside<P: Problem>(step: &Step<'_, P>, (test, s, scale): (Test, f64, f64)) -> bool {
     let small = |side: f64| {
-        let at = between(problem, step, s + side * APART * step.length, watch);
+        let at = between(step, s + side * APART * step.length);
         at.is_ok_and(|at| test.of(&at).abs() <= VANISHING * scale)
     };
     small(-1.0) && small(1.0)
@@ -41,10 +35,8 @@ const FLAT: f64 = 1e-6;
 
 /// The solution at which the test vanishes, by false position (the Illinois variant): every iterate is a solution of the equations.
 pub(super) fn solve<P: Problem>(
-    problem: &P,
-    step: &Step<'_, P::Local>,
+    step: &Step<'_, P>,
     &Bracket { test, mut low, mut high }: &Bracket,
-    watch: &dyn Watch,
 ) -> Result<Place<P::Local>, Failure> {
     let scale = low.1.abs().max(high.1.abs());
     let (mut kept_high, mut last) = (None, f64::INFINITY);
@@ -56,7 +48,7 @@ pub(super) fn solve<P: Problem>(
             count % PATIENCE == 0 && high.0 - low.0 > 0.5 * std::mem::replace(&mut width, high.0 - low.0);
         let slow = slow || std::mem::take(&mut stalled);
         let s = if slow { 0.5 * (low.0 + high.0) } else { false_position };
-        let at = between(problem, step, s, watch)?;
+        let at = between(step, s)?;
         let value = test.of(&at);
         if value.abs() <= 1e-12 * scale {
             return Ok(at);
@@ -64,8 +56,7 @@ pub(super) fn solve<P: Problem>(
         let is_wide = high.0 - low.0 > WIDE * step.length && value.abs() > MULTIPLE * scale;
         stalled = (s - last).abs() <= 1e-10 * step.length;
         if stalled && !is_wide {
-            let vanishes =
-                value.abs() <= VANISHING * scale || vanishes_beside(problem, step, (test, s, scale), watch);
+            let vanishes = value.abs() <= VANISHING * scale || vanishes_beside(step, (test, s, scale));
             return if vanishes { Ok(at) } else { Err(Failure::Obstructed(Obstruction::Newton)) };
         }
         last = s;

@@ -52,11 +52,9 @@ const VANISHED: f64 = 1e-290;
 /// # Ok::<(), motiform_dynamics::Error>(())
 /// ```
 pub struct ExponentialOrbit<'f, F: ?Sized> {
-    field: &'f F,
-    drift: Option<DriftOf<'f, F>>,
+    problem: Problem<'f, F>,
     tableau: &'static ExponentialTableau,
     control: StepControl,
-    lambda: Vec<f64>,
     tables: StepTables,
     stages: Stages,
     restep: Stages,
@@ -74,9 +72,6 @@ pub struct ExponentialOrbit<'f, F: ?Sized> {
     /// `true` if `N` at the current state is the end stage of the step just accepted.
     accepted: bool,
     prepared: bool,
-    /// `true` if states are kicked ([`crate::Integration::roughen`]): the position then is the trapezoidal
-    /// rule.
-    rough: bool,
     counters: Counters,
 }
 
@@ -132,12 +127,10 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         let end = End { state: u.to_vec(), slope: vec![0.0; u.len()], acceleration: [0.0; 2] };
         let stages = Stages::new(tableau, dim);
         let mut orbit = Self {
-            field,
-            drift,
+            tables: StepTables::new(tableau, &lambda),
+            problem: Problem { field, drift, lambda, rough: false },
             tableau,
             control,
-            tables: StepTables::new(tableau, &lambda),
-            lambda,
             restep: stages.clone(),
             stages,
             t,
@@ -152,11 +145,9 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
             origin: (t, 0),
             accepted: true,
             prepared: false,
-            rough: false,
             counters: Counters::default(),
         };
-        let problem = Problem { field, drift, lambda: &orbit.lambda, rough: false };
-        problem.evaluate(t, orbit.stages.get_mut(tableau.stages()), &mut orbit.new);
+        orbit.problem.evaluate(t, orbit.stages.get_mut(tableau.stages()), &mut orbit.new);
         orbit.choose_first_step();
         Ok(orbit)
     }
@@ -165,7 +156,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
     fn choose_first_step(&mut self) {
         let StepControl::Adaptive { rtol, atol } = self.control else { return };
         let tolerance = Tolerance { rtol: rtol.sqrt(), atol: atol.sqrt() };
-        let shape = ..self.field.controlling();
+        let shape = ..self.problem.field.controlling();
         let state = &self.new.state[shape];
         let rate = tolerance.norm(&self.new.slope[shape], state, state);
         self.tables.set_size((0.1 / rate).clamp(1e-6, 1.0));
@@ -176,9 +167,9 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         let (t_new, h) = fixed_step(step, self.t, self.origin, limit);
         self.begin();
         if h == step {
-            self.tables.select_fixed(self.tableau, &self.lambda, h);
+            self.tables.select_fixed(self.tableau, &self.problem.lambda, h);
         } else {
-            self.tables.select_odd(self.tableau, &self.lambda, h);
+            self.tables.select_odd(self.tableau, &self.problem.lambda, h);
         }
         self.try_step(h);
         self.accept(t_new)?;
@@ -196,9 +187,9 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
                 return Err(StepFailure::Underflow { step: h });
             }
             if last {
-                self.tables.select_odd(self.tableau, &self.lambda, h);
+                self.tables.select_odd(self.tableau, &self.problem.lambda, h);
             } else {
-                self.tables.select_size(self.tableau, &self.lambda);
+                self.tables.select_size(self.tableau, &self.problem.lambda);
             }
             self.try_step(h);
             let error = self.error(tolerance);
@@ -211,7 +202,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
 
     /// The norm of the estimated error of the step tried, on the part of the shape that controls steps.
     fn error(&mut self, tolerance: Tolerance) -> f64 {
-        let shape = ..self.field.controlling();
+        let shape = ..self.problem.field.controlling();
         exponential::error(self.tableau, self.tables.selected(), &self.stages, &mut self.errors);
         tolerance.norm(&self.errors[shape], &self.new.state[shape], &self.trial.state[shape])
     }
@@ -230,20 +221,16 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
     /// Takes a trial step of size `h` from the current state with the selected coefficients.
     fn try_step(&mut self, h: f64) {
         let at = Start { t: self.t, h, end: &self.new };
-        let problem =
-            Problem { field: self.field, drift: self.drift, lambda: &self.lambda, rough: self.rough };
-        problem.step(self.tableau, self.tables.selected(), &at, &mut self.stages, &mut self.trial);
+        self.problem.step(self.tableau, self.tables.selected(), &at, &mut self.stages, &mut self.trial);
     }
 
     /// Repeats the last step, but to `t`, into the trial end and the spare stages.
     fn restep_to(&mut self, t: f64) {
         let h = t - self.t_old;
         self.stages.copy_to(0, &mut self.restep);
-        self.tables.select_odd(self.tableau, &self.lambda, h);
+        self.tables.select_odd(self.tableau, &self.problem.lambda, h);
         let at = Start { t: self.t_old, h, end: &self.old };
-        let problem =
-            Problem { field: self.field, drift: self.drift, lambda: &self.lambda, rough: self.rough };
-        problem.step(self.tableau, self.tables.selected(), &at, &mut self.restep, &mut self.trial);
+        self.problem.step(self.tableau, self.tables.selected(), &at, &mut self.restep, &mut self.trial);
     }
 
     /// Checks that the trial step led to a state from which the orbit can continue.
@@ -254,29 +241,28 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         if ends.iter().all(|end| finite(&end.state) & finite(&end.slope)) {
             return Ok(());
         }
-        let reason = ends.iter().find_map(|end| self.field.obstacle(&end.state[..self.lambda.len()]));
+        let reason =
+            ends.iter().find_map(|end| self.problem.field.obstacle(&end.state[..self.problem.lambda.len()]));
         Err(reason.map_or(StepFailure::NotFinite, StepFailure::Obstacle))
     }
 
     /// Lets the field correct the end of the trial step, if it does so, and re-evaluates it.
     fn project(&mut self, t_new: f64) -> Result<(), StepFailure> {
-        let dim = self.lambda.len();
+        let dim = self.problem.lambda.len();
         let (shape, position) = self.landed.state.split_at_mut(dim);
-        if !self.field.project(&self.trial.state[..dim], shape).map_err(StepFailure::Obstacle)? {
+        if !self.problem.field.project(&self.trial.state[..dim], shape).map_err(StepFailure::Obstacle)? {
             return Ok(());
         }
         position.copy_from_slice(&self.trial.state[dim..]);
         std::mem::swap(&mut self.trial, &mut self.landed);
         self.jumped = true;
-        let problem =
-            Problem { field: self.field, drift: self.drift, lambda: &self.lambda, rough: self.rough };
-        problem.evaluate(t_new, self.stages.get_mut(self.tableau.stages()), &mut self.trial);
+        self.problem.evaluate(t_new, self.stages.get_mut(self.tableau.stages()), &mut self.trial);
         self.check()
     }
 
     /// Makes an end of the trial step 0 where it has decayed to [`VANISHED`].
     fn vanish(&mut self) {
-        let shape = ..self.lambda.len();
+        let shape = ..self.problem.lambda.len();
         for x in &mut self.trial.state[shape] {
             *x = if x.abs() < VANISHED { 0.0 } else { *x };
         }

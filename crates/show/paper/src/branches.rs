@@ -48,11 +48,7 @@ pub(crate) fn follow(
     let along = Along { name: "kappa2".to_owned(), from: 0.3, to: 1.6 };
     let settings = BranchSettings { origin: Some(origin), branches, ..BranchSettings::over(along) };
     let plan = BranchPlan::new(&study, &settings)?;
-    let follow = || {
-        let found = motiform_diagrams::follow(&plan, None, &context.quiet())?;
-        if found.complete { Ok(Arc::new(found)) } else { Err(Error::Interrupted) }
-    };
-    let found = context.kept.once(&format!("branches {}", plan.hash()), follow)?;
+    let found = context.follow(&plan)?;
     Ok((plan, found))
 }
 

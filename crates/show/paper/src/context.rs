@@ -3,8 +3,8 @@
 use super::fault::Fault;
 use super::kept::Kept;
 use motiform_analysis::{Estimate, Lyapunov, Verdict};
-use motiform_dynamics::Watch;
-use motiform_dynamics::{Outcome, StopOnly};
+use motiform_diagrams::Branches;
+use motiform_dynamics::{Outcome, StopOnly, Watch};
 use motiform_figures::report::{Claim, ReportFigure, Verdict as Judged};
 use motiform_figures::{Drawn, Figure, Style};
 use motiform_lab::analyse;
@@ -13,8 +13,9 @@ use motiform_lab::pool;
 use motiform_lab::saddle::{Saddle, saddle};
 use motiform_lab::scan::{CellSummary, Classify, Opening, Scan, Shard, cells};
 use motiform_lab::simulate::simulate;
-use motiform_study::{Dataset, Error, Random, RunPlan, ScanPlan, Study, presets};
+use motiform_study::{BranchPlan, Dataset, Error, Random, RunPlan, ScanPlan, Study, presets};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The settings of a chapter.
@@ -126,6 +127,15 @@ impl Context<'_> {
         let estimates = found.exponent.iter_mut().chain(&mut found.rate);
         estimates.for_each(|estimate| self.changed(estimate, |fault| fault.estimate));
         Ok(found)
+    }
+
+    /// The branches of a plan, to their ends.
+    pub(crate) fn follow(&self, plan: &BranchPlan) -> Result<Arc<Branches>, Error> {
+        let follow = || {
+            let found = motiform_diagrams::follow(plan, None, &self.quiet())?;
+            if found.complete { Ok(Arc::new(found)) } else { Err(Error::Interrupted) }
+        };
+        self.kept.once(&format!("branches {}", plan.hash()), follow)
     }
 
     /// A number on its way to a claim.

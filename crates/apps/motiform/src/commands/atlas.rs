@@ -57,16 +57,13 @@ fn compute(
         let done = if stage.even { "done" } else { "of the boundaries named" };
         watch.stage(&stage.name, stage.share, (done, stage.even));
     };
-    let grid = survey(plan, threads, files, (&watch, &named));
-    let lines = match grid {
-        Ok(Some(grid)) => {
-            let lines = trace(plan, &grid, threads, files, (&watch, &named));
-            lines.map(|lines| lines.map(|lines| (grid, lines)))
-        }
-        other => other.map(|_| None),
-    };
+    let found = survey(plan, threads, files, (&watch, &named)).and_then(|grid| {
+        let Some(grid) = grid else { return Ok(None) };
+        let lines = trace(plan, &grid, threads, files, (&watch, &named))?;
+        Ok(lines.map(|lines| (grid, lines)))
+    });
     watch.finish();
-    lines
+    found
 }
 
 /// The study that the options describe.

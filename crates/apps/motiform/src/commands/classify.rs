@@ -22,10 +22,8 @@ pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
     if let Some(samples) = samples {
         return many(options, &plan, samples, budget);
     }
-    let watch = Progress::staged(1);
-    watch.stage("the motion", [0.0, 1.0], ("of the budget of model time spent", false));
-    let verdict = analyse::classify(&plan, budget, &watch);
-    watch.finish();
+    let watch = Progress::of_stage("the motion", "of the budget of model time spent");
+    let verdict = watch.over(|watch| analyse::classify(&plan, budget, watch));
     let Some(verdict) = verdict? else { return Ok(End::Interrupted) };
     say(&Classified::new(&plan, &verdict), options.motion.json)?;
     advise(&plan, budget, std::slice::from_ref(&verdict))?;
@@ -35,13 +33,10 @@ pub(crate) fn run(options: &ClassifyOptions) -> anyhow::Result<End> {
 /// `--samples`: the motions that many initial states lead to.
 fn many(options: &ClassifyOptions, plan: &Plan, samples: Samples, budget: f64) -> anyhow::Result<End> {
     let watch = Progress::new(samples.count as f64, "initial states");
-    let verdicts = samples::classify(plan, samples, budget, &watch);
-    watch.finish();
+    let verdicts = watch.over(|watch| samples::classify(plan, samples, budget, watch));
     let Some(verdicts) = verdicts? else { return Ok(End::Interrupted) };
     let watch = Progress::new(samples.count as f64, "chaotic starts");
-    let escapes = Escapes::of_verdicts(plan, samples, &verdicts, budget, &watch);
-    watch.finish();
-    let escapes = escapes?;
+    let escapes = watch.over(|watch| Escapes::of_verdicts(plan, samples, &verdicts, budget, watch))?;
     let basins = Basins::new(&samples, &verdicts);
     say(&Motions::new(plan, &verdicts, &basins, escapes.as_ref()), options.motion.json)?;
     advise(plan, budget, &verdicts)?;

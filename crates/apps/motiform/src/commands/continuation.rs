@@ -44,12 +44,10 @@ pub(super) fn no_units(of: &str) -> Error {
 fn branches(options: &ContinueOptions, plan: BranchPlan, units: &Shown) -> anyhow::Result<End> {
     let out = output(options, plan.default_folder());
     let (files, before) = prepare(options, out, |path, opening| BranchFolder::open(path, &plan, opening))?;
-    let watch = Progress::staged(1);
-    watch.stage("branches", [0.0, 1.0], ("of those known so far", false));
+    let watch = Progress::of_stage("branches", "of those known so far");
     let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| BranchFolder::keep(found, folder));
     let journal: &dyn Journal = files.as_ref().map_or(&(), |folder| folder);
-    let found = follow_kept(&plan, before, (&mut keep, journal), &watch);
-    watch.finish();
+    let found = watch.over(|watch| follow_kept(&plan, before, (&mut keep, journal), watch));
     let (files, found) = or_abandon(files, found)?;
     let folder = BranchFolder { plan, found };
     let ordinate = options.observable.ordinate();

@@ -23,11 +23,9 @@ pub(crate) fn run(options: &ContinueOptions, plan: &CurvePlan) -> anyhow::Result
     }
     let out = output(options, plan.default_folder());
     let (files, before) = prepare(options, out, |path, opening| CurveFolder::open(path, plan, opening))?;
-    let watch = Progress::staged(1);
-    watch.stage("branches and curves", [0.0, 1.0], ("of those known so far", false));
+    let watch = Progress::of_stage("branches and curves", "of those known so far");
     let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| CurveFolder::keep(found, folder));
-    let found = follow_curves_kept(plan, before, &mut keep, &watch);
-    watch.finish();
+    let found = watch.over(|watch| follow_curves_kept(plan, before, &mut keep, watch));
     let (files, found) = or_abandon(files, found)?;
     let folder = CurveFolder { plan: plan.clone(), found };
     let drawn = || curve_figures(&folder.plan, &folder.found, over.as_ref());

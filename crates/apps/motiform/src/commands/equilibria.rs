@@ -11,8 +11,7 @@ use motiform_study::RunPlan;
 pub(crate) fn run(options: &EquilibriaOptions) -> anyhow::Result<End> {
     let plan = RunPlan::new(&subject::motion(&options.motion)?)?;
     let watch = Progress::new(f64::from(options.starts), "starts");
-    let found = equilibria(&plan, options.starts as usize, &watch);
-    watch.finish();
+    let found = watch.over(|watch| equilibria(&plan, options.starts as usize, watch));
     let Some(found) = found? else { return Ok(End::Interrupted) };
     say(&SteadyMotions::new(&plan, &found), options.motion.json)?;
     Ok(End::Done)

@@ -105,14 +105,11 @@ fn compute(
     let threads = options.threads.count();
     let left = work.as_ref().map_or(cells.len(), |work| work.left());
     let (total, unit) = if options.together { (100.0, "%") } else { (left as f64, "cells") };
-    let watch = Progress::new(total, unit);
-    let found = match work {
-        Some(work) => work.run(cells, threads, &watch),
-        None if options.together => or_none(fit_together(cells, settings, &watch)).map(|fit| vec![fit]),
-        None => fit_cells(cells, settings, threads, &watch),
-    };
-    watch.finish();
-    found
+    Progress::new(total, unit).over(|watch| match work {
+        Some(work) => work.run(cells, threads, watch),
+        None if options.together => or_none(fit_together(cells, settings, watch)).map(|fit| vec![fit]),
+        None => fit_cells(cells, settings, threads, watch),
+    })
 }
 
 /// The results that were not interrupted.

@@ -31,8 +31,7 @@ pub(crate) fn run(options: &LifetimesOptions) -> anyhow::Result<End> {
     let threads = options.threads.count();
     let watch = Progress::new(plan.rows() as f64, "orbits");
     let kept = |lives: &Lives| files.as_ref().map_or(Ok(()), |files| keep(files, lives));
-    let lives = follow_lives_kept(&plan, before, threads, &kept, &watch);
-    watch.finish();
+    let lives = watch.over(|watch| follow_lives_kept(&plan, before, threads, &kept, watch));
     let lives = match lives {
         Ok(lives) => lives,
         Err(error) => {

@@ -40,9 +40,8 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let look = plan.look()?;
     let total = options.transient.unwrap_or(4.0 * look) + options.t_end.unwrap_or(20.0 * look);
     let watch = Progress::new(total, "model time");
-    let found = analyse::lyapunov(&plan, count, (options.transient, options.t_end), &watch);
-    watch.finish();
-    let found = found?;
+    let spans = (options.transient, options.t_end);
+    let found = watch.over(|watch| analyse::lyapunov(&plan, count, spans, watch))?;
     say(&Exponents::new(&plan, &found)?, options.motion.json)?;
     Ok(if found.without_error().is_some() { End::NotAsAsked } else { End::from(&found.outcome) })
 }
@@ -50,8 +49,8 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
 /// `--samples`: the exponents of many orbits.
 fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) -> anyhow::Result<End> {
     let watch = Progress::new(samples.count as f64, "orbits");
-    let found = samples::lyapunov(plan, samples, count, (options.transient, options.t_end), &watch);
-    watch.finish();
+    let spans = (options.transient, options.t_end);
+    let found = watch.over(|watch| samples::lyapunov(plan, samples, count, spans, watch));
     let Some(found) = found? else { return Ok(End::Interrupted) };
     let (starts, escapes) = (Starts::of(&samples), Escapes::of_orbits(plan, &found.orbits)?);
     let answer = MeanExponents::new(plan, &found, &starts, escapes.as_ref());
@@ -62,9 +61,8 @@ fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) 
 /// `--saddle`: the exponent of transient chaos.
 fn saddle(options: &LyapunovOptions, plan: &Plan, runs: (usize, Random)) -> anyhow::Result<End> {
     let watch = Progress::new(runs.0 as f64, "runs");
-    let threads = all_cores();
-    let found = find_saddle(plan, runs, (options.transient, options.t_end), threads, &watch);
-    watch.finish();
+    let spans = (options.transient, options.t_end);
+    let found = watch.over(|watch| find_saddle(plan, runs, spans, all_cores(), watch));
     let Some(found) = found? else { return Ok(End::Interrupted) };
     say(&found, options.motion.json)?;
     Ok(if found.is_one() { End::Done } else { End::NotAsAsked })

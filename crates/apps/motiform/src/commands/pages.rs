@@ -28,12 +28,10 @@ pub(crate) fn draw(
     };
     let cases: Vec<Case<'_>> = cells.iter().copied().zip(observations).map(case).collect();
     let common = if together { fits.first() } else { None };
-    let watch = Progress::new(cells.len() as f64, "pages");
-    let made = match watch.stopped() {
+    let made = Progress::new(cells.len() as f64, "pages").over(|watch| match watch.stopped() {
         true => Ok(false),
-        false => pages(sample, (&cases, common), (threads, format), &watch, write),
-    };
-    watch.finish();
+        false => pages(sample, (&cases, common), (threads, format), watch, write),
+    });
     match made {
         Ok(true) => Ok(true),
         Ok(false) | Err(Error::Interrupted) => {

@@ -32,13 +32,8 @@ pub(crate) fn run(options: &ReproduceOptions) -> anyhow::Result<End> {
     files.notes().iter().for_each(|note| warn(note));
     let watch = Progress::new(1000.0, "permille");
     let page = |report: &Report| Ok(files.put(PAGE, report.html().as_bytes())?);
-    let report = reproduce_kept(
-        &wanted,
-        out,
-        Keeping { journal: &files, page: &page, kept: &Kept::default() },
-        &watch,
-    );
-    watch.finish();
+    let keeping = Keeping { journal: &files, page: &page, kept: &Kept::default() };
+    let report = watch.over(|watch| reproduce_kept(&wanted, out, keeping, watch));
     let report = match report {
         Err(Error::Interrupted) => {
             files.settle()?;

@@ -26,9 +26,7 @@ pub(crate) fn run(options: &ScanOptions) -> anyhow::Result<End> {
     }
     let left = scan.cells_left();
     let watch = Progress::new(left as f64, "cells");
-    let ended = scan.run(&Classify, options.threads.count(), &watch);
-    watch.finish();
-    let ended = ended?;
+    let ended = watch.over(|watch| scan.run(&Classify, options.threads.count(), watch))?;
     if !options.no_figures {
         let pictures = files(scan_figures(scan.folder(), &units)?, false, &options.style.format())?;
         scan.draw(pictures.iter().map(|picture| (picture.name.as_str(), picture.bytes.as_slice())))?;

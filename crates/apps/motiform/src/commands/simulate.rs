@@ -31,11 +31,10 @@ pub(crate) fn run(options: &SimulateOptions) -> anyhow::Result<End> {
     let c = &plan.computation;
     let watch = Progress::new(c.transient + c.t_end, "model time");
     let mut rows = target.rows(options, &plan)?;
-    let run = simulate_into(&plan, rows.as_mut(), &watch)
-        .map_err(|error| target.shown(error))
-        .and_then(|run| Ok((naming::name(&run.manifest, &watch)?, run)));
-    watch.finish();
-    let (verdict, mut run) = run?;
+    let (verdict, mut run) = watch.over(|watch| {
+        let run = simulate_into(&plan, rows.as_mut(), watch).map_err(|error| target.shown(error))?;
+        Ok::<_, Error>((naming::name(&run.manifest, watch)?, run))
+    })?;
     run.manifest.regime = verdict.as_ref().map(|verdict| verdict.regime.name().to_owned());
     let whole = rows.finish(&run.manifest).map_err(|error| target.shown(error))?;
     let (written, undrawn) = target.write(options, &run, whole)?;

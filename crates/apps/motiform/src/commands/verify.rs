@@ -10,8 +10,7 @@ use std::path::Path;
 
 pub(crate) fn run(options: &VerifyOptions) -> anyhow::Result<End> {
     let watch = Progress::new(1.0, "of the numbers");
-    let found = Verification::of(&options.folder, options.all, &watch);
-    watch.finish();
+    let found = watch.over(|watch| Verification::of(&options.folder, options.all, watch));
     let Some(found) = found? else { return Ok(End::Interrupted) };
     say(&Verified { folder: &options.folder, found: &found }, options.json)?;
     Ok(if found.is_intact() { End::Done } else { End::NotAsAsked })

@@ -1,5 +1,6 @@
 //! Do neighbouring orbits separate exponentially? The largest exponent, pooled over looks, and what the returns say.
 
+use super::case::Case;
 use super::growth::{Growth, Pooled, pooled};
 use super::look::Look;
 use super::returns;
@@ -9,7 +10,6 @@ use super::words::lasting;
 use crate::lyapunov::{GROWN, Lyapunov, LyapunovSettings, SECULAR, lyapunov, separates};
 use crate::{Estimate, Result, escape_limits};
 use motiform_dynamics::digits::value_and_error;
-use motiform_dynamics::{Equivariant, Watch};
 
 /// K of the 0-1 test below this speaks for order.
 const ORDER: f64 = 0.3;
@@ -18,14 +18,8 @@ const ORDER: f64 = 0.3;
 const DOUBT: f64 = 1.3;
 
 /// The largest exponent over `span`, after a fifth of it for the vector to turn its way.
-pub(super) fn exponent(
-    body: &dyn Equivariant,
-    shape: &[f64],
-    span: f64,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Result<Lyapunov> {
-    lyapunov(body, shape, &exponent_settings(settings, span), watch)
+pub(super) fn exponent(case: Case<'_>, shape: &[f64], span: f64) -> Result<Lyapunov> {
+    lyapunov(case.body, shape, &exponent_settings(case.settings, span), case.watch)
 }
 
 /// The settings of that run.

@@ -11,6 +11,7 @@
 //! If nothing is decided the next look is twice as long, until the budget is spent. A look ends early where question 2 is answered.
 
 use super::ask::Ask;
+use super::case::Case;
 use super::chaos;
 use super::look::{Look, Seen};
 use super::search::Search;
@@ -55,7 +56,7 @@ pub fn settle(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Result<Option<(Verdict, Vec<f64>)>> {
-    let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, start)?;
+    let mut orbit = Case { body, settings, watch }.orbit(start)?;
     let (mut search, mut ask) = Search::new(settings, start);
     loop {
         ask = match ask {
@@ -67,7 +68,8 @@ pub fn settle(
                 search.looked(body, look, &StopOnly(watch))?
             }
             Ask::Exponent(span) => {
-                let run = chaos::exponent(body, orbit.state(), span, settings, &search.part(span, watch))?;
+                let case = Case { body, settings, watch: &search.part(span, watch) };
+                let run = chaos::exponent(case, orbit.state(), span)?;
                 orbit.restart(&run.shape);
                 search.measured(body, &run, &StopOnly(watch))?
             }

@@ -5,14 +5,14 @@
 //! the same on all of its members. (For equilibria: [`crate::RelativeEquilibrium::across_family`].) The orbits around a centre are no such
 //! family: they differ in size, period or speed, and a disturbance changes what the body does for good.
 
-use super::settings::Settings;
+use super::case::Case;
 use crate::equilibrium::along_group_and_flow;
 use crate::linear::{add, basis, dot, norm};
 use crate::lyapunov::SplitMix;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
+use motiform_dynamics::VectorField;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::model::velocity;
-use motiform_dynamics::{Equivariant, Request, VectorField, Watch};
 
 /// Neighbouring orbits are looked for at this distance, against the size of the shape,
 const BESIDE: f64 = 1e-3;
@@ -34,12 +34,11 @@ const MOMENTS: usize = 256;
 /// Newton's method takes the smallest step to an orbit: from a shape beside an orbit of a family it goes to another one of them, and back
 /// to an orbit that is alone. The family must have as many dimensions as there are multipliers 1, and its members must do the same.
 pub(super) fn within_family(
-    body: &dyn Equivariant,
+    case: Case<'_>,
     orbit: &PeriodicOrbit,
-    settings: &Settings,
     effort: &mut f64,
-    watch: &dyn Watch,
 ) -> Option<PeriodicOrbit> {
+    let Case { body, settings, watch } = case;
     let neutral = |(m, error): (&(f64, f64), &f64)| libm::hypot(m.0 - 1.0, m.1) <= *error;
     let free: Vec<bool> = orbit.multipliers.iter().zip(&orbit.errors).map(neutral).collect();
     let count = free.iter().filter(|&&free| free).count();
@@ -50,7 +49,7 @@ pub(super) fn within_family(
     let own = along_group_and_flow(body, &orbit.shape);
     let mut random = SplitMix(3);
     let mut found: Vec<Vec<f64>> = Vec::new();
-    let done = Done::of(body, orbit, settings, watch)?;
+    let done = Done::of(case, orbit)?;
     for _ in 0..count {
         let mut beside: Vec<f64> = orbit.shape.iter().map(|_| random.next()).collect();
         let factor = BESIDE * size / norm(&beside);
@@ -58,9 +57,7 @@ pub(super) fn within_family(
         let PeriodicOrbit { time, angle, mirrored, .. } = *orbit;
         let guess = PeriodicGuess { shape: &beside, time, angle, mirrored };
         let other = PeriodicOrbit::find_within(body, &guess, &settings.flow(), effort, watch)?;
-        let same = |far: f64| {
-            Done::of(body, &other, settings, watch).is_some_and(|other| done.differs(&other) <= ALIKE * far)
-        };
+        let same = |far: f64| Done::of(case, &other).is_some_and(|other| done.differs(&other) <= ALIKE * far);
         let mut away = other.shape.clone();
         add(&mut away, -1.0, &orbit.shape);
         for direction in &own {
@@ -88,18 +85,13 @@ struct Done([f64; 3]);
 
 impl Done {
     /// The period, and the means of the squares of the speed and of the rate of the shape.
-    fn of(
-        body: &dyn Equivariant,
-        orbit: &PeriodicOrbit,
-        settings: &Settings,
-        watch: &dyn Watch,
-    ) -> Option<Self> {
-        let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
+    fn of(case: Case<'_>, orbit: &PeriodicOrbit) -> Option<Self> {
+        let (body, mut flow) = (case.body, case.orbit(&orbit.shape).ok()?);
         let mut rate = vec![0.0; body.dim()];
         let (mut speed, mut change) = (0.0, 0.0);
         for moment in 1..=MOMENTS {
             let t = orbit.time * moment as f64 / MOMENTS as f64;
-            drive(flow.as_mut(), &Request { watch, ..settings.request(t, body.dim()) }, &mut ()).ok()?;
+            drive(flow.as_mut(), &case.request(t), &mut ()).ok()?;
             let [x, y] = velocity(body, flow.state());
             VectorField::<f64>::eval(body, 0.0, flow.state(), &mut rate);
             speed += (x * x + y * y) / MOMENTS as f64;

@@ -4,13 +4,12 @@
 //! is not far above them says nothing. In systems that are followed in all directions such exponents are
 //! those of the parts of the period; in larger ones the leading exponents are computed.
 
-use super::settings::Settings;
+use super::case::Case;
 use crate::Estimate;
 use crate::equilibrium::along_group_and_flow;
 use crate::leading::leading_exponents;
 use crate::multiple_shooting::all_exponents;
 use crate::periodic::{PeriodicOrbit, is_whole};
-use motiform_dynamics::{Equivariant, Watch};
 
 /// Relative error of a multiplier from which on the parts of the period are asked.
 const UNRESOLVED: f64 = 1e-3;
@@ -30,12 +29,8 @@ pub(super) struct Exponents {
 
 /// The exponents of an orbit, and its largest multiplier: in large systems that of the leading exponent, whose directions are followed
 /// until they are the leading ones.
-pub(super) fn exponents(
-    body: &dyn Equivariant,
-    orbit: &PeriodicOrbit,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Exponents {
+pub(super) fn exponents(case: Case<'_>, orbit: &PeriodicOrbit) -> Exponents {
+    let Case { body, settings, watch } = case;
     let (accuracy, time) = (settings.accuracy(), orbit.time);
     let neutral = along_group_and_flow(body, &orbit.shape).len();
     let mut all = vec![Estimate { value: 0.0, error: accuracy / time }; neutral];

@@ -6,16 +6,16 @@
 //! torus those of a smooth function, smoothly weighted, converge faster than any power of the time; those of
 //! returns need not, for the number of extremes per turn may change along the torus.
 
+use super::case::Case;
 use super::chaos::stated;
 use super::look::Look;
 use super::returns;
-use super::settings::Settings;
 use super::verdict::Verdict;
 use super::words::lasting;
 use crate::Estimate;
 use crate::gauge::Gauge;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, Request, Sink, Watch};
+use motiform_dynamics::{Request, Sink};
 
 /// Parts of a run whose mean values are compared.
 const PARTS: usize = 8;
@@ -49,19 +49,13 @@ pub(super) struct Change {
 impl Change {
     /// Over a run from `shape` that is as long as the look; `None` where it ends early, or has too few
     /// returns. The width of the returns is that of the look.
-    pub(super) fn along(
-        body: &dyn Equivariant,
-        shape: &[f64],
-        look: &Look,
-        settings: &Settings,
-        watch: &dyn Watch,
-    ) -> Option<Self> {
+    pub(super) fn along(case: Case<'_>, shape: &[f64], look: &Look) -> Option<Self> {
         let minima = look.minima();
         let time = look.end - look.start;
         let every = time / (SAMPLES * minima.len() as f64).min(MOST_SAMPLES);
-        let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, shape).ok()?;
-        let request = Request { sample_every: Some(every), watch, ..settings.request(time, body.dim()) };
-        let mut sizes = Sizes { gauge: Gauge::of(body), values: Vec::new() };
+        let mut orbit = case.orbit(shape).ok()?;
+        let request = Request { sample_every: Some(every), ..case.request(time) };
+        let mut sizes = Sizes { gauge: Gauge::of(case.body), values: Vec::new() };
         let outcome = drive(orbit.as_mut(), &request, &mut sizes).ok()?;
         outcome.is_complete().then(|| Self::of(&sizes.values, returns::width(&minima), time)).flatten()
     }

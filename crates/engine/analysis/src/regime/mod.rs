@@ -1,6 +1,7 @@
 //! The classification of a motion, with its evidence.
 
 mod ask;
+mod case;
 mod chaos;
 mod classify;
 mod course;

@@ -1,13 +1,13 @@
 //! Shapes of a periodic orbit at moments that are spread over its period.
 
+use super::case::Case;
 use super::place::{BESIDE, displaced};
-use super::settings::Settings;
 use crate::isotropy::Isotropy;
 use crate::linear::norm;
 use crate::periodic::PeriodicOrbit;
 use crate::symmetry::align;
+use motiform_dynamics::Equivariant;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, Request, Watch};
 
 /// Moments of a period.
 const MOMENTS: usize = 8;
@@ -15,13 +15,11 @@ const MOMENTS: usize = 8;
 /// The symmetry that every shape of the orbit has: that of some moments, spread over the period. (A zigzag
 /// that rests near a straight motion is nearly symmetric there, and only there.)
 pub(super) fn symmetry_of(
-    body: &dyn Equivariant,
+    case: Case<'_>,
     orbit: &PeriodicOrbit,
-    settings: &Settings,
-    watch: &dyn Watch,
 ) -> Result<Isotropy, motiform_dynamics::Error> {
-    let shapes = moments(body, orbit, settings, watch)?;
-    Ok(common_symmetry(body, std::iter::once(&orbit.shape).chain(&shapes)))
+    let shapes = moments(case, orbit)?;
+    Ok(common_symmetry(case.body, std::iter::once(&orbit.shape).chain(&shapes)))
 }
 
 /// The symmetry that every one of these shapes has.
@@ -39,17 +37,12 @@ pub(super) fn common_symmetry<'s>(
 }
 
 /// Shapes at moments that are spread over the period, after the first one.
-fn moments(
-    body: &dyn Equivariant,
-    orbit: &PeriodicOrbit,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Result<Vec<Vec<f64>>, motiform_dynamics::Error> {
-    let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape)?;
+fn moments(case: Case<'_>, orbit: &PeriodicOrbit) -> Result<Vec<Vec<f64>>, motiform_dynamics::Error> {
+    let mut flow = case.orbit(&orbit.shape)?;
     (1..MOMENTS)
         .map(|moment| {
             let t = orbit.time * moment as f64 / MOMENTS as f64;
-            drive(flow.as_mut(), &Request { watch, ..settings.request(t, body.dim()) }, &mut ())?;
+            drive(flow.as_mut(), &case.request(t), &mut ())?;
             Ok(flow.state().to_vec())
         })
         .collect()
@@ -58,13 +51,8 @@ fn moments(
 /// Returns `true` if the orbit is an equilibrium within its errors: those of the steps, which swing, too, and that of its own place. A
 /// spiral into an equilibrium nearly comes back to its section; where it shrinks slowly, the residual of a turn is small against the shape,
 /// and not against the spiral.
-pub(super) fn is_a_point(
-    body: &dyn Equivariant,
-    orbit: &PeriodicOrbit,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> bool {
-    let least = (settings.hovering() * norm(&orbit.shape)).max(BESIDE * displaced(orbit));
-    let near = |shape: &Vec<f64>| align(body, shape, &orbit.shape, false).distance <= least;
-    moments(body, orbit, settings, watch).is_ok_and(|shapes| shapes.iter().all(near))
+pub(super) fn is_a_point(case: Case<'_>, orbit: &PeriodicOrbit) -> bool {
+    let least = (case.settings.hovering() * norm(&orbit.shape)).max(BESIDE * displaced(orbit));
+    let near = |shape: &Vec<f64>| align(case.body, shape, &orbit.shape, false).distance <= least;
+    moments(case, orbit).is_ok_and(|shapes| shapes.iter().all(near))
 }

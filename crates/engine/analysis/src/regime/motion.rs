@@ -1,13 +1,13 @@
 //! The motion of the centre of mass while the shape moves: speed, heading, drift.
 
-use super::settings::Settings;
+use super::case::Case;
 use super::verdict::Spread;
 use crate::linear::norm;
 use crate::symmetry::wrap;
 use crate::{Estimate, series_mean};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::model::velocity;
-use motiform_dynamics::{Equivariant, Request, Sink, Watch};
+use motiform_dynamics::{Equivariant, Request, Sink};
 
 /// Speeds below this part of the size of the shape are round-off, where the velocity is an unknown.
 const STILL: f64 = 1e-12;
@@ -33,18 +33,16 @@ pub(super) struct Path {
 impl Path {
     /// The path from `shape` for `time`, in `steps` steps; shorter where the run ends early, by `stop` for one, or a velocity is undefined.
     pub(super) fn follow(
-        body: &dyn Equivariant,
+        case: Case<'_>,
         shape: &[f64],
         time: f64,
         steps: usize,
-        settings: &Settings,
-        watch: &dyn Watch,
     ) -> Result<Self, motiform_dynamics::Error> {
+        let Case { body, settings, .. } = case;
         let errors = [settings.atol(), settings.flow().closed()];
         let mut sampler = Sampler { body, errors, path: Self::empty() };
-        let mut orbit = settings.method.shape_orbit(body, settings.control, 0.0, shape)?;
-        let request =
-            Request { sample_every: Some(time / steps as f64), watch, ..settings.request(time, shape.len()) };
+        let mut orbit = case.orbit(shape)?;
+        let request = Request { sample_every: Some(time / steps as f64), ..case.request(time) };
         drive(orbit.as_mut(), &request, &mut sampler)?;
         let mut path = sampler.path;
         let defined = path.velocities.iter().take_while(|v| v.iter().all(|x| x.is_finite())).count();

@@ -1,16 +1,16 @@
 //! Does the shape come back? Recurrences of the reduced orbit, polished by Newton's method.
 
+use super::case::Case;
 use super::family::within_family;
 use super::heteroclinic::attracting_saddle;
 use super::look::{Extreme, Look, Rest};
 use super::moments::is_a_point;
 use super::place::find_placed;
-use super::settings::Settings;
 use super::shortest::shortest;
 use crate::isotropy::Isotropy;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit, is_small};
 use crate::symmetry::{align, wrap};
-use motiform_dynamics::{Equivariant, Watch};
+use motiform_dynamics::Equivariant;
 
 /// Most returns to the section per period.
 const LONGEST: usize = 48;
@@ -102,13 +102,8 @@ pub(super) enum Returns {
 ///
 /// In a large system a recurrence that passes a saddle by which cycles attract is not tried: what Newton's method might find would be
 /// an orbit of the tolerance ([`is_of_the_flow`]), after tangent vectors have grown by `e^(lambda_+ T)` in a rest of length T.
-pub(super) fn periodic(
-    body: &dyn Equivariant,
-    look: &Look,
-    rests: &[Rest],
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Returns {
+pub(super) fn periodic(case: Case<'_>, look: &Look, rests: &[Rest]) -> Returns {
+    let Case { body, settings, watch } = case;
     let minima = look.minima();
     let diameter = look.diameter(body);
     let Some(last) = minima.last() else { return Returns::None };
@@ -134,15 +129,14 @@ pub(super) fn periodic(
         };
         // Against the latest swing: an equilibrium, approached in a spiral, is a periodic orbit of no size.
         let away = align(body, &orbit.shape, &last.shape, false).distance / swing;
-        let orbit = resolved(body, orbit, settings, &mut effort, watch);
+        let orbit = resolved(case, orbit, &mut effort);
         if away < ON && !orbit.is_stable() {
             return Returns::NotStable(Box::new(orbit));
         }
-        let is_orbit =
-            || is_of_the_flow(body, &orbit, settings, watch) && !is_a_point(body, &orbit, settings, watch);
+        let is_orbit = || is_of_the_flow(case, &orbit) && !is_a_point(case, &orbit);
         if orbit.is_stable() && away < NEAR && is_orbit() {
-            let (orbit, recurrence) = shortest(body, orbit, recurrence, settings, watch);
-            let (orbit, recurrence) = unmirrored(body, orbit, recurrence, settings, watch);
+            let (orbit, recurrence) = shortest(case, orbit, recurrence);
+            let (orbit, recurrence) = unmirrored(case, orbit, recurrence);
             return Returns::Stable(Box::new(orbit), recurrence);
         }
     }
@@ -154,16 +148,10 @@ const DECIDING: f64 = 1e-3;
 
 /// The orbit in a tighter tolerance, where at this one its multipliers do not say whether it is stable, or its size is not known beyond the
 /// error of its place; or without the neutral multipliers of a family that it lies in.
-fn resolved(
-    body: &dyn Equivariant,
-    orbit: PeriodicOrbit,
-    settings: &Settings,
-    effort: &mut f64,
-    watch: &dyn Watch,
-) -> PeriodicOrbit {
-    let decided = |orbit: &PeriodicOrbit| {
-        (orbit.is_stable() || orbit.is_unstable()) && !is_a_point(body, orbit, settings, watch)
-    };
+fn resolved(case: Case<'_>, orbit: PeriodicOrbit, effort: &mut f64) -> PeriodicOrbit {
+    let Case { body, settings, watch } = case;
+    let decided =
+        |orbit: &PeriodicOrbit| (orbit.is_stable() || orbit.is_unstable()) && !is_a_point(case, orbit);
     if decided(&orbit) {
         return orbit;
     }
@@ -173,7 +161,7 @@ fn resolved(
     let tighter = flow.and_then(|flow| find_placed(body, &guess, &flow, effort, watch));
     match tighter.filter(decided) {
         Some(tighter) => tighter,
-        None => within_family(body, &orbit, settings, effort, watch).unwrap_or(orbit),
+        None => within_family(case, &orbit, effort).unwrap_or(orbit),
     }
 }
 
@@ -191,20 +179,13 @@ pub(super) fn passes_attracting_saddle(
 
 /// An orbit that is mirror symmetric at every moment is its own mirror image after any time: its period ends when the shape comes
 /// back as it was, not mirrored.
-fn unmirrored(
-    body: &dyn Equivariant,
-    orbit: PeriodicOrbit,
-    recurrence: Recurrence,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> (PeriodicOrbit, Recurrence) {
-    let axis = Isotropy::of(body, &orbit.shape, Isotropy::SAME).mirror;
+fn unmirrored(case: Case<'_>, orbit: PeriodicOrbit, recurrence: Recurrence) -> (PeriodicOrbit, Recurrence) {
+    let axis = Isotropy::of(case.body, &orbit.shape, Isotropy::SAME).mirror;
     let Some(axis) = axis.filter(|_| orbit.mirrored) else { return (orbit, recurrence) };
     // M u = R(-axis) u, so R(angle) M u = R(angle - axis) u
     let angle = wrap(orbit.angle - axis);
     let guess = PeriodicGuess { shape: &orbit.shape, time: orbit.time, angle, mirrored: false };
-    let mut effort = f64::INFINITY;
-    match find_placed(body, &guess, &settings.flow(), &mut effort, watch) {
+    match case.find(&guess) {
         Some(found) => (found, Recurrence { mirrored: false, angle, ..recurrence }),
         None => (orbit, recurrence),
     }
@@ -212,16 +193,7 @@ fn unmirrored(
 
 /// Returns `true` if the orbit is one of the flow, and not of its tolerance: it passes no saddle that
 /// attracts as a cycle does.
-fn is_of_the_flow(
-    body: &dyn Equivariant,
-    orbit: &PeriodicOrbit,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> bool {
-    let Ok(mut flow) = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape) else {
-        return true;
-    };
-    let request = settings.request(orbit.time, body.dim());
-    let Ok(look) = Look::take(body, flow.as_mut(), orbit.time, &request, watch) else { return true };
-    attracting_saddle(body, &look.slowest).is_none()
+fn is_of_the_flow(case: Case<'_>, orbit: &PeriodicOrbit) -> bool {
+    case.look(&orbit.shape, orbit.time)
+        .map_or(true, |look| attracting_saddle(case.body, &look.slowest).is_none())
 }

@@ -1,5 +1,6 @@
 //! The motion of a body on a periodic orbit that is given, stable or not.
 
+use super::case::Case;
 use super::course::Direction;
 use super::form::Form;
 use super::moments::common_symmetry;
@@ -44,10 +45,10 @@ pub fn repeating(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> crate::Result<Repeating> {
+    let case = Case { body, settings, watch };
     let span = orbit.time / nodes.len() as f64;
     let follow = |samples: usize| -> crate::Result<Path> {
-        let part =
-            |node: &Vec<f64>| Path::follow(body, node, span, samples.div_ceil(nodes.len()), settings, watch);
+        let part = |node: &Vec<f64>| Path::follow(case, node, span, samples.div_ceil(nodes.len()));
         let [first, others @ ..] = nodes else {
             return Err(crate::Error::Shape { what: "the list of nodes", expected: 1, got: 0 });
         };

@@ -1,5 +1,6 @@
 //! The resolution of a verdict: the change of an answer in a finer model.
 
+use super::case::Case;
 use super::classify::classify;
 use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Verdict};
@@ -50,13 +51,14 @@ impl Verdict {
         settings: &Settings,
         watch: &dyn Watch,
     ) -> crate::Result<Self> {
+        let case = Case { body: finer, settings, watch };
         let found = match (self.attractor, self.period) {
             (Attractor::Equilibrium, _) => RelativeEquilibrium::find(finer, shape)
                 .map(|found| words::equilibrium(finer, &found, 0.0, 0.0)),
-            (Attractor::Periodic, Some(_)) => self.repeats(finer, shape, settings, watch)?,
+            (Attractor::Periodic, Some(_)) => self.repeats(case, shape)?,
             (Attractor::Heteroclinic, _) => return Ok(self.at_saddle(finer, shape, (parameter, value))),
             (Attractor::Chaotic | Attractor::Torus, _) => {
-                return self.averaged(finer, shape, (parameter, value), settings, watch);
+                return self.averaged(case, shape, (parameter, value));
             }
             _ => return Ok(self),
         };
@@ -101,13 +103,12 @@ impl Verdict {
     /// where the run has no exponent.
     fn averaged(
         mut self,
-        finer: &dyn Equivariant,
+        case: Case<'_>,
         shape: &[f64],
         (parameter, value): (&str, f64),
-        settings: &Settings,
-        watch: &dyn Watch,
     ) -> crate::Result<Self> {
-        let run = chaos::exponent(finer, shape, RUN * settings.first_look, settings, watch)?.bounded();
+        let first_look = case.settings.first_look;
+        let run = chaos::exponent(case, shape, RUN * first_look)?.bounded();
         let (own, found) = (self.exponents.first().copied(), run.exponents.first().copied());
         let (Some(own), Some(found)) = (own, found) else { return Ok(self) };
         if !run.outcome.is_complete() || !found.has_error() {
@@ -119,7 +120,7 @@ impl Verdict {
             return Ok(self.unresolved((parameter, value), &what));
         }
         let mut other = self.clone();
-        words::along(&mut other, finer, &run.shape, settings.first_look, settings, watch)?;
+        words::along(&mut other, case, &run.shape, first_look)?;
         let growth = if self.regime == Regime::Chaotic { (off / own.value).abs() } else { 0.0 };
         let change = self.change(&other).max(growth);
         self.resolution =
@@ -151,17 +152,11 @@ impl Verdict {
     }
 
     /// The verdict on the periodic orbit that Newton's method finds from `shape`, if it is stable.
-    fn repeats(
-        &self,
-        body: &dyn Equivariant,
-        shape: &[f64],
-        settings: &Settings,
-        watch: &dyn Watch,
-    ) -> crate::Result<Option<Self>> {
-        let found = self.orbit(body, shape, &settings.flow(), watch);
+    fn repeats(&self, case: Case<'_>, shape: &[f64]) -> crate::Result<Option<Self>> {
+        let found = self.orbit(case.body, shape, &case.settings.flow(), case.watch);
         let Some(found) = found.filter(PeriodicOrbit::is_stable) else { return Ok(None) };
         let PeriodicOrbit { time, angle, mirrored, .. } = found;
         let recurrence = Recurrence { returns: 1, mirrored, time, angle };
-        words::periodic(body, &found, &recurrence, settings, 0.0, watch).map(Some)
+        words::periodic(case, &found, &recurrence, 0.0).map(Some)
     }
 }

@@ -4,6 +4,7 @@ mod exponent;
 mod on_curve;
 
 use super::ask::Ask;
+use super::case::Case;
 use super::growth::Growth;
 use super::heteroclinic::cycle;
 use super::look::{Look, Rest, Seen};
@@ -142,6 +143,7 @@ impl Search {
         }
         self.time += look.end - look.start;
         self.shape.clone_from(&look.last);
+        let case = Case { body, settings: &{ self.settings }, watch };
         match std::mem::replace(&mut self.pending, Pending::Look) {
             Pending::Approach { found, before, reached, size } => {
                 let after = found.distance(body, &self.shape);
@@ -149,11 +151,11 @@ impl Search {
                     // It may spiral in, or swing by. Nothing else is asked so near to a stable equilibrium: the last
                     // swings of a spiral come back like a small periodic orbit.
                     "the orbit did not come closer to the nearby equilibrium".clone_into(&mut self.missing);
-                    return self.again(body, watch);
+                    return self.again(case);
                 }
                 Ok(words::equilibrium(body, &found, after / size, self.time).into())
             }
-            _ => self.rests(body, look, watch),
+            _ => self.rests(case, look),
         }
     }
 
@@ -174,24 +176,24 @@ impl Search {
     }
 
     /// Is the orbit about to reach a stable relative equilibrium?
-    fn rests(&mut self, body: &dyn Equivariant, look: Look, watch: &dyn Watch) -> Result<Ask> {
+    fn rests(&mut self, case: Case<'_>, look: Look) -> Result<Ask> {
         self.fastest = self.fastest.max(look.fastest);
         self.largest = self.largest.max(look.sizes.1);
         // An orbit that began where it ends up was never fast: what is left of its changes is round-off.
         if look.last_speed > 0.05 * self.fastest && !look.is_still(self.settings.hovering()) {
-            return self.recurs(body, look, watch);
+            return self.recurs(case, look);
         }
         let arrived = self.arrived.take();
-        let Some(found) = arrived.or_else(|| RelativeEquilibrium::find(body, &self.shape)) else {
+        let Some(found) = arrived.or_else(|| RelativeEquilibrium::find(case.body, &self.shape)) else {
             "the size of the shape hardly changes, but no equilibrium was found there"
                 .clone_into(&mut self.missing);
-            return self.recurs(body, look, watch);
+            return self.recurs(case, look);
         };
         let decided = found.is_stable() || found.is_unstable();
-        let family = if decided { None } else { found.across_family(body) };
+        let family = if decided { None } else { found.across_family(case.body) };
         let found = family.filter(RelativeEquilibrium::is_stable).unwrap_or(found);
         let size = norm(&found.shape).max(self.largest);
-        let before = found.distance(body, &self.shape);
+        let before = found.distance(case.body, &self.shape);
         let reached = (self.settings.hovering() * size).max(100.0 * self.settings.atol());
         if !found.is_stable() {
             self.missing = if found.is_unstable() && before > reached {
@@ -204,42 +206,32 @@ impl Search {
                 stated, or the shape bifurcates"
                     .to_owned()
             };
-            return if before > reached {
-                self.recurs(body, look, watch)
-            } else {
-                self.stays(body, look, &found, watch)
-            };
+            return if before > reached { self.recurs(case, look) } else { self.stays(case, look, &found) };
         }
         if before > REACHED * size {
             "the orbit was still on its way to an equilibrium".clone_into(&mut self.missing);
-            return self.recurs(body, look, watch);
+            return self.recurs(case, look);
         }
         if before > reached {
             let wait = (-1.0 / found.growth()).min(self.settings.budget);
             self.pending = Pending::Approach { found: Box::new(found), before, reached, size };
             return Ok(Ask::Look(wait));
         }
-        Ok(words::equilibrium(body, &found, before / size, self.time).into())
+        Ok(words::equilibrium(case.body, &found, before / size, self.time).into())
     }
 
     /// The orbit is at an unstable equilibrium: does it stay there? It is not asked whether neighbouring orbits separate: at a
     /// saddle they do, at its own rate.
-    fn stays(
-        &mut self,
-        body: &dyn Equivariant,
-        mut look: Look,
-        found: &RelativeEquilibrium,
-        watch: &dyn Watch,
-    ) -> Result<Ask> {
+    fn stays(&mut self, case: Case<'_>, mut look: Look, found: &RelativeEquilibrium) -> Result<Ask> {
         let still = look.is_still(self.settings.hovering());
         if self.stay.goes_on(look.end - look.start, still, found.growth()) {
-            if found.holds_what_was_lost(body, &self.start, &self.shape) {
+            if found.holds_what_was_lost(case.body, &self.start, &self.shape) {
                 let why = "the orbit rests at one saddle after the other, the longer the later, until its distance from the next \
                            way out is smaller than every number: an orbit between saddles that is not followed further";
                 let why = why.to_owned();
                 return Ok(Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time).into());
             }
-            return Ok(words::unstable(body, found, self.stay.time(), self.time).into());
+            return Ok(words::unstable(case.body, found, self.stay.time(), self.time).into());
         }
         self.budget = self.budget.max(self.stay.budget(&self.settings, self.time, found.growth()));
         self.remember(&mut look);
@@ -249,12 +241,12 @@ impl Search {
         } else if let Some(rest) = self.rests.last_mut().filter(|rest| !rest.whole) {
             rest.end = look.end;
         }
-        if let Some(cycle) = cycle(body, &self.rests) {
-            let verdict = words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?;
+        if let Some(cycle) = cycle(case.body, &self.rests) {
+            let verdict = words::rectangular(case, &cycle, &self.shape, self.time)?;
             self.shape = cycle.shape;
             return Ok(verdict.into());
         }
-        self.again(body, watch)
+        self.again(case)
     }
 
     /// Keeps the rests of a look. In a look that was still all the time they are those of round-off.
@@ -265,30 +257,28 @@ impl Search {
     }
 
     /// Does it rest near saddles, does its shape come back?
-    fn recurs(&mut self, body: &dyn Equivariant, mut look: Look, watch: &dyn Watch) -> Result<Ask> {
+    fn recurs(&mut self, case: Case<'_>, mut look: Look) -> Result<Ask> {
         self.stay = Stay::default();
         let earlier = self.rests.len();
         self.remember(&mut look);
-        if let Some(cycle) = cycle(body, &self.rests) {
-            let verdict = words::rectangular(body, &cycle, &self.shape, &self.settings, self.time, watch)?;
+        if let Some(cycle) = cycle(case.body, &self.rests) {
+            let verdict = words::rectangular(case, &cycle, &self.shape, self.time)?;
             self.shape = cycle.shape;
             return Ok(verdict.into());
         }
-        match periodic(body, &look, &self.rests[earlier..], &self.settings, watch) {
+        match periodic(case, &look, &self.rests[earlier..]) {
             Returns::Stable(found, recurrence) => {
-                return Ok(
-                    words::periodic(body, &found, &recurrence, &self.settings, self.time, watch)?.into()
-                );
+                return Ok(words::periodic(case, &found, &recurrence, self.time)?.into());
             }
             Returns::NotStable(orbit) => {
                 self.missing = words::not_stable(&orbit);
-                return self.again(body, watch);
+                return self.again(case);
             }
             Returns::None => {}
         }
-        self.repeats.turned(SteadyTurns::of(body, &look));
+        self.repeats.turned(SteadyTurns::of(case.body, &look));
         if self.first || look.is_still(self.settings.hovering()) {
-            return self.again(body, watch);
+            return self.again(case);
         }
         self.pending = Pending::Exponent(Box::new(look));
         Ok(Ask::Exponent(self.span))
@@ -296,7 +286,7 @@ impl Search {
 
     /// Twice as long, or the end of the budget. In a large system, where model time costs most, looks do not grow while an exponent is
     /// nearly decided: it is asked for a little more time, not for as much again.
-    fn again(&mut self, body: &dyn Equivariant, watch: &dyn Watch) -> Result<Ask> {
+    fn again(&mut self, case: Case<'_>) -> Result<Ask> {
         self.first = false;
         // An exponent that is nearly that of chaos gets more time, once: its error shrinks, the limit stays.
         if self.time >= self.budget && !self.extended && chaos::is_near(&self.growth) {
@@ -304,7 +294,7 @@ impl Search {
             self.budget *= 2.0;
         }
         let nearly = chaos::is_near(&self.growth) && chaos::is_long_enough(&self.growth);
-        let longer = if !is_small(body.dim()) && nearly {
+        let longer = if !is_small(case.body.dim()) && nearly {
             self.span.min(NEARLY * self.settings.first_look)
         } else {
             2.0 * self.span
@@ -316,24 +306,18 @@ impl Search {
         }
         if let Some(turns) = self.repeats.turns() {
             let verdict = turns.verdict(self.time);
-            return Ok(self.described(verdict, body, self.span, watch)?.into());
+            return Ok(self.described(verdict, case, self.span)?.into());
         }
         let within =
             repeated.unwrap_or_else(|| format!("within the budget of {}", words::lasting(self.budget)));
         let why = format!("{} {within}", self.missing);
         let verdict = Verdict::new(Regime::Undetermined, Attractor::Unknown, why, self.time);
-        Ok(self.described(verdict, body, self.span, watch)?.into())
+        Ok(self.described(verdict, case, self.span)?.into())
     }
 
-    fn described(
-        &self,
-        mut verdict: Verdict,
-        body: &dyn Equivariant,
-        span: f64,
-        watch: &dyn Watch,
-    ) -> Result<Verdict> {
+    fn described(&self, mut verdict: Verdict, case: Case<'_>, span: f64) -> Result<Verdict> {
         let span = span.min(self.settings.first_look);
-        words::along(&mut verdict, body, &self.shape, span, &self.settings, watch)?;
+        words::along(&mut verdict, case, &self.shape, span)?;
         Ok(verdict)
     }
 }

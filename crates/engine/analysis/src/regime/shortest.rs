@@ -1,13 +1,10 @@
 //! The shortest period of an orbit that came back after some multiple of it.
 
-use super::look::Look;
-use super::place::find_placed;
+use super::case::Case;
 use super::recurrence::Recurrence;
-use super::settings::Settings;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
 use crate::symmetry::align;
 use motiform_dynamics::drive::drive;
-use motiform_dynamics::{Equivariant, Request, Watch};
 
 /// Parts of the period after which the shape may be back already: extremes that a step passes over hide a return, and a shape of constant
 /// size has none at all. More than the returns that are tried ([`super::recurrence`]).
@@ -18,14 +15,12 @@ const NEAR: f64 = 1e-2;
 
 /// The same orbit with its shortest period: more returns than one may have been tried first.
 pub(super) fn shortest(
-    body: &dyn Equivariant,
+    case: Case<'_>,
     orbit: PeriodicOrbit,
     recurrence: Recurrence,
-    settings: &Settings,
-    watch: &dyn Watch,
 ) -> (PeriodicOrbit, Recurrence) {
-    let (orbit, recurrence) = of_fewer_returns(body, orbit, recurrence, settings, watch);
-    match divided(body, &orbit, settings, watch) {
+    let (orbit, recurrence) = of_fewer_returns(case, orbit, recurrence);
+    match divided(case, &orbit) {
         Some((part, parts)) => {
             let returns = (recurrence.returns / parts).max(1);
             let (mirrored, time, angle) = (part.mirrored, part.time, part.angle);
@@ -37,32 +32,27 @@ pub(super) fn shortest(
 
 /// The same orbit, if its shape comes back after fewer returns to the section.
 fn of_fewer_returns(
-    body: &dyn Equivariant,
+    case: Case<'_>,
     orbit: PeriodicOrbit,
     recurrence: Recurrence,
-    settings: &Settings,
-    watch: &dyn Watch,
 ) -> (PeriodicOrbit, Recurrence) {
+    let body = case.body;
     if recurrence.returns == 1 && (recurrence.mirrored || !body.symmetry().mirror) {
         return (orbit, recurrence);
     }
     let found = || -> Option<(PeriodicOrbit, Recurrence)> {
-        let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
-        let request = settings.request(2.2 * orbit.time, body.dim());
-        let look = Look::take(body, flow.as_mut(), 2.2 * orbit.time, &request, watch).ok()?;
+        let look = case.look(&orbit.shape, 2.2 * orbit.time).ok()?;
         let diameter = look.diameter(body);
         let minima = look.minima();
         let (start, later) = minima.split_first()?;
-        let images = if body.symmetry().mirror { &[true, false][..] } else { &[false] };
         for (returns, minimum) in later.iter().enumerate() {
-            for &mirrored in images {
+            for &mirrored in case.images() {
                 let near = align(body, &minimum.shape, &start.shape, mirrored);
                 let time = minimum.t - start.t;
                 let shorter = time < 0.75 * orbit.time || mirrored && !orbit.mirrored;
                 if near.distance < NEAR * diameter && shorter {
                     let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
-                    let mut effort = f64::INFINITY;
-                    let found = find_placed(body, &guess, &settings.flow(), &mut effort, watch)?;
+                    let found = case.find(&guess)?;
                     let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
                     return found.is_stable().then_some((found, recurrence));
                 }
@@ -74,33 +64,24 @@ fn of_fewer_returns(
 }
 
 /// The orbit of a whole fraction of this one's time, if its shape is back after that, and the number of parts.
-fn divided(
-    body: &dyn Equivariant,
-    orbit: &PeriodicOrbit,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Option<(PeriodicOrbit, usize)> {
-    let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
+fn divided(case: Case<'_>, orbit: &PeriodicOrbit) -> Option<(PeriodicOrbit, usize)> {
+    let mut flow = case.orbit(&orbit.shape).ok()?;
     let mut shapes: Vec<(usize, Vec<f64>)> = Vec::new();
     for parts in (2..=PARTS).rev() {
-        let request = Request { watch, ..settings.request(orbit.time / parts as f64, body.dim()) };
-        drive(flow.as_mut(), &request, &mut ()).ok()?;
+        drive(flow.as_mut(), &case.request(orbit.time / parts as f64), &mut ()).ok()?;
         shapes.push((parts, flow.state().to_vec()));
     }
-    let away = |shape: &[f64]| align(body, shape, &orbit.shape, false).distance;
+    let away = |shape: &[f64]| align(case.body, shape, &orbit.shape, false).distance;
     let diameter = shapes.iter().map(|(_, shape)| away(shape)).fold(0.0, f64::max);
-    let images = if body.symmetry().mirror { &[true, false][..] } else { &[false] };
     for (parts, shape) in &shapes {
-        for &mirrored in images {
-            let near = align(body, shape, &orbit.shape, mirrored);
+        for &mirrored in case.images() {
+            let near = align(case.body, shape, &orbit.shape, mirrored);
             if near.distance >= NEAR * diameter {
                 continue;
             }
             let time = orbit.time / *parts as f64;
             let guess = PeriodicGuess { shape: &orbit.shape, time, angle: near.angle, mirrored };
-            let mut effort = f64::INFINITY;
-            let found = find_placed(body, &guess, &settings.flow(), &mut effort, watch);
-            if let Some(found) = found.filter(PeriodicOrbit::is_stable) {
+            if let Some(found) = case.find(&guess).filter(PeriodicOrbit::is_stable) {
                 return Some((found, *parts));
             }
         }

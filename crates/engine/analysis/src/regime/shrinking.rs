@@ -4,18 +4,17 @@
 //! multiplier of the periodic orbit inside is near 1: by a tenth in a look. What they shrink by is compared
 //! with what the multipliers say.
 
+use super::case::Case;
 use super::look::{Extreme, Look};
 use super::moments::is_a_point;
 use super::place::find_placed;
 use super::recurrence::Recurrence;
 use super::returns;
-use super::settings::Settings;
 use super::shortest::shortest;
 use crate::linear::{add, norm};
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
 use crate::symmetry::{align, wrap};
 use motiform_dynamics::distributions::student_quantile;
-use motiform_dynamics::{Equivariant, Watch};
 
 /// Most returns per period of the orbit inside.
 const LONGEST: usize = 8;
@@ -52,41 +51,32 @@ impl Curve {
 /// The stable periodic orbit that the returns of a look shrink onto, at least as fast as its multipliers say,
 /// and its recurrence. `None` where that is not seen: there is none, it is unstable, they stay away from it,
 /// or the look is too short to tell.
-pub(super) fn shrinking_onto(
-    body: &dyn Equivariant,
-    look: &Look,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Option<(PeriodicOrbit, Recurrence)> {
+pub(super) fn shrinking_onto(case: Case<'_>, look: &Look) -> Option<(PeriodicOrbit, Recurrence)> {
     let minima = look.minima();
     let last = &minima[minima.len().saturating_sub(RETURNS.1)..];
     if last.len() < RETURNS.0 {
         return None;
     }
-    let is_orbit = |orbit: &PeriodicOrbit| orbit.is_stable() && !is_a_point(body, orbit, settings, watch);
-    let (orbit, recurrence) = inside(body, last, settings, watch).filter(|(orbit, _)| is_orbit(orbit))?;
-    let centre = minimum_of(body, &orbit, last[last.len() - 1], settings, watch)?;
+    let is_orbit = |orbit: &PeriodicOrbit| orbit.is_stable() && !is_a_point(case, orbit);
+    let (orbit, recurrence) = inside(case, last).filter(|(orbit, _)| is_orbit(orbit))?;
+    let centre = minimum_of(case, &orbit, last[last.len() - 1])?;
     let step = if recurrence.mirrored { 2 * recurrence.returns } else { recurrence.returns };
     let sizes: Vec<(f64, f64)> = last
         .iter()
         .rev()
         .step_by(step)
-        .map(|minimum| (minimum.t, libm::log(align(body, &minimum.shape, &centre, false).distance)))
+        .map(|minimum| (minimum.t, libm::log(align(case.body, &minimum.shape, &centre, false).distance)))
         .collect();
     let (rate, error) = slope(&sizes)?;
     let expected = libm::log(orbit.growth()) / orbit.time;
     // a curve of some size shrinks faster than a small one beside the bifurcation in which a torus arises
     let as_fast = rate - error <= (1.0 - LIKE) * expected;
-    (rate + error < 0.0 && as_fast).then(|| shortest(body, orbit, recurrence, settings, watch))
+    (rate + error < 0.0 && as_fast).then(|| shortest(case, orbit, recurrence))
 }
 
 /// The periodic orbit in the middle of the returns, if Newton's method finds one: from the mean of those shapes that are alike.
-fn inside(
-    body: &dyn Equivariant,
-    minima: &[&Extreme],
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Option<(PeriodicOrbit, Recurrence)> {
+fn inside(case: Case<'_>, minima: &[&Extreme]) -> Option<(PeriodicOrbit, Recurrence)> {
+    let Case { body, settings, watch } = case;
     let images = if body.symmetry().mirror { &[false, true][..] } else { &[false] };
     let pairs = (1..=LONGEST).flat_map(|returns| images.iter().map(move |&mirrored| (returns, mirrored)));
     let apart = |&(returns, mirrored): &(usize, bool)| {
@@ -119,17 +109,9 @@ fn inside(
 }
 
 /// The minimum of the size on the orbit that is nearest to `near`.
-fn minimum_of(
-    body: &dyn Equivariant,
-    orbit: &PeriodicOrbit,
-    near: &Extreme,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Option<Vec<f64>> {
-    let mut flow = settings.method.shape_orbit(body, settings.control, 0.0, &orbit.shape).ok()?;
-    let span = 1.1 * orbit.period();
-    let look = Look::take(body, flow.as_mut(), span, &settings.request(span, body.dim()), watch).ok()?;
-    let away = |minimum: &&&Extreme| align(body, &near.shape, &minimum.shape, false).distance;
+fn minimum_of(case: Case<'_>, orbit: &PeriodicOrbit, near: &Extreme) -> Option<Vec<f64>> {
+    let look = case.look(&orbit.shape, 1.1 * orbit.period()).ok()?;
+    let away = |minimum: &&&Extreme| align(case.body, &near.shape, &minimum.shape, false).distance;
     let minima = look.minima();
     let nearest = minima.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
     (norm(&nearest.shape) > 0.0).then(|| nearest.shape.clone())

@@ -1,5 +1,6 @@
 //! From the kind of reduced orbit to the motion, with its numbers in words.
 
+use super::case::Case;
 use super::course::Direction;
 use super::form::Form;
 use super::heteroclinic::Cycle;
@@ -7,13 +8,12 @@ use super::moments::symmetry_of;
 use super::motion::{CLEAR_TURN, Path};
 use super::period::Period;
 use super::recurrence::Recurrence;
-use super::settings::Settings;
 use super::verdict::{Attractor, Regime, Spread, Verdict};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::periodic::PeriodicOrbit;
 use crate::{Estimate, Result, SteadyMotion};
+use motiform_dynamics::Equivariant;
 use motiform_dynamics::digits::{decimals, six_decimals};
-use motiform_dynamics::{Equivariant, Watch};
 
 /// Samples of a period: enough for the legs of its path.
 pub(super) const SAMPLES: usize = 720;
@@ -116,14 +116,7 @@ pub(super) fn unstable(body: &dyn Equivariant, found: &RelativeEquilibrium, stay
 }
 
 /// A heteroclinic cycle.
-pub(super) fn rectangular(
-    body: &dyn Equivariant,
-    cycle: &Cycle,
-    shape: &[f64],
-    settings: &Settings,
-    time: f64,
-    watch: &dyn Watch,
-) -> Result<Verdict> {
+pub(super) fn rectangular(case: Case<'_>, cycle: &Cycle, shape: &[f64], time: f64) -> Result<Verdict> {
     let (out, inward) = (cycle.saddle.out, cycle.saddle.inward);
     let [growth, decay] = [out, inward].map(|rate| decimals(rate, 4));
     let why = format!(
@@ -137,8 +130,8 @@ pub(super) fn rectangular(
     verdict.saddle = Some(cycle.saddle);
     // Rests may be known of which none was seen whole.
     let longest = cycle.rests.iter().copied().fold(0.0, f64::max);
-    let time = if longest > 0.0 { 6.0 * longest } else { settings.first_look };
-    let path = Path::follow(body, shape, time, 4 * SAMPLES, settings, watch)?;
+    let time = if longest > 0.0 { 6.0 * longest } else { case.settings.first_look };
+    let path = Path::follow(case, shape, time, 4 * SAMPLES)?;
     verdict.speed = path.speed();
     verdict.legs = super::legs::between_rests(&path);
     Ok(verdict)
@@ -146,18 +139,15 @@ pub(super) fn rectangular(
 
 /// A stable relative periodic orbit.
 pub(super) fn periodic(
-    body: &dyn Equivariant,
+    case: Case<'_>,
     orbit: &PeriodicOrbit,
     recurrence: &Recurrence,
-    settings: &Settings,
     time: f64,
-    watch: &dyn Watch,
 ) -> Result<Verdict> {
-    let path = Path::turning_clearly(SAMPLES, |samples| {
-        Path::follow(body, &orbit.shape, orbit.period(), samples, settings, watch)
-    })?;
-    let no_turn = NO_TURN.max(settings.accuracy());
-    let symmetry = symmetry_of(body, orbit, settings, watch)?;
+    let follow = |samples| Path::follow(case, &orbit.shape, orbit.period(), samples);
+    let path = Path::turning_clearly(SAMPLES, follow)?;
+    let no_turn = NO_TURN.max(case.settings.accuracy());
+    let symmetry = symmetry_of(case, orbit)?;
     let form = Form::of(&symmetry, orbit, &path, no_turn);
     let Period { time: period, rotation } = Period::of(form, &symmetry, orbit, no_turn);
     let what = match form.regime() {
@@ -168,7 +158,7 @@ pub(super) fn periodic(
         1 => "one return".to_owned(),
         more => format!("{more} returns"),
     };
-    let exponents = super::floquet::exponents(body, orbit, settings, watch);
+    let exponents = super::floquet::exponents(case, orbit);
     let (growth, error) = exponents.growth;
     let largest = match exponents.leading {
         Some(leading) => format!("{leading:.3e}"),
@@ -201,7 +191,7 @@ pub(super) fn periodic(
         // exactly 0 where the second half of the period mirrors the first, and where the heading keeps to a mirror axis
         verdict.turning_rate = if orbit.mirrored || straight { Some(0.0) } else { path.turning_rate() };
         let turning = verdict.turning_rate.filter(|_| form.regime() != Regime::Zigzag && !straight);
-        verdict.directed(body, turning, if undone { [0.0; 2] } else { path.displacement(no_turn) });
+        verdict.directed(case.body, turning, if undone { [0.0; 2] } else { path.displacement(no_turn) });
         if !straight {
             super::legs::describe(&mut verdict, &path, rotation);
         }
@@ -236,15 +226,8 @@ pub(super) fn not_stable(orbit: &PeriodicOrbit) -> String {
 }
 
 /// Speeds and turning along a stretch of an orbit that does not repeat.
-pub(super) fn along(
-    verdict: &mut Verdict,
-    body: &dyn Equivariant,
-    shape: &[f64],
-    time: f64,
-    settings: &Settings,
-    watch: &dyn Watch,
-) -> Result<()> {
-    let path = Path::follow(body, shape, time, SAMPLES, settings, watch)?;
+pub(super) fn along(verdict: &mut Verdict, case: Case<'_>, shape: &[f64], time: f64) -> Result<()> {
+    let path = Path::follow(case, shape, time, SAMPLES)?;
     verdict.speed = path.sampled_speed();
     let turning = path.sampled_turning_rate();
     verdict.turning_rate = turning.map(|rate| rate.value);

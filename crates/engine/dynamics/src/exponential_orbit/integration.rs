@@ -1,7 +1,6 @@
 //! An exponential orbit as an [`Integration`] for the driver.
 
 use super::ExponentialOrbit;
-use super::problem::Problem;
 use crate::control::Tolerance;
 use crate::interpolant::{DenseStep, Ends};
 use crate::stepping::{Counters, StepFailure};
@@ -27,7 +26,7 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
     }
 
     fn roughen(&mut self) {
-        self.rough = true;
+        self.problem.rough = true;
         self.new.acceleration = [0.0; 2];
     }
 
@@ -48,9 +47,7 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
 
     fn restart(&mut self, u: &[f64]) {
         self.new.state.copy_from_slice(u);
-        let problem =
-            Problem { field: self.field, drift: self.drift, lambda: &self.lambda, rough: self.rough };
-        problem.evaluate(self.t, self.stages.get_mut(self.tableau.stages()), &mut self.new);
+        self.problem.evaluate(self.t, self.stages.get_mut(self.tableau.stages()), &mut self.new);
         self.old.clone_from(&self.new);
         self.t_old = self.t;
         self.accepted = true;

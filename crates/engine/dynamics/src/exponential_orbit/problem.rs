@@ -23,14 +23,15 @@ pub(super) struct Start<'e> {
 }
 
 /// The equations: shape, and drift if there is a position.
-pub(super) struct Problem<'p, 'f, F: ?Sized> {
+pub(super) struct Problem<'f, F: ?Sized> {
     pub(super) field: &'f F,
     pub(super) drift: Option<DriftOf<'f, F>>,
-    pub(super) lambda: &'p [f64],
+    pub(super) lambda: Vec<f64>,
+    /// `true` if states are kicked ([`crate::Integration::roughen`]): the position then is the trapezoidal rule.
     pub(super) rough: bool,
 }
 
-impl<F: Semilinear<f64> + ?Sized> Problem<'_, '_, F> {
+impl<F: Semilinear<f64> + ?Sized> Problem<'_, F> {
     /// One step of shape and position, with the rates at its end.
     pub(super) fn step(
         &self,
@@ -52,7 +53,7 @@ impl<F: Semilinear<f64> + ?Sized> Problem<'_, '_, F> {
         let dim = self.lambda.len();
         self.field.nonlinear(t, &end.state[..dim], nonlinear);
         let (slope, velocity) = end.slope.split_at_mut(dim);
-        for (((x, &l), &n), &u) in slope.iter_mut().zip(self.lambda).zip(&*nonlinear).zip(&end.state) {
+        for (((x, &l), &n), &u) in slope.iter_mut().zip(&self.lambda).zip(&*nonlinear).zip(&end.state) {
             *x = l * u + n;
         }
         if let Some(drift) = self.drift {

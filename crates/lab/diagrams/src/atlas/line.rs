@@ -232,22 +232,15 @@ const LATER: f64 = 1.5;
 
 /// The special points at which a motion gains or loses its stability, with that motion.
 fn limits(found: &Branches) -> Vec<(CurveKind, [usize; 3], Regime)> {
-    let mut all = Vec::new();
-    for (branch, followed) in found.branches.iter().enumerate() {
-        for (leg, done) in followed.legs.iter().enumerate() {
-            for (point, sample) in done.samples.iter().enumerate() {
-                let Some(special) = sample.point.special else { continue };
-                let kind = CurveKind::find(special.name());
-                let before = point.checked_sub(1).and_then(|place| done.samples.get(place));
-                let beside = before.into_iter().chain(done.samples.get(point + 1));
-                let stable = beside.clone().find(|near| is_stable(near, sample));
-                all.extend(
-                    kind.zip(stable).map(|(kind, near)| (kind, [branch, leg, point], near.reading.motion)),
-                );
-            }
-        }
-    }
-    all
+    let limit = |(place, sample): ([usize; 3], &Sample)| {
+        let [branch, leg, point] = place;
+        let kind = CurveKind::find(sample.point.special?.name())?;
+        let beside = [point.checked_sub(1), Some(point + 1)].into_iter().flatten();
+        let mut beside = beside.filter_map(|point| found.at([branch, leg, point]));
+        let stable = beside.find(|near| is_stable(near, sample))?;
+        Some((kind, place, stable.reading.motion))
+    };
+    found.samples().filter_map(limit).collect()
 }
 
 /// The crossings of branches that bound a stable motion, once each.

@@ -130,6 +130,16 @@ impl Branches {
         self.branches.get(branch)?.legs.get(leg)?.samples.get(point)
     }
 
+    /// All points with their numbers.
+    pub(crate) fn samples(&self) -> impl Iterator<Item = ([usize; 3], &Sample)> {
+        let legs = self.branches.iter().enumerate().flat_map(|(branch, followed)| {
+            followed.legs.iter().enumerate().map(move |(leg, done)| ([branch, leg], done))
+        });
+        legs.flat_map(|([branch, leg], done)| {
+            done.samples.iter().enumerate().map(move |(point, sample)| ([branch, leg, point], sample))
+        })
+    }
+
     /// Without the branch that was interrupted.
     pub(super) fn whole(mut self) -> Self {
         self.branches.retain(Followed::is_whole);

@@ -78,20 +78,9 @@ pub fn follow_curves_kept(
 
 /// The special points to follow, branch by branch.
 fn starts(plan: &CurvePlan, found: &Branches) -> Vec<(CurveKind, [usize; 3])> {
-    let kinds = &plan.computation.kinds;
-    let mut all = Vec::new();
-    for (branch, followed) in found.branches.iter().enumerate() {
-        for (leg, done) in followed.legs.iter().enumerate() {
-            for (point, sample) in done.samples.iter().enumerate() {
-                let kind = sample
-                    .point
-                    .special
-                    .and_then(|special| kinds.iter().find(|kind| kind.name() == special.name()));
-                all.extend(kind.map(|kind| (*kind, [branch, leg, point])));
-            }
-        }
-    }
-    all
+    let of = |name: &str| plan.computation.kinds.iter().find(|kind| kind.name() == name);
+    let start = |(place, sample): ([usize; 3], &Sample)| Some((*of(sample.point.special?.name())?, place));
+    found.samples().filter_map(start).collect()
 }
 
 /// The curve through a special point of a branch, to both sides at once.

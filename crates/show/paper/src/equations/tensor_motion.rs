@@ -59,10 +59,7 @@ fn deformed_by_motion(context: &Context<'_>) -> Result<Claim, Error> {
             study.set("kappa2", 2.0)?;
             study.set("kappa3", 2.0)
         })?;
-        (study.run.transient, study.run.t_end, study.run.dt_out) = (500.0, 1.0, 1.0);
-        let data = context.simulate(&study)?;
-        let last = |name: &str| data.trajectory.get(name).and_then(|c| c.last().copied()).unwrap_or(f64::NAN);
-        Ok(["speed", "s_norm", "u_norm"].map(last))
+        settled(context, &mut study, 500.0)
     };
     let gammas = [-0.2, 0.1, 0.3, 0.6, 1.0];
     let found = gammas.into_iter().map(run).collect::<Result<Vec<_>, _>>()?;
@@ -82,10 +79,9 @@ fn deformed_by_motion(context: &Context<'_>) -> Result<Claim, Error> {
 
 /// The numbers of a settled run: speed, |S|, |U|. At rest ellipse and triangle have no way to align, so the
 /// shape has a neutral direction of its own; a run decides, not eigenvalues.
-fn settled(context: &Context<'_>, parameters: &[(&str, f64)]) -> Result<[f64; 3], Error> {
-    let mut study = body(parameters)?;
-    (study.run.transient, study.run.t_end, study.run.dt_out) = (2000.0, 1.0, 1.0);
-    let data = context.simulate(&study)?;
+fn settled(context: &Context<'_>, study: &mut Study, transient: f64) -> Result<[f64; 3], Error> {
+    (study.run.transient, study.run.t_end, study.run.dt_out) = (transient, 1.0, 1.0);
+    let data = context.simulate(study)?;
     let last = |name: &str| data.trajectory.get(name).and_then(|c| c.last().copied()).unwrap_or(f64::NAN);
     Ok(["speed", "s_norm", "u_norm"].map(last))
 }
@@ -94,7 +90,7 @@ fn settled(context: &Context<'_>, parameters: &[(&str, f64)]) -> Result<[f64; 3]
 fn moved_by_deformation(context: &Context<'_>) -> Result<Claim, Error> {
     let at = |kappa: f64, more: &[(&str, f64)]| {
         let base = [("gamma", -0.5), ("kappa2", kappa), ("kappa3", kappa), ("b3", 1.0), ("d3", 1.0)];
-        settled(context, &[&base[..], more].concat())
+        settled(context, &mut body(&[&base[..], more].concat())?, 2000.0)
     };
     let (neither, su, ssu) = (at(-0.5, &[])?, at(-0.5, &[("a3", 1.0)])?, at(-0.5, &[("a6", 1.0)])?);
     let positive = at(0.5, &[("a3", 1.0), ("a6", 1.0)])?;

@@ -55,11 +55,7 @@ impl Atlas {
         };
         let settings = BranchSettings { branches: MOST, stride, ..BranchSettings::over(along) };
         let plan = BranchPlan::new(&study, &settings)?;
-        let follow = || {
-            let found = motiform_diagrams::follow(&plan, None, &context.quiet())?;
-            if found.complete { Ok(Arc::new(found)) } else { Err(Error::Interrupted) }
-        };
-        let found = context.kept.once(&format!("branches {}", plan.hash()), follow)?;
+        let found = context.follow(&plan)?;
         Ok(Self { plan, found, end })
     }
 

@@ -1,6 +1,7 @@
 //! The answer to an exponent: do neighbouring orbits separate?
 
 use super::super::ask::Ask;
+use super::super::case::Case;
 use super::super::chaos;
 use super::super::growth::{Growth, in_motion};
 use super::super::look::RESTS;
@@ -18,11 +19,12 @@ impl Search {
         run: &Lyapunov,
         watch: &dyn Watch,
     ) -> Result<Ask> {
+        let case = Case { body, settings: &{ self.settings }, watch };
         if let Some(outcome) = ended(&run.outcome) {
             return Ok(self.ended(&outcome, 0.0));
         }
         let Pending::Exponent(look) = std::mem::replace(&mut self.pending, Pending::Look) else {
-            return self.again(body, watch); // nothing was asked
+            return self.again(case); // nothing was asked
         };
         self.time += run.time + run.transient;
         self.shape.clone_from(&run.shape);
@@ -31,7 +33,7 @@ impl Search {
             Err(none) => {
                 self.repeats.measured(none.cancels);
                 self.missing = none.why;
-                return self.again(body, watch);
+                return self.again(case);
             }
         };
         self.repeats.measured(false);
@@ -41,16 +43,16 @@ impl Search {
         // Out of a subspace of exact symmetry neighbouring orbits may separate at a rate that no chaos has made.
         let symmetric = chaos.is_some() && !Isotropy::of(body, &self.shape, EXACT).is_trivial();
         if let Some(verdict) = chaos.filter(|_| !symmetric) {
-            return Ok(self.described(verdict, body, look.end - look.start, watch)?.into());
+            return Ok(self.described(verdict, case, look.end - look.start)?.into());
         }
         self.missing = if symmetric {
             "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
         } else {
             chaos::missing(&self.growth, &witness)
         };
-        if let Some(verdict) = self.on_a_curve(body, &look, (&run, &witness), watch)? {
+        if let Some(verdict) = self.on_a_curve(case, &look, (&run, &witness))? {
             return Ok(verdict.into());
         }
-        self.again(body, watch)
+        self.again(case)
     }
 }

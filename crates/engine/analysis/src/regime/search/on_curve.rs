@@ -1,5 +1,6 @@
 //! The questions where the returns lie on a closed curve: is it a torus that lasts, or does it shrink onto a periodic orbit?
 
+use super::super::case::Case;
 use super::super::lasting::Change;
 use super::super::look::Look;
 use super::super::shrinking::shrinking_onto;
@@ -7,29 +8,26 @@ use super::super::verdict::Verdict;
 use super::super::{chaos, words};
 use super::Search;
 use crate::{Lyapunov, Result};
-use motiform_dynamics::{Equivariant, Watch};
 
 impl Search {
     /// The verdict where the returns lie on a closed curve: a periodic orbit that they shrink onto, or a
     /// torus, seen twice, that keeps its size.
     pub(super) fn on_a_curve(
         &mut self,
-        body: &dyn Equivariant,
+        case: Case<'_>,
         look: &Look,
         (run, witness): (&Lyapunov, &chaos::Witness),
-        watch: &dyn Watch,
     ) -> Result<Option<Verdict>> {
         let torus = chaos::torus(run, witness, self.time);
         let again = self.curve.is_seen_again(look, torus.is_some());
-        let inside = (torus.is_some() || witness.shrinks_orderly())
-            .then(|| shrinking_onto(body, look, &self.settings, watch))
-            .flatten();
+        let inside =
+            (torus.is_some() || witness.shrinks_orderly()).then(|| shrinking_onto(case, look)).flatten();
         if let Some((orbit, recurrence)) = inside {
-            return words::periodic(body, &orbit, &recurrence, &self.settings, self.time, watch).map(Some);
+            return words::periodic(case, &orbit, &recurrence, self.time).map(Some);
         }
         let Some(torus) = torus else { return Ok(None) };
-        match self.lasts(torus, body, (look, again), watch) {
-            Ok(torus) => self.described(torus, body, look.end - look.start, watch).map(Some),
+        match self.lasts(torus, case, (look, again)) {
+            Ok(torus) => self.described(torus, case, look.end - look.start).map(Some),
             Err(missing) => {
                 self.missing = missing;
                 Ok(None)
@@ -41,9 +39,8 @@ impl Search {
     fn lasts(
         &mut self,
         torus: Verdict,
-        body: &dyn Equivariant,
+        case: Case<'_>,
         (look, again): (&Look, bool),
-        watch: &dyn Watch,
     ) -> std::result::Result<Verdict, String> {
         if !again {
             return Err(
@@ -51,7 +48,7 @@ impl Search {
             );
         }
         self.time += look.end - look.start;
-        let change = Change::along(body, &self.shape, look, &self.settings, watch);
+        let change = Change::along(case, &self.shape, look);
         let unseen = "the returns lie on a closed curve, and whether it keeps its size was not seen";
         change.ok_or(unseen.to_owned())?.judges(Verdict { time: self.time, ..torus })
     }
