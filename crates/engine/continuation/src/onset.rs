@@ -19,7 +19,7 @@ const NODES: usize = 8;
 const BESIDE: (usize, usize) = (1, 3);
 
 /// Orbits, one branch for each kind of oscillation; from a circle the relative equilibria that begin as an oscillation which only turns
-/// too. With [`Settings::steady`] these alone.
+/// too. With [`super::settings::Settings::steady`] these alone.
 pub(super) fn onset<'f>(
     from: Departure<'_, 'f>,
     start: &RelativeEquilibrium,
