@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use motiform_dynamics::Model;
 use motiform_models::spelling::{ascii, canonical};
 use motiform_models::{Error, MODELS, ModelInfo, nearest};
 use std::collections::HashSet;
