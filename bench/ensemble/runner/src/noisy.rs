@@ -4,6 +4,7 @@ use crate::options::Options;
 use crate::orbits::{Failure, Field, members_between};
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::{NoisyMember, NoisyQueue, NoisySpan, NoisyTrack, WithPosition, propagate_noisy};
+use motiform_dynamics::simd::InstructionSet;
 use motiform_dynamics::steppers::DOP853;
 use motiform_dynamics::{InPlane, Noise, NoiseSteps, NoisyOrbit, Normal, Orbit, Request, StepControl};
 use motiform_models::tensor::fourier::{FourierField, terms};
@@ -73,7 +74,7 @@ pub fn noisy(options: &Options) -> Result<Value, Failure> {
         (field, start)
     };
     let every = Some(options.get("every", 0.1)?);
-    let span = NoisySpan { times: (0.0, t), every, rtol, atol: 1e-2 * rtol, escape_norm: 1e6, max_steps: u64::MAX };
+    let span = NoisySpan { times: (0.0, t), every, rtol, atol: 1e-2 * rtol, escape_norm: 1e6, max_steps: u64::MAX, set: InstructionSet::widest() };
     let (step, amplitude) = (options.get("step", 0.0625)?, options.get("amplitude", 1e-3)?);
     let work = Work { starts: members.into_iter().map(place).collect(), span, step, amplitude };
     let (taken, ends) = (AtomicUsize::new(0), Mutex::new(vec![None; work.starts.len()]));

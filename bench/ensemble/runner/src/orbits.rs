@@ -2,6 +2,7 @@
 
 use crate::options::Options;
 use motiform_dynamics::ensemble::{InLanes, Member, Propagation, Queue, propagate};
+use motiform_dynamics::simd::InstructionSet;
 use motiform_models::tensor::TensorParameters;
 use motiform_models::tensor::fourier::{Coefficients, FourierField, terms};
 use serde_json::{Value, json};
@@ -41,7 +42,7 @@ pub fn propagated<F: InLanes + Clone>(
     let rtol: f64 = options.get("rtol", 1e-9)?;
     let threads: usize = options.get("threads", 1)?;
     let times = [t];
-    let how = Propagation { times: &times, rtol, atol: 1e-2 * rtol, escape_norm: 1e6 };
+    let how = Propagation { times: &times, rtol, atol: 1e-2 * rtol, escape_norm: 1e6, set: InstructionSet::widest() };
     let (taken, ends) = (AtomicUsize::new(0), Mutex::new(vec![None; members.len()]));
     let work = || {
         let mut next = || {

@@ -4,7 +4,7 @@ use crate::pool::{Jobs, spread};
 use motiform_dynamics::Watch;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::Propagation;
-use motiform_dynamics::simd::has_lanes;
+use motiform_dynamics::simd::{InstructionSet, has_lanes};
 use motiform_dynamics::{InPlane, Integration, Model, Outcome, Request, StepControl, StopOnly};
 use motiform_kernels::{Kernel, Start, propagate_bodies};
 use motiform_study::plan::{check, check_closed, check_no_noise, check_steps};
@@ -93,7 +93,13 @@ fn lanes<'t>(plan: &Plan, times: &'t [f64]) -> Option<Propagation<'t>> {
     let c = &plan.computation;
     let StepControl::Adaptive { rtol, atol } = c.control.into() else { return None };
     let suited = has_lanes() && c.stepper == "dop853";
-    suited.then_some(Propagation { times, rtol, atol, escape_norm: c.escape_norm })
+    suited.then_some(Propagation {
+        times,
+        rtol,
+        atol,
+        escape_norm: c.escape_norm,
+        set: InstructionSet::widest(),
+    })
 }
 
 /// The model of a member, and its state at the start.

@@ -5,7 +5,7 @@ use crate::live::start;
 use crate::pool::{Jobs, spread};
 use crate::simulate::{noise_steps, track};
 use motiform_dynamics::ensemble::NoisySpan;
-use motiform_dynamics::simd::has_lanes;
+use motiform_dynamics::simd::{InstructionSet, has_lanes};
 use motiform_dynamics::{Model, Outcome, Part, StepControl, Watch};
 use motiform_kernels::{Kernel, NoisyStart, NoisyStates, Stretch, propagate_noisy_bodies};
 use motiform_study::plan::NoiseSettings;
@@ -66,7 +66,15 @@ impl Bodies<'_> {
     fn span(&self, times: (f64, f64), every: Option<f64>) -> NoisySpan {
         let c = &self.plans[0].computation;
         let [rtol, atol] = self.tolerances;
-        NoisySpan { times, every, rtol, atol, escape_norm: c.escape_norm, max_steps: c.max_steps }
+        NoisySpan {
+            times,
+            every,
+            rtol,
+            atol,
+            escape_norm: c.escape_norm,
+            max_steps: c.max_steps,
+            set: InstructionSet::widest(),
+        }
     }
 
     fn start(&self, key: usize, state: Vec<f64>, t: f64, stretch: u64) -> Result<NoisyStart<'_>, Error> {

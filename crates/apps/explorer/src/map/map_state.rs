@@ -12,7 +12,7 @@ use motiform_study::{Error, RunPlan, ScanPlan, Study};
 use std::ops::RangeInclusive;
 
 /// Numbers of cells along an axis.
-const COUNTS: RangeInclusive<u16> = 8..=160;
+pub(super) const COUNTS: RangeInclusive<u16> = 8..=160;
 
 /// No window reaches further, and no start lies further away.
 pub(crate) const FARTHEST: f64 = 1e9;

@@ -84,7 +84,7 @@ fn means_of_short_series_are_covered_whatever_their_correlation_time() {
         let count = draws(1000, 4000);
         let seen = |stream| short_series_mean(&series_of(samples, tau, stream)).expect("an estimate");
         let errors: Vec<_> = (0..count).map(seen).collect();
-        assert!(errors.iter().all(|mean| mean.has_error()), "{samples} {tau}");
+        assert!(errors.iter().all(motiform_analysis::Estimate::has_error), "{samples} {tau}");
         let covered = errors.iter().filter(|mean| mean.covers(3.0)).count() as f64 / count as f64;
         println!("{samples} samples, correlation time {tau}: {covered}");
         // .94 of white noise, .91 to .93 of 8 to 15 correlation times; twice the binomial scatter of 1000 is .017

@@ -20,6 +20,6 @@ pub use adaptive::run_adaptive;
 pub use dense::LaneDense;
 pub use extent::{Extent, ShapeAlone, WithPosition};
 pub use lane::{AfterStep, Entry, LaneTask, Leaving, Pace, Stepped, Then, Why};
-pub use noisy::{NoisyMember, NoisyQueue, NoisySpan, NoisyTrack, propagate_noisy, propagate_noisy_on};
-pub use propagate::{InLanes, Member, Propagation, Queue, propagate, propagate_on};
+pub use noisy::{NoisyMember, NoisyQueue, NoisySpan, NoisyTrack, propagate_noisy};
+pub use propagate::{InLanes, Member, Propagation, Queue, propagate};
 pub use tangent::LaneTangent;

@@ -7,7 +7,7 @@ use super::propagate::InLanes;
 use super::{Entry, LaneTask, Leaving, Then, Why, run_adaptive};
 use crate::noise_steps::NoiseSteps;
 use crate::scalar::MOST_LANES;
-use crate::simd::{InstructionSet, LaneKernel, run_lanes_on, run_wide};
+use crate::simd::{InstructionSet, LaneKernel, run_wide_on};
 use crate::steppers::unrolled::{Dop853, LaneStep, StepSlopes};
 use crate::{Bundle, Mask, Watch};
 
@@ -38,6 +38,8 @@ pub struct NoisySpan {
     pub escape_norm: f64,
     /// Most steps (accepted and rejected).
     pub max_steps: u64,
+    /// The instructions; narrower ones give the same bits.
+    pub set: InstructionSet,
 }
 
 /// The states of a member under noise.
@@ -62,21 +64,13 @@ pub struct NoisyQueue<'q, F, const D: usize> {
 /// [`crate::NoisyOrbit`] over [`crate::Orbit`] driven from the start to the end, to the last bit, on every
 /// instruction set: the flow is computed in lanes, the noise lane by lane. A step does not allocate.
 ///
-/// # Checked by  tests/all/noisy_lanes.rs: the bits of single orbits, for every instruction set
+/// # Checked by  tests/all/noisy_lanes.rs of `kernels`: the bits of single orbits, for every instruction set
 pub fn propagate_noisy<F: InLanes, E: Extent, const D: usize>(
     span: &NoisySpan,
     queue: NoisyQueue<'_, F, D>,
 ) -> bool {
-    run_wide(NoisyKernel::<'_, '_, F, E, D> { span, queue, extent: std::marker::PhantomData }).is_some()
-}
-
-/// [`propagate_noisy`] with these instructions, or the widest ones if this machine does not have them.
-pub fn propagate_noisy_on<F: InLanes, E: Extent, const D: usize>(
-    set: InstructionSet,
-    span: &NoisySpan,
-    queue: NoisyQueue<'_, F, D>,
-) {
-    run_lanes_on(set, NoisyKernel::<'_, '_, F, E, D> { span, queue, extent: std::marker::PhantomData });
+    let kernel = NoisyKernel::<'_, '_, F, E, D> { span, queue, extent: std::marker::PhantomData };
+    run_wide_on(span.set, kernel).is_some()
 }
 
 struct NoisyKernel<'s, 'q, F, E, const D: usize> {

@@ -3,7 +3,7 @@
 use super::{Entry, LaneTask, Leaving, Then, Why, run_adaptive};
 use crate::Watch;
 use crate::scalar::MOST_LANES;
-use crate::simd::{InstructionSet, LaneKernel, run_lanes_on, run_wide};
+use crate::simd::{InstructionSet, LaneKernel, run_wide_on};
 use crate::steppers::unrolled::Dop853;
 use crate::{Bundle, InPlane, Mask, Shape, VectorField};
 
@@ -53,6 +53,8 @@ pub struct Propagation<'t> {
     pub atol: f64,
     /// A shape beyond this norm has escaped.
     pub escape_norm: f64,
+    /// The instructions; narrower ones give the same bits.
+    pub set: InstructionSet,
 }
 
 /// Provides members, and receives their states.
@@ -70,16 +72,7 @@ pub struct Queue<'q, F, const D: usize> {
 /// without lanes. The states are those of [`crate::Orbit`] over [`InPlane`] driven from one time to the next, to the last bit, on
 /// every instruction set.
 pub fn propagate<F: InLanes, const D: usize>(how: &Propagation<'_>, queue: Queue<'_, F, D>) -> bool {
-    run_wide(PropagationKernel { how, queue }).is_some()
-}
-
-/// [`propagate`] with these instructions, or the widest ones if this machine does not have them.
-pub fn propagate_on<F: InLanes, const D: usize>(
-    set: InstructionSet,
-    how: &Propagation<'_>,
-    queue: Queue<'_, F, D>,
-) {
-    run_lanes_on(set, PropagationKernel { how, queue });
+    run_wide_on(how.set, PropagationKernel { how, queue }).is_some()
 }
 
 struct PropagationKernel<'h, 'q, F, const D: usize> {

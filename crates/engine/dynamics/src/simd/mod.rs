@@ -127,10 +127,16 @@ pub fn run_lanes<K: LaneKernel>(kernel: K) -> K::Output {
 /// As [`run_lanes`] if there are vector registers; otherwise `None`, without any work: single orbits give the same
 /// bits, and no kernel needs to be compiled for one lane.
 pub fn run_wide<K: LaneKernel>(kernel: K) -> Option<K::Output> {
+    run_wide_on(InstructionSet::widest(), kernel)
+}
+
+/// As [`run_wide`], with the instructions of `set`, or the widest ones if this machine does not have them.
+pub fn run_wide_on<K: LaneKernel>(set: InstructionSet, kernel: K) -> Option<K::Output> {
     #[cfg(target_arch = "x86_64")]
-    if has_lanes() {
-        return Some(x86::run_lanes(InstructionSet::widest(), kernel));
+    if set.min(InstructionSet::widest()) > InstructionSet::Portable {
+        return Some(x86::run_lanes(set, kernel));
     }
+    let _ = set;
     #[cfg(target_arch = "aarch64")]
     {
         Some(kernel.run::<Packed<neon::Neon>>())

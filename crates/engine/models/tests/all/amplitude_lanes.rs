@@ -2,13 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use motiform_dynamics::drive::drive;
-use motiform_dynamics::ensemble::{InLanes, Member, Propagation, Queue, propagate_on};
+use motiform_dynamics::ensemble::InLanes;
 use motiform_dynamics::simd::{InstructionSet, LaneKernel, run_lanes_on};
-use motiform_dynamics::steppers::DOP853;
-use motiform_dynamics::{
-    Bundle, Dual, InPlane, Integration, Orbit, Outcome, Request, Scalar, Shape, StepControl, VectorField,
-};
+use motiform_dynamics::{Bundle, Dual, Scalar, Shape, VectorField};
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::{Amplitudes, AmplitudesField, Definition, ParameterDefinition, info};
 
@@ -137,36 +133,4 @@ fn fields_in_lanes_have_the_bits_of_single_ones() {
     let many = "(a + |z1|^2 + |z2|^2 + |z3|^2 + |z4|^2)*conj(z4)*(z2*z3 + z1*z4 + z1^3*z2 + z1*z2^2 + z1^2*z3) + conj(z4)*z1^5";
     let sum = "z4 + z2^2 + z1*z3 + z1^4 + z1^2*z2 + conj(z1)^2*z3^2 + conj(z2)*z3^2 + conj(z1)*z2*z3 + conj(z2)*z1^2*z4";
     check_field::<8>(model(&[1, 2, 3, 4], &[many, "-z2 + z1^2", "-z3 + z1*z2", sum], None, None));
-}
-
-#[test]
-fn orbits_in_lanes_have_the_bits_of_single_ones() {
-    let how = Propagation { times: &[0.0, 1.5, 40.0], rtol: 1e-9, atol: 1e-11, escape_norm: 1e6 };
-    let bodies: Vec<Amplitudes> = (0..21).map(|member| body(three(), member)).collect();
-    let single = |member: usize| {
-        let plane = InPlane(&bodies[member]);
-        let control = StepControl::Adaptive { rtol: how.rtol, atol: how.atol };
-        let mut orbit = Orbit::new(&plane, &DOP853, control, 0.0, &start::<8>(member)).unwrap();
-        let mut states = vec![start::<8>(member)];
-        for &t in &how.times[1..] {
-            let request = Request { escape_norm: how.escape_norm, watched: 6, ..Request::until(t, 8) };
-            assert!(matches!(drive(&mut orbit, &request, &mut ()).unwrap(), Outcome::Completed { .. }));
-            states.push(orbit.state().try_into().unwrap());
-        }
-        states
-    };
-    let single: Vec<Vec<[f64; 8]>> = (0..bodies.len()).map(single).collect();
-    for set in InstructionSet::available() {
-        let mut left = bodies.iter().enumerate();
-        let mut next = || {
-            let (key, body) = left.next()?;
-            Some(Member { key, field: body.field::<6>()?, start: start(key) })
-        };
-        let mut found = vec![None; bodies.len()];
-        let mut done = |key: usize, states| found[key] = states;
-        propagate_on(set, &how, Queue { next: &mut next, done: &mut done, watch: &() });
-        for (member, states) in found.iter().enumerate() {
-            assert_eq!(states.as_ref().unwrap(), &single[member], "{set:?}");
-        }
-    }
 }

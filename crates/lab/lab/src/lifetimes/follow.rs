@@ -8,7 +8,7 @@ use motiform_analysis::classify;
 use motiform_analysis::regime::Settings;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::ensemble::Propagation;
-use motiform_dynamics::simd::has_lanes;
+use motiform_dynamics::simd::{InstructionSet, has_lanes};
 use motiform_dynamics::{InPlane, Model, Outcome, Request, StepControl, StopOnly, Watch};
 use motiform_kernels::{Kernel, Start, propagate_bodies};
 use motiform_study::{Error, Scales, ScanPlan};
@@ -97,8 +97,13 @@ impl<'p> Follower<'p> {
         let mut first = jobs.next();
         while let Some(job) = first.filter(|_| !self.watch.stopped()) {
             let times = [self.body(job).looks.time];
-            let how =
-                Propagation { times: &times, rtol, atol, escape_norm: self.plan.computation.escape_norm };
+            let how = Propagation {
+                times: &times,
+                rtol,
+                atol,
+                escape_norm: self.plan.computation.escape_norm,
+                set: InstructionSet::widest(),
+            };
             first = self.in_lanes(kernel, &how, (job, jobs));
         }
     }
