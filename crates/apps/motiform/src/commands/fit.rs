@@ -235,7 +235,8 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
     let (known, of) = fitted.determined();
     if known.equations.iter().any(|of| of.fixed() < of.combinations.len()) {
         for equation in &known.equations {
-            writeln!(text, "equation of z{}      {} ({of})", equation.equation + 1, equation.text)?;
+            let name = format!("equation of z{}", equation.equation + 1);
+            writeln!(text, "{name:<19}{} ({of})", equation.text)?;
         }
     }
     for (name, placement) in ["plane of Fig. 4", "plane of Fig. 1"].into_iter().zip(&fitted.places) {

@@ -85,9 +85,9 @@ impl Numbers {
     fn rms_speed(&self) -> Answer {
         match (self.steps.as_ref().and_then(|steps| steps.rms_speed), &self.stated_walk.reason) {
             (Some(speed), _) => Answer::Known(speed),
-            (None, Some(_)) if self.walk.is_some() => Answer::unknown(
-                "it leaves out the errors of the places, which are those of the walk: none is given",
-            ),
+            (None, Some(_)) if self.walk.is_some() => {
+                Answer::unknown("it needs the localisation error, which is not given")
+            }
             (None, Some(_)) if self.seen > 1 && self.mixed.is_none() => Answer::unknown(TOO_FEW),
             (None, _) => Answer::unknown(self.without_steps()),
         }
