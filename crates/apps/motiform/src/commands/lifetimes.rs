@@ -163,18 +163,19 @@ impl<'a> Lived<'a> {
         let Self { plan, found, units, .. } = self;
         let c = &plan.computation;
         writeln!(f, "{} ({}, {})", plan.title, c.model, plan.name)?;
-        let times = [found.until().0, found.until().1];
         let (until, unit) = match units.is_physical() {
             true => (
-                times.map(|time| plain(&units.words(time, LIFE.dimension, ""))),
+                found.until_in(|time| plain(&units.words(time, LIFE.dimension, ""))),
                 format!(", times in {}", plain(&units.name(LIFE.dimension, ""))),
             ),
-            false => (times.map(given), String::new()),
+            false => (found.until_in(given), String::new()),
         };
-        let until = if until[0] == until[1] { until[0].clone() } else { until.join(" to ") };
         let starts = format!("{} each, {}, seed {}", counted(c.samples, "start"), c.random.words(), c.seed);
-        let asked =
-            if c.budget > 0.0 && c.budget < times[1] { ": --until in whole looks of the model" } else { "" };
+        let asked = if c.budget > 0.0 && c.budget < found.until()[1] {
+            ": --until in whole looks of the model"
+        } else {
+            ""
+        };
         writeln!(f, "{starts}, followed to {until}{asked}")?;
         write!(f, "{:>12}", found.parameter)?;
         for title in ["blew up", "captured", "lasting", "delay", "events", "watched", "mean life"] {

@@ -132,22 +132,39 @@ fn sentences(
     Ok(text)
 }
 
+/// Reasons, each with the numbers that share it.
+type Reasons = Vec<(String, Vec<&'static str>)>;
+
+fn add(reasons: &mut Reasons, reason: String, name: &'static str) {
+    match reasons.iter_mut().find(|(same, _)| *same == reason) {
+        Some((_, names)) => names.push(name),
+        None => reasons.push((reason, vec![name])),
+    }
+}
+
+/// Why a number that is given has no interval.
+fn without_interval(found: &Observation, name: &str) -> &'static str {
+    let speed = found.numbers.steps.as_ref().and_then(|steps| steps.speed);
+    let enough = speed.is_some_and(|speed| speed.interval.is_some());
+    match name == cell::RMS_SPEED.name && enough {
+        true => "the error of the places has no upper end",
+        false => "fewer than 16 values",
+    }
+}
+
 /// The numbers without a model, and why some are missing.
 fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error> {
-    let (mut text, mut bare) = (String::new(), Vec::new());
-    let mut missing: Vec<(String, Vec<&str>)> = Vec::new();
+    let mut text = String::new();
+    let (mut missing, mut bare) = (Reasons::new(), Reasons::new());
     for row in found.numbers.rows() {
         let unit = units.unit(row.quantity.dimension);
         if let Some(reason) = row.reason(&unit) {
-            match missing.iter_mut().find(|(same, _)| *same == reason) {
-                Some((_, names)) => names.push(row.quantity.symbol),
-                None => missing.push((reason, vec![row.quantity.symbol])),
-            }
+            add(&mut missing, reason, row.quantity.symbol);
             continue;
         }
         let is_bare = row.value.known().is_some_and(|found| found.interval.is_none());
         if is_bare && !WITHOUT_INTERVAL.contains(&row.quantity.name) {
-            bare.push(row.quantity.symbol);
+            add(&mut bare, without_interval(found, row.quantity.name).to_owned(), row.quantity.symbol);
         }
         let value = answer(&row.value, &unit);
         writeln!(text, "{:<18} {}", row.quantity.symbol, value.trim_end())?;
@@ -155,9 +172,8 @@ fn numbers(found: &Observation, units: &Units) -> Result<String, std::fmt::Error
     for (reason, names) in missing {
         writeln!(text, "not given          {}: {reason}", names.join(", "))?;
     }
-    if !bare.is_empty() {
-        let reason = "fewer than 16 values, or, of the rms speed, errors of the places without an upper end";
-        writeln!(text, "no interval        {}: {reason}", bare.join(", "))?;
+    for (reason, names) in bare {
+        writeln!(text, "no interval        {}: {reason}", names.join(", "))?;
     }
     if let Some(remark) = found.numbers.remark(&units.length) {
         writeln!(text, "centroid           {remark}")?;

@@ -21,7 +21,7 @@ pub(crate) fn observed(
         line(&mut text, quantity.symbol, &number.over, &units.unit(quantity.dimension))?;
     }
     for Withheld { quantity, why } in &numbers.withheld {
-        writeln!(text, "  {:<16} not given: {why}", quantity.symbol)?;
+        writeln!(text, "  {:<18} not given: {why}", quantity.symbol)?;
     }
     Ok(text)
 }

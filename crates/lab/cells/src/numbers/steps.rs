@@ -94,19 +94,12 @@ impl Steps {
 /// are too low more often than they should.
 fn reaching_up(mean: Measured) -> Measured {
     let m = mean.value;
-    let ends = |[low, high]: [f64; 2]| {
-        let r = (high - m) / m;
-        [
-            low.max(0.0),
-            if m <= 0.0 {
-                high
-            } else if r < 0.5 {
-                m / (1.0 - r)
-            } else {
-                4.0 * m * r
-            },
-        ]
+    let upper = |high: f64| match (high - m) / m {
+        _ if m <= 0.0 => high,
+        r if r < 0.5 => m / (1.0 - r),
+        r => 4.0 * m * r,
     };
+    let ends = |[low, high]: [f64; 2]| [low.max(0.0), upper(high)];
     Measured { interval: mean.interval.map(ends), ..mean }
 }
 

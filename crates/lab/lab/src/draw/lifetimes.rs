@@ -79,18 +79,15 @@ fn laws(found: &Lifetimes, factor: f64) -> Vec<ExpectedLine> {
 fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo, units: &Shown) -> Vec<String> {
     let c = &plan.computation;
     let events: usize = found.values.iter().map(|at| at.life.events).sum();
-    let until =
-        [found.until().0, found.until().1].map(|time| units.words(time, LIFE.dimension, " model time"));
-    let until = if until[0] == until[1] { until[0].clone() } else { until.join(" to ") };
+    let until = found.until_in(|time| units.words(time, LIFE.dimension, " model time"));
     vec![
         words::named_in(info, &c.parameters, (&[&found.parameter], &c.ties), units),
         format!(
-            "{} starts for each value, {}, seed {}, each followed to {}; {events} lives ended. Bars: exact 95 % limits of an \
+            "{} starts for each value, {}, seed {}, each followed to {until}; {events} lives ended. Bars: exact 95 % limits of an \
              exponential law with censoring; a bar without an upper end: no life ended.",
             c.samples,
             c.random.words(),
-            c.seed,
-            until
+            c.seed
         ),
         format!("Law: {}.", verdict(found, units)),
     ]

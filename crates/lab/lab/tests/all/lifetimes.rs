@@ -28,7 +28,7 @@ fn threads_change_nothing_and_orbits_blow_up() {
     let plan = plan(0.1, "0.1,0.2,0.3", 12, 1000.0);
     let one = found(&plan, 1);
     assert_eq!(one, found(&plan, 3));
-    assert_eq!((one.until(), one.values.len()), ((1000.0, 1000.0), 3));
+    assert_eq!((one.until(), one.values.len()), ([1000.0; 2], 3));
     for at in &one.values {
         assert_eq!(at.blew_up + at.captured + at.lasting + at.regular + at.lost, 12, "{at:?}");
         assert_eq!((at.captured, at.delay), (0, 200.0));
