@@ -1,6 +1,6 @@
 //! The likelihood at given values, in the units of the data.
 
-use super::{Settings, setup};
+use super::{Settings, memory, setup};
 use crate::filter::{NOISES, Problem, Theta, Want, evaluate};
 use crate::{Error, Result, Scales, Track};
 use serde::{Deserialize, Serialize};
@@ -14,13 +14,17 @@ pub struct Parameters {
     pub s: f64,
     /// Process noise of the velocity, above 0 (unit of the velocity / sqrt(time)).
     pub eta_v: f64,
+    /// Rate k at which the noise w of the velocity forgets, `w' = -k w + eta_v W'`, above 0 (1/time; `eta_v` in units of the velocity /
+    /// time^(3/2)). `None`: white noise, the limit of a large rate with `eta_v/k` kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate: Option<f64>,
     /// Process noise of the shape, above 0 (unit of the modes / sqrt(time)).
     pub eta_shape: f64,
     /// Standard deviation of each coordinate of the centre beside the error of its contour, 0 or more (length): a jitter of the images.
     pub centre: f64,
 }
 
-/// The log-likelihood with its derivatives by the coefficients, `ln s`, `ln eta_v`, `ln eta_shape`, and
+/// The log-likelihood with its derivatives by the coefficients, `-k` where the noise of the velocity has a rate, `ln s`, `ln eta_v`, `ln eta_shape`, and
 /// `l = ln sqrt(centre^2/c + 0.01)`, c the mean of the stated variances of a coordinate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Likelihood {
@@ -40,7 +44,7 @@ pub(super) fn natural(
     at: &Parameters,
 ) -> Result<Theta> {
     let units = units(problem, settings, scales);
-    if at.coefficients.len() != units.len() {
+    if at.coefficients.len() + usize::from(at.rate.is_some()) != units.len() {
         let value = at.coefficients.len() as f64;
         return Err(Error::Setting {
             key: "coefficients",
@@ -48,34 +52,43 @@ pub(super) fn natural(
             remedy: "give one for every term and part",
         });
     }
-    let noise = scales.noise();
-    let positive = [("s", at.s), ("eta_v", at.eta_v), ("eta_shape", at.eta_shape)];
+    let [mut unit_v, unit_shape] = scales.noise();
+    if at.rate.is_some() {
+        unit_v /= scales.time;
+    }
+    let mut positive = [("s", at.s), ("eta_v", at.eta_v), ("eta_shape", at.eta_shape)].to_vec();
+    positive.extend(at.rate.map(|rate| ("rate", rate)));
     if let Some(&(key, value)) = positive.iter().find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
         return Err(Error::Setting { key, value, remedy: "give a number above 0" });
     }
     if !(at.centre >= 0.0 && at.centre.is_finite()) {
         return Err(Error::Setting { key: "centre", value: at.centre, remedy: "give 0 or more" });
     }
-    let [s, eta_v, eta_shape] = [at.s, at.eta_v / noise[0], at.eta_shape / noise[1]].map(libm::log);
+    let [s, eta_v, eta_shape] = [at.s, at.eta_v / unit_v, at.eta_shape / unit_shape].map(libm::log);
+    let coefficients = at.coefficients.iter().copied().chain(at.rate.map(|rate| -rate));
     Ok(Theta {
-        coefficients: at.coefficients.iter().zip(units).map(|(c, unit)| c / unit).collect(),
+        coefficients: coefficients.zip(units).map(|(c, unit)| c / unit).collect(),
         logs: [s, eta_v, eta_shape, problem.log_of_own_noise(at.centre / scales.length())],
     })
 }
 
-/// The unit of each coefficient.
+/// The unit of each coefficient; that of a rate is one per time.
 pub(super) fn units(problem: &Problem, settings: &Settings, scales: &Scales) -> Vec<f64> {
     let terms = &settings.library.terms;
-    problem.parts.iter().map(|part| scales.coefficient(&terms[part.term])).collect()
+    let unit = |term: usize| terms.get(term).map_or(1.0 / scales.time, |term| scales.coefficient(term));
+    problem.parts.iter().map(|part| unit(part.term)).collect()
 }
 
 /// The log-likelihood at these values, with gradient and information.
 ///
 /// # Errors    of the input; a filter that diverges is a value of `None`
-/// # Checked by  `tests/all/filter.rs`: an exact Gaussian likelihood, finite differences
+/// # Checked by  `tests/all/filter.rs`: exact Gaussian likelihoods, finite differences
 pub fn likelihood(tracks: &[Track], settings: &Settings, at: &Parameters) -> Result<Likelihood> {
     let scales = setup::check(tracks, settings)?;
-    let problem = setup::checked(tracks, settings, &scales)?;
+    let mut problem = setup::checked(tracks, settings, &scales)?;
+    if at.rate.is_some() {
+        problem = memory::problem_with_memory(tracks, settings, &scales);
+    }
     let theta = natural(&problem, settings, &scales, at)?;
     let found = evaluate(&problem, &theta, Want::Exact, false);
     let mut units = units(&problem, settings, &scales);

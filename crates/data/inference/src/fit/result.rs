@@ -167,6 +167,7 @@ impl Fit {
             coefficients: self.coefficients.iter().map(|c| c.estimate.value).collect(),
             s: noise.s.value,
             eta_v: noise.eta_v.value,
+            rate: None,
             eta_shape: noise.eta_shape.value,
             centre: noise.centre.value,
         }
@@ -255,18 +256,4 @@ fn noise(problem: &Problem, point: &Point, natural: &Natural, scales: &Scales) -
     let interval = [-NORMAL_95, NORMAL_95].map(|x| (value * (value + 2.0 * x * error)).max(0.0).sqrt());
     let centre = Estimate { value, error, robust, interval };
     Noise { s, eta_v, eta_shape, centre, at_bound: at_bounds(&point.theta) }
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test may fail")]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ends_at_infinity_are_read_back() {
-        let estimate =
-            Estimate { value: 0.01, error: 5.0, robust: 2.0, interval: [f64::NEG_INFINITY, f64::INFINITY] };
-        let text = serde_json::to_string(&estimate).unwrap();
-        assert_eq!(serde_json::from_str::<Estimate>(&text).unwrap(), estimate);
-    }
 }

@@ -12,9 +12,15 @@ const CENTRE: f64 = 0.006;
 #[test]
 fn gradient_by_differences() {
     let three = || full(0.5, 0.1);
-    for (equations, modes, handed) in
-        [(three(), 2, false), (three(), 3, false), (three(), 3, true), (four(), 4, false), (four(), 4, true)]
-    {
+    for (equations, modes, handed, rate) in [
+        (three(), 2, false, None),
+        (three(), 2, false, Some(1.5)),
+        (three(), 3, false, None),
+        (three(), 3, true, None),
+        (three(), 3, true, Some(0.3)),
+        (four(), 4, false, None),
+        (four(), 4, true, None),
+    ] {
         let mut track = Experiment { frames: 20, ..Experiment::new(equations, 0.05, 11) }.track();
         track.0.remove(8);
         track.0.drain(13..16);
@@ -24,14 +30,17 @@ fn gradient_by_differences() {
         // so small that no step is divided on one side of a difference alone
         let size = 0.1;
         let coefficients = (0..n).map(|i| size * libm::sin(i as f64 + 1.0)).collect();
-        let at = Parameters { coefficients, s: 1.3, eta_v: 0.08, eta_shape: 0.06, centre: CENTRE };
+        let at = Parameters { coefficients, s: 1.3, eta_v: 0.08, rate, eta_shape: 0.06, centre: CENTRE };
+        let logs = n + usize::from(rate.is_some());
         let value = |at: &Parameters| likelihood(&[track.clone()], &settings, at).unwrap();
         let exact = value(&at);
-        for i in 0..n + 4 {
+        for i in 0..logs + 4 {
             let moved = |by: f64| {
                 let mut at = at.clone();
-                match i.checked_sub(n) {
-                    None => at.coefficients[i] += by,
+                match i.checked_sub(logs) {
+                    None if i < n => at.coefficients[i] += by,
+                    // the coefficient is -k
+                    None => at.rate = at.rate.map(|rate| rate - by),
                     Some(0) => at.s *= libm::exp(by),
                     Some(1) => at.eta_v *= libm::exp(by),
                     Some(2) => at.eta_shape *= libm::exp(by),
@@ -50,7 +59,7 @@ fn gradient_by_differences() {
             let size = exact.information[i][i].sqrt();
             assert!(
                 (difference - exact.gradient[i]).abs() < 1e-6 * size,
-                "{handed} {i}: {difference} {exact:?}"
+                "{handed} {rate:?} {i}: {difference} {exact:?}"
             );
         }
     }
@@ -96,15 +105,28 @@ fn linear_equations_exactly() {
         covariance: diagonal(&errors),
     };
     let track = Track(times.iter().map(frame).collect());
-    for modes in [2, 3, 4] {
-        let (found, expected) = linear(&track, &times, &errors[..2 * modes]);
-        println!("{modes} {found} {expected}");
-        assert!((found - expected).abs() < 1e-5 * expected.abs().max(1.0), "{modes} {found} {expected}");
+    for (modes, rate) in [(2, None), (3, None), (4, None), (2, Some(2.0)), (3, Some(30.0))] {
+        let (found, expected) = linear(&track, &times, &errors[..2 * modes], rate);
+        println!("{modes} {rate:?} {found} {expected}");
+        let close = (found - expected).abs() < 1e-5 * expected.abs().max(1.0);
+        assert!(close, "{modes} {rate:?} {found} {expected}");
     }
 }
 
+/// The path `x'' = -k x' + w` of a relaxing velocity under noise with a memory, `w' = -rate w + eta W'`: covariance of deviations from the
+/// mean at two times, after a start of `w` of variance `p`. The response of x to a kick of w is `g`.
+fn driven([k, rate]: [f64; 2], eta: f64, p: f64, (t, u): (f64, f64)) -> f64 {
+    let grown = |k: f64, t: f64| (1.0 - libm::exp(-k * t)) / k;
+    let g = |t: f64| (grown(k, t) - grown(rate, t)) / (rate - k);
+    let (end, panels) = (t.min(u), 400);
+    let h = end / f64::from(panels);
+    let weight = |i: i32| if i == 0 || i == panels { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
+    let at = |i: i32| weight(i) * g(t - f64::from(i) * h) * g(u - f64::from(i) * h);
+    p * g(t) * g(u) + eta * eta * h / 3.0 * (0..=panels).map(at).sum::<f64>()
+}
+
 /// Log-likelihood of relaxing modes, and its closed form.
-fn linear(track: &Track, times: &[f64], errors: &[f64]) -> (f64, f64) {
+fn linear(track: &Track, times: &[f64], errors: &[f64], memory: Option<f64>) -> (f64, f64) {
     let modes = errors.len() / 2;
     let names = ["z1: z1", "z2: z2", "z3: z3", "z4: z4"];
     let library = Library::new(modes, 1).unwrap().select(&names[..modes]).unwrap();
@@ -112,7 +134,7 @@ fn linear(track: &Track, times: &[f64], errors: &[f64]) -> (f64, f64) {
     let (k, s, eta) = ([0.7, 1.1, 0.4, 0.9], 1.3, [0.5, 0.4]);
     let coefficients = k[..modes].iter().map(|k| -k).collect();
     let centre = 0.07;
-    let at = Parameters { coefficients, s, eta_v: eta[0], eta_shape: eta[1], centre };
+    let at = Parameters { coefficients, s, eta_v: eta[0], rate: memory, eta_shape: eta[1], centre };
     let found = likelihood(std::slice::from_ref(track), &settings, &at).unwrap().value.unwrap();
     let scales = Scales::of(std::slice::from_ref(track), modes);
     let n = times.len() - 1;
@@ -135,7 +157,14 @@ fn linear(track: &Track, times: &[f64], errors: &[f64]) -> (f64, f64) {
             let at = (times[a + 1], times[b + 1]);
             let own = if a == b { noise } else { 0.0 };
             own + match i {
-                0 | 1 => integrated(rate, eta[0], (p, noise), at),
+                0 | 1 => match memory {
+                    None => integrated(rate, eta[0], (p, noise), at),
+                    // the start of w: 1 in natural units
+                    Some(memory) => {
+                        let w = s * speed / scales.time;
+                        integrated(rate, 0.0, (p, noise), at) + driven([rate, memory], eta[0], w * w, at)
+                    }
+                },
                 _ => relaxing(rate, eta[1], noise, at),
             }
         });

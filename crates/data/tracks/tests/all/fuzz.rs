@@ -3,7 +3,7 @@
 use crate::common::{Files, csv, zip};
 use crate::formats::{amoepy, quimp_nodes, quimp_table, wkt};
 use crate::imagej::roi;
-use crate::tables::parquet;
+use crate::tables::PARQUET;
 use crate::trackmate::dividing;
 #[path = "../../../../lab/lab/tests/all/common/mutate.rs"]
 mod mutate;
@@ -17,7 +17,7 @@ fn samples() -> Vec<(Format, Vec<u8>)> {
     let region = roi(0, 3, &points, true);
     vec![
         (Format::Csv, csv(3).into_bytes()),
-        (Format::Parquet, parquet(2)),
+        (Format::Parquet, PARQUET.to_vec()),
         (Format::TrackMate, dividing().into_bytes()),
         (Format::QuimpTable, quimp_table(2).into_bytes()),
         (Format::QuimpNodes, quimp_nodes(2).into_bytes()),

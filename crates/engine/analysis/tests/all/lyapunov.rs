@@ -43,7 +43,8 @@ fn agree(seen: &[Estimate], want: &[f64], tolerance: f64) {
     }
 }
 
-/// Within the first stretches such vectors become parallel to the last digit, and lose their directions; in lanes too (tests/all/lanes.rs).
+/// Within the first stretches such vectors become parallel to the last digit, and lose their directions; in lanes too
+/// (kernels/tests/all/exponent_lanes.rs).
 #[test]
 fn rates_that_differ_by_hundreds_are_all_found() {
     let body = Linear { rows: [[-0.1, 3.0, 0.0], [0.0, -60.0, 1.0], [0.0, 0.0, -700.0]] };

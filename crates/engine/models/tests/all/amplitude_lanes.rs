@@ -1,12 +1,15 @@
-//! Amplitude equations in lanes: the same bits as alone, on every instruction set, each lane with its own coefficients.
+//! Amplitude equations in lanes: the same bits as alone, each lane with its own coefficients. Lanes on every instruction set: the tests of
+//! `dynamics` (each operation) and of `kernels` (orbits and exponents).
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use motiform_dynamics::ensemble::InLanes;
-use motiform_dynamics::simd::{InstructionSet, LaneKernel, run_lanes_on};
+use motiform_dynamics::simd::Lanes;
 use motiform_dynamics::{Bundle, Dual, Scalar, Shape, VectorField};
 use motiform_models::ModelInfo;
 use motiform_models::amplitudes::{Amplitudes, AmplitudesField, Definition, ParameterDefinition, info};
+
+const LANES: usize = 8;
 
 fn model(
     modes: &[u32],
@@ -46,11 +49,6 @@ fn start<const D: usize>(member: usize) -> [f64; D] {
     std::array::from_fn(|i| 0.4 * (1.0 + member as f64 * 0.7 + i as f64 * 1.3).sin())
 }
 
-/// Rates, velocities and rotations of 16 members in lanes, with derivatives along two directions.
-struct Evaluated<'f, const N: usize> {
-    fields: &'f [AmplitudesField<f64, N>],
-}
-
 /// Along a direction that differs from entry to entry.
 fn dual<T: Scalar, const N: usize>(u: [T; N]) -> [Dual<T, 2>; N] {
     let mut lifted = u.map(Dual::constant_of);
@@ -60,35 +58,25 @@ fn dual<T: Scalar, const N: usize>(u: [T; N]) -> [Dual<T, 2>; N] {
     lifted
 }
 
-impl<const N: usize> LaneKernel for Evaluated<'_, N> {
-    type Output = Vec<Vec<f64>>;
-
-    #[inline(always)]
-    fn run<B: Bundle>(self) -> Vec<Vec<f64>> {
-        let mut field = self.fields[0].bundle::<B>();
-        let mut u = [B::splat(0.0); N];
-        for lane in 0..B::LANES {
-            self.fields[lane].put(lane, &mut field);
-            for (u, x) in u.iter_mut().zip(start::<N>(lane)) {
-                *u = u.with_lane(lane, x);
-            }
+/// Rates, rotations, velocities and derivatives along two directions of the members of all lanes.
+fn together<const N: usize>(fields: &[AmplitudesField<f64, N>; LANES]) -> [Vec<f64>; LANES] {
+    let mut field = fields[0].bundle::<Lanes<LANES>>();
+    let mut u = [Lanes::splat(0.0); N];
+    for lane in 0..LANES {
+        fields[lane].put(lane, &mut field);
+        for (u, x) in u.iter_mut().zip(start::<N>(lane)) {
+            *u = u.with_lane(lane, x);
         }
-        let lifted = dual(u);
-        let (mut rate, mut rates, mut spin) = (u, lifted, u);
-        field.eval(u[0], &u, &mut rate);
-        field.eval(u[0], &lifted, &mut rates);
-        AmplitudesField::<f64, N>::spin(&field, &u, &mut spin);
-        let velocity = field.velocity(&u);
-        let mut found = Vec::new();
-        for lane in 0..B::LANES {
-            let mut all: Vec<f64> = rate.iter().chain(&spin).chain(&velocity).map(|x| x.lane(lane)).collect();
-            all.extend(
-                rates.iter().flat_map(|x| [x.value, x.derivative[0], x.derivative[1]]).map(|x| x.lane(lane)),
-            );
-            found.push(all);
-        }
-        found
     }
+    let lifted = dual(u);
+    let (mut rate, mut rates, mut spin) = (u, lifted, u);
+    field.eval(u[0], &u, &mut rate);
+    field.eval(u[0], &lifted, &mut rates);
+    AmplitudesField::<f64, N>::spin(&field, &u, &mut spin);
+    let velocity = field.velocity(&u);
+    let parts = rates.iter().flat_map(|x| [x.value, x.derivative[0], x.derivative[1]]);
+    let all: Vec<Lanes<LANES>> = rate.into_iter().chain(spin).chain(velocity).chain(parts).collect();
+    std::array::from_fn(|lane| all.iter().map(|x| x.lane(lane)).collect())
 }
 
 fn alone<const N: usize>(body: &Amplitudes, member: usize) -> Vec<f64> {
@@ -105,14 +93,11 @@ fn alone<const N: usize>(body: &Amplitudes, member: usize) -> Vec<f64> {
 }
 
 fn check_field<const N: usize>(info: &ModelInfo) {
-    let bodies: Vec<Amplitudes> = (0..16).map(|member| body(info, member)).collect();
-    let fields: Vec<_> = bodies.iter().map(|body| body.field::<N>().unwrap()).collect();
+    let bodies: [Amplitudes; LANES] = std::array::from_fn(|member| body(info, member));
     assert!(bodies[0].field::<10>().is_none());
-    for set in InstructionSet::available() {
-        let found = run_lanes_on(set, Evaluated { fields: &fields });
-        for (member, found) in found.iter().enumerate() {
-            assert_eq!(format!("{found:?}"), format!("{:?}", alone::<N>(&bodies[member], member)), "{set:?}");
-        }
+    let found = together::<N>(&bodies.each_ref().map(|body| body.field().unwrap()));
+    for (member, found) in found.iter().enumerate() {
+        assert_eq!(format!("{found:?}"), format!("{:?}", alone::<N>(&bodies[member], member)));
     }
 }
 
