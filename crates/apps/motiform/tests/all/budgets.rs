@@ -67,6 +67,24 @@ fn no_more_lines_are_long_and_no_more_comments_ask() {
     check("questions", lines().filter(asks).count() as u64);
 }
 
+/// Crates, and lines of code of the largest one: neither empty nor comments nor unit tests.
+#[test]
+fn crates_are_no_more_and_no_larger() {
+    let packages = MetadataCommand::new().no_deps().exec().unwrap().packages;
+    let folders: Vec<PathBuf> =
+        packages.iter().map(|package| package.manifest_path.parent().unwrap().into()).collect();
+    let crates = || folders.iter().filter(|folder| folder.starts_with(root().join("crates")));
+    check("crates", crates().count() as u64);
+    let is_code = |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with("//");
+    let lines = |folder: &PathBuf| {
+        let mut found = Vec::new();
+        sources(&folder.join("src"), &mut found);
+        let own = found.iter().filter_map(|(_, text)| text.split("\nmod tests {").next());
+        own.flat_map(str::lines).filter(is_code).count()
+    };
+    check("crate_lines", crates().map(lines).max().unwrap() as u64);
+}
+
 /// A file that no module names is not compiled: its tests do not run, and nothing says so.
 #[test]
 fn every_source_is_a_module() {

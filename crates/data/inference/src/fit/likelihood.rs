@@ -24,8 +24,8 @@ pub struct Parameters {
     pub centre: f64,
 }
 
-/// The log-likelihood with its derivatives by the coefficients, `-k` where the noise of the velocity has a rate, `ln s`, `ln eta_v`, `ln eta_shape`, and
-/// `l = ln sqrt(centre^2/c + 0.01)`, c the mean of the stated variances of a coordinate.
+/// The log-likelihood with its derivatives by the coefficients, by `-k` where the noise of the velocity has a rate, `ln s`, `ln eta_v`,
+/// `ln eta_shape`, and `l = ln sqrt(centre^2/c + 0.01)`, c the mean of the stated variances of a coordinate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Likelihood {
     /// Log-likelihood of all frames but the first of each stretch; `None` where the filter diverges.

@@ -1,5 +1,5 @@
-//! The largest exponents of many orbits in lanes, as the classification of cells of a plane asks for them: those of single orbits, to the last
-//! bit. All exponents in lanes: `kernels/tests/all/exponent_lanes.rs`.
+//! The largest exponents of many orbits in lanes, as the classification of the cells of a plane asks for them: those of single orbits, to
+//! the last bit. All exponents in lanes: `kernels/tests/all/exponent_lanes.rs`.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 

@@ -1,0 +1,5 @@
+//! All integration tests of this crate, in one program.
+
+mod results;
+#[cfg(feature = "formats")]
+mod tables;
