@@ -67,6 +67,28 @@ fn no_more_lines_are_long_and_no_more_comments_ask() {
     check("questions", lines().filter(asks).count() as u64);
 }
 
+/// Options and commands are words of the program (`remedy.rs`), not of the libraries, which Python and others use, too. Answers are
+/// lines that it prints.
+#[test]
+fn libraries_name_no_option() {
+    let mut found = Vec::new();
+    ["engine", "data", "lab"]
+        .iter()
+        .for_each(|group| sources(&root().join("crates").join(group), &mut found));
+    let ours = |path: &Path| {
+        let parts: Vec<_> = path.components().map(|part| part.as_os_str()).collect();
+        parts.contains(&"src".as_ref()) && !parts.contains(&"answers".as_ref())
+    };
+    let option = |line: &str| {
+        let begins = |part: &str| part.starts_with(|c: char| c.is_ascii_lowercase());
+        line.contains("`motiform ") || line.match_indices("--").any(|(at, _)| begins(&line[at + 2..]))
+    };
+    for (path, text) in found.iter().filter(|(path, _)| ours(path)) {
+        let line = text.lines().find(|line| !line.trim_start().starts_with("//") && option(line));
+        assert_eq!(line, None, "{}", path.display());
+    }
+}
+
 /// A file that no module names is not compiled: its tests do not run, and nothing says so.
 #[test]
 fn every_source_is_a_module() {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+use motiform_lab::analyse::Spans;
 use motiform_lab::saddle::{Saddle, saddle};
 use motiform_study::{Random, RunPlan, Study};
 
@@ -11,7 +12,8 @@ fn found(r: f64, (transient, t_end): (f64, f64), (runs, random): (usize, Option<
     let mut study = Study::parse(&text.replace("r = 28", &format!("r = {r:?}")), "text", "test").unwrap();
     study.random = random;
     let starts = (runs, study.starts(1).unwrap());
-    saddle(&RunPlan::new(&study).unwrap(), starts, (Some(transient), Some(t_end)), 2, &()).unwrap().unwrap()
+    let spans = Spans { transient: Some(transient), t_end: Some(t_end) };
+    saddle(&RunPlan::new(&study).unwrap(), starts, spans, 2, &()).unwrap().unwrap()
 }
 
 #[test]
