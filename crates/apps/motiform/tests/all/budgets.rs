@@ -4,7 +4,7 @@
 
 use cargo_metadata::MetadataCommand;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 
 fn root() -> PathBuf {
@@ -76,7 +76,7 @@ fn libraries_name_no_option() {
         .iter()
         .for_each(|group| sources(&root().join("crates").join(group), &mut found));
     let ours = |path: &Path| {
-        let parts: Vec<_> = path.components().map(|part| part.as_os_str()).collect();
+        let parts: Vec<_> = path.components().map(Component::as_os_str).collect();
         parts.contains(&"src".as_ref()) && !parts.contains(&"answers".as_ref())
     };
     let option = |line: &str| {

@@ -79,7 +79,7 @@ fn its_exponents_are_computed() {
 #[test]
 fn its_branches_are_followed() {
     let mut study = study(0.3);
-    study.follow.along = Some(motiform::study::branches::Along::parse("k=0.1:0.9").unwrap());
+    study.follow.along = Some(Along::parse("k=0.1:0.9").unwrap());
     let plan = BranchPlan::new(&study, &study.follow.branches().unwrap()).unwrap();
     let branches = follow(&plan, None, &()).unwrap();
     let summary = motiform::diagrams::summary(&plan, &branches);
