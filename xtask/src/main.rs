@@ -40,6 +40,7 @@ usage: cargo xtask COMMAND
   dist     a wheel, a stripped program and the page without a server, with checksums, in target/dist; the wheel is installed and tried
            where no cargo is
   faults   [N]: every N-th call that changes the file system fails, or is the last one, in every command that writes (1: every call)
+  invariances: each motion is asked for as it is and after changes that cannot matter; writes docs/records/invariances.md
   kills    [N]: every command that writes is killed N times at random moments (1000)
   fuzz     [N]: N damaged inputs of each kind (100000)
   samples  all Rust tests, with the whole of every statistical sample

@@ -7,7 +7,7 @@ use crate::task::{Crew, Task, Tell, Worker, lock};
 use motiform_analysis::Estimate;
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
-use motiform_lab::analyse;
+use motiform_lab::analyse::{self, Spans};
 use motiform_lab::scan::Row;
 use motiform_study::Plan;
 use serde::{Deserialize, Serialize};
@@ -203,7 +203,7 @@ impl Work<'_> {
         };
         // One behind: the last point is that of the whole average.
         let mut last = None;
-        let times = (Some(LOOKS.0 * look), Some(span));
+        let times = Spans { transient: Some(LOOKS.0 * look), t_end: Some(span) };
         let result = analyse::lyapunov_followed(&self.job.plan, count, times, self.watch, &mut |so_far| {
             if so_far.time() < next {
                 return;

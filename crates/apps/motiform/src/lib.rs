@@ -18,9 +18,31 @@
 //!
 #![doc = concat!("```\n", include_str!("../examples/own_model.rs"), "```")]
 //!
-//! Everything that takes a study takes this one: [`lab::scan`] maps its motions over parameters and resumes,
-//! [`diagrams::follow`](diagrams::follow()) follows its branches and finds that circles begin at `k tau = 1`,
-//! [`lab::analyse::lyapunov`] computes its exponents, [`lab::statistics`] those of many bodies.
+//! Everything that takes a study takes this one. Its motions are mapped over parameters, and its branches followed; `&()` is a
+//! [`Watch`](dynamics::Watch) that stops nothing:
+//!
+//! ```no_run
+//! use motiform::prelude::*;
+//!
+//! # let mut study = Study::of_model(ModelInfo::find("tensor")?);
+//! study.scan.axes = vec![Axis::parse("k=0.1:0.9:41")?];
+//! let scan = Scan::open("map".as_ref(), &ScanPlan::new(&study)?, Shard::WHOLE, Opening::New)?; // or Resume, after a kill
+//! scan.run(&Classify, 2, &())?;
+//!
+//! study.follow.along = Some(Along::parse("k=0.1:0.9")?);
+//! let plan = BranchPlan::new(&study, &study.follow.branches()?)?;
+//! let branches = follow(&plan, None, &())?;
+//! println!("{}", motiform::diagrams::summary(&plan, &branches)); // circles begin at k tau = 1
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | question | answer |
+//! | --- | --- |
+//! | Lyapunov exponents; those of transient chaos | [`lyapunov`](prelude::lyapunov); [`lab::saddle`] |
+//! | steady motions, stable or not; crossings of a surface | [`lab::equilibria`]; [`lab::section`] |
+//! | motions of many starts; mean lives of transient chaos | [`lab::samples`]; [`lab::lifetimes`] |
+//! | curves of bifurcations; all motions of a plane | [`diagrams::curves`]; [`diagrams::atlas`] |
+//! | statistics of many bodies under noise | [`lab::statistics`] |
 //!
 //! # The ideas, one page each
 //!
@@ -60,11 +82,12 @@ pub mod prelude {
     pub use motiform_dynamics::{
         Equivariant, Model, Scalar, Semilinear, Shape, Symmetry, System, VectorField, Watch,
     };
-    pub use motiform_lab::analyse::{classify, lyapunov};
+    pub use motiform_lab::analyse::{Spans, classify, lyapunov};
     pub use motiform_lab::draw::still;
     pub use motiform_lab::scan::{Classify, Opening, Scan, Shard, Totals};
     pub use motiform_lab::simulate::simulate;
     pub use motiform_models::{About, ModelInfo, Parameters, register};
+    pub use motiform_study::branches::Along;
     pub use motiform_study::scan::Axis;
     pub use motiform_study::{BranchPlan, Dataset, Plan, RunPlan, ScanPlan, Study, presets};
 }

@@ -3,7 +3,7 @@
 use motiform_cells::Error as CellError;
 use motiform_store::{Error as StoreError, Kind};
 use motiform_study::Error;
-use motiform_tracks::Error as TrackError;
+use motiform_tracks::{Apart, Error as TrackError};
 
 /// The options that mend an error of any kind, where there are some: the end of its sentence.
 pub(crate) fn end(error: &anyhow::Error) -> String {
@@ -28,6 +28,10 @@ fn of_cells(error: &CellError) -> Option<String> {
 fn of_tracks(error: &TrackError) -> Option<String> {
     match error {
         TrackError::Column { wanted, .. } => Some(format!(": --column {wanted}=HEADER")),
+        TrackError::MixedCells { remedy: Apart::Column, .. } => Some(": --column cell=HEADER".to_owned()),
+        TrackError::UnknownFormat { .. } => Some(
+            "; columns of a table are named by --column frame=HEADER, label masks are read with --format masks".to_owned(),
+        ),
         _ => None,
     }
 }

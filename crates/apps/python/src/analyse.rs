@@ -6,6 +6,7 @@ use crate::study::{Study, plan};
 use crate::watch::Caller;
 use motiform_analysis::Lyapunov;
 use motiform_dynamics::Direction;
+use motiform_lab::analyse::Spans;
 use motiform_lab::answers::{Motions, OfOrbit};
 use motiform_lab::samples::{self, Basins, Escapes, Samples};
 use motiform_study::{Error, RunPlan};
@@ -89,7 +90,7 @@ pub(crate) fn lyapunov(
 ) -> PyResult<String> {
     let plan = plan(study).map_err(python)?;
     let found = answer(Caller::here(py, progress, |watch| {
-        motiform_lab::analyse::lyapunov(&plan, count, (transient, t_end), watch).map(Some)
+        motiform_lab::analyse::lyapunov(&plan, count, Spans { transient, t_end }, watch).map(Some)
     }))?;
     exponents_json(&found, accuracy(&plan)?)
 }

@@ -74,15 +74,22 @@ pub(crate) fn of_cells(error: motiform_cells::Error) -> PyErr {
 
 /// As [`python()`], for errors of files with outlines.
 pub(crate) fn of_tracks(error: motiform_tracks::Error) -> PyErr {
+    use motiform_tracks::{Apart, Error as TrackError};
     let text = match &error {
-        motiform_tracks::Error::Column { wanted, .. } => format!("{error}: columns={{'{wanted}': HEADER}}"),
+        TrackError::Column { wanted, .. } => format!("{error}: columns={{'{wanted}': HEADER}}"),
+        TrackError::MixedCells { remedy: Apart::Column, .. } => {
+            format!("{error}: columns={{'cell': HEADER}}")
+        }
+        TrackError::UnknownFormat { .. } => format!(
+            "{error}; columns of a table are named by columns={{'frame': HEADER}}, label masks are read with format='masks'"
+        ),
         _ => error.to_string(),
     };
     match error {
-        motiform_tracks::Error::Io { reason, .. } if reason.kind() == std::io::ErrorKind::NotFound => {
+        TrackError::Io { reason, .. } if reason.kind() == std::io::ErrorKind::NotFound => {
             PyFileNotFoundError::new_err(text)
         }
-        motiform_tracks::Error::Io { .. } => PyOSError::new_err(text),
+        TrackError::Io { .. } => PyOSError::new_err(text),
         _ => PyValueError::new_err(text),
     }
 }

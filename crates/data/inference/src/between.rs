@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 /// Fewest cells between which differences are measured.
 const LEAST: usize = 2;
 
-/// Errors between cells.
+/// Standard errors of the coefficients of one law, from how the estimates change when each cell is left out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BetweenCells {
     /// Number of cells.

@@ -21,7 +21,7 @@ pub const COLOURED: f64 = 1e-6;
 pub const SEEN: f64 = 0.1;
 
 motiform_dynamics::named! {
-    /// The answer.
+    /// The answer to whether the law of a cell has a mirror symmetry.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(rename_all = "snake_case")]
     pub enum Symmetry by name {

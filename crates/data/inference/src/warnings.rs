@@ -42,7 +42,7 @@ const NOISES: [&str; 3] = [
 /// Frames whose rates are computed.
 const RATES: usize = 60;
 
-/// A warning.
+/// A reason to doubt a fit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Warning {

@@ -21,7 +21,7 @@ pub struct Bin {
     pub upper: f64,
 }
 
-/// A histogram.
+/// A histogram as a probability density, with the interval of each bin.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Histogram {
     /// Bins of equal width.

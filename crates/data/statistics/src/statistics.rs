@@ -30,7 +30,7 @@ pub struct Settings {
     pub threshold: Option<(String, Option<f64>)>,
 }
 
-/// The statistics.
+/// All statistics of a set of tracks; what cannot be computed says why in its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Statistics {
     /// Bodies.

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// Share of the durations that must be at risk up to the limit of the restricted mean, and their least number.
 const AT_RISK: (f64, f64) = (0.001, 5.0);
 
-/// A duration.
+/// A duration of a stay or a passage, whose end may lie beyond the observation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Duration {
     /// The time of observation.
@@ -18,7 +18,7 @@ pub struct Duration {
     pub group: usize,
 }
 
-/// A mean duration.
+/// The mean of durations some of which did not end while they were watched.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeanTime {
     /// The mean, an exponential tail beyond `limit` included; unknown if more than half last longer than was watched, or if ends become

@@ -106,9 +106,5 @@ fn looks(text: &str) -> String {
     if first.starts_with("#p2 - QuimP") {
         return "QuimP's parameters: give the .snQP file of the same name".to_owned();
     }
-    format!(
-        "text that begins {:?}; a table needs a header with columns for frame, x and y: name them: --column \
-        frame=HEADER, in Python columns={{'frame': HEADER}}",
-        shorten(first)
-    )
+    format!("text that begins {:?}; a table needs a header with columns for frame, x and y", shorten(first))
 }

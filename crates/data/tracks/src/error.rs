@@ -3,6 +3,24 @@
 use crate::{Format, Place};
 use std::path::PathBuf;
 
+/// The way to tell cells of one name apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Apart {
+    /// By a column of the table.
+    Column,
+    /// By names of files, entries or images, in words.
+    Names(&'static str),
+}
+
+impl std::fmt::Display for Apart {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Column => "give each cell a name of its own in a column, and name that",
+            Self::Names(words) => words,
+        })
+    }
+}
+
 /// The reasons why no tracks were read or written. Messages name the file, the line or entry, and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -116,7 +134,7 @@ pub enum Error {
         /// The first such frame.
         first: i64,
         /// The remedy.
-        remedy: &'static str,
+        remedy: Apart,
     },
     /// The file and an option say different things.
     #[error("{}: the file says {what} = {file_says}, the option {key} says {option_says}; leave the option \

@@ -1,7 +1,7 @@
 //! Vertices in the order of a file -> cells with one outline per frame.
 
 use crate::resolve::{Resolved, resolve};
-use crate::{Cell, Error, Limits, Note, Outline, Place, Result};
+use crate::{Apart, Cell, Error, Limits, Note, Outline, Place, Result};
 use std::collections::{BTreeMap, HashMap};
 
 /// A vertex: its place along the outline, and its coordinates.
@@ -71,12 +71,12 @@ impl Gather {
         Ok(())
     }
 
-    /// The cells, with times `frame` where the file has none. `remedy`: what to do against several cells of one name.
-    pub(crate) fn finish(self, place: &Place, remedy: &'static str) -> Result<(Vec<Cell>, Vec<Note>)> {
+    /// The cells, with times `frame` where the file has none. `apart`: the remedy where several cells have one name.
+    pub(crate) fn finish(self, place: &Place, apart: Apart) -> Result<(Vec<Cell>, Vec<Note>)> {
         let mut notes = Vec::new();
         let mut cells = Vec::with_capacity(self.cells.len());
         for draft in self.cells {
-            cells.push(finished(draft, &mut notes, place, remedy)?);
+            cells.push(finished(draft, &mut notes, place, apart)?);
         }
         cells.retain(|cell| !cell.frames.is_empty());
         Ok((cells, notes))
@@ -115,7 +115,7 @@ impl Gather {
     }
 }
 
-fn finished(draft: DraftCell, notes: &mut Vec<Note>, place: &Place, remedy: &'static str) -> Result<Cell> {
+fn finished(draft: DraftCell, notes: &mut Vec<Note>, place: &Place, apart: Apart) -> Result<Cell> {
     let (name, total) = (draft.name, draft.frames.len());
     let (mut same, mut conflicts, mut missing) = (Vec::new(), Vec::new(), Vec::new());
     let mut frames = Vec::with_capacity(total);
@@ -135,7 +135,7 @@ fn finished(draft: DraftCell, notes: &mut Vec<Note>, place: &Place, remedy: &'st
     {
         let file = place.path().to_owned();
         let conflicts = conflicts.len();
-        return Err(Error::MixedCells { file, name, conflicts, frames: total, first, remedy });
+        return Err(Error::MixedCells { file, name, conflicts, frames: total, first, remedy: apart });
     }
     let cell = || name.clone();
     notes.extend((!same.is_empty()).then(|| Note::SameFrameTwice { cell: cell(), frames: same }));

@@ -26,11 +26,8 @@ impl Input {
     pub(crate) fn open(path: &Path, limits: Limits) -> Result<Self> {
         let metadata = path.metadata().map_err(io(path))?;
         if !metadata.is_file() {
-            let found = if metadata.is_dir() {
-                "a folder, which only holds label masks (--format masks)"
-            } else {
-                "not a file"
-            };
+            let found =
+                if metadata.is_dir() { "a folder, which only holds label masks" } else { "not a file" };
             return Err(Error::UnknownFormat { file: path.to_owned(), found: found.to_owned() });
         }
         let mut file = BufReader::new(File::open(path).map_err(io(path))?);

@@ -3,7 +3,7 @@
 use crate::after::{filed_twice, implausible, large, positions, sentinels};
 use crate::formats::{self, Found};
 use crate::scale::{apply, scales};
-use crate::{Cell, Error, Format, Image, Note, Options, Result, Tracks, detect};
+use crate::{Apart, Cell, Error, Format, Image, Note, Options, Result, Tracks, detect};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -176,6 +176,6 @@ fn once(notes: &mut Vec<Note>) {
 }
 
 fn mixed(name: &str, file: &Path, first: i64, frames: usize) -> Error {
-    let remedy = "name the files FRAME-CELL.roi, images of labels NAME-FRAME";
+    let remedy = Apart::Names("name the files FRAME-CELL.roi, images of labels NAME-FRAME");
     Error::MixedCells { file: file.to_owned(), name: name.to_owned(), conflicts: 1, frames, first, remedy }
 }

@@ -41,7 +41,7 @@ pub struct Image {
     pub pixel: f64,
 }
 
-/// One cell.
+/// One cell of a recording: its outlines in time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Cell {
     /// Its name in the file.

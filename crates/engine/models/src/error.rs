@@ -28,7 +28,7 @@ pub enum Error {
         problem: String,
     },
     /// The model has no such parameter.
-    #[error("unknown parameter {name:?} of model {model}{}: {}", hint(.nearest), known_parameters(.model, .known))]
+    #[error("unknown parameter {name:?} of model {model}{}: the parameters are {}", hint(.nearest), .known.join(", "))]
     UnknownParameter {
         /// The name given.
         name: String,
@@ -106,15 +106,6 @@ pub enum Error {
         /// The equation and its term.
         term: String,
     },
-}
-
-/// A sentence that leads to the parameters: those of equations given as text are few, and no command knows
-/// the model by name.
-fn known_parameters(model: &str, known: &[&str]) -> String {
-    if model == crate::amplitudes::NAME {
-        return format!("the parameters are {}", known.join(", "));
-    }
-    format!("`motiform models {model}` lists them")
 }
 
 fn hint(nearest: &Option<&'static str>) -> String {

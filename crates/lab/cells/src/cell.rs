@@ -18,7 +18,7 @@ pub struct Sample {
     pub field: FieldOfView,
 }
 
-/// One cell.
+/// One cell with the modes of its outlines, and the frames of them that count.
 #[derive(Debug)]
 pub struct CellTrack {
     /// Its name in the file.

@@ -48,7 +48,7 @@ impl Driven {
         self.interval[1] <= NONE
     }
 
-    /// In words.
+    /// The share of the motion that the equations make, as a clause.
     #[must_use]
     pub fn in_words(&self) -> String {
         let percent = |share: f64| format!("{:.0}", 100.0 * share);

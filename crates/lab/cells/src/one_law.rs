@@ -17,14 +17,13 @@ pub(crate) fn no_law(found: &Senses, names: &[&str], joint: Symmetry) -> Option<
     if found.are_both() {
         return Some(format!(
             "cells of both senses are handed, each by itself ({p} or below): {one} in one, {other} in the other. In coefficients of all of \
-             them the senses cancel, and no cell follows these; fit the cells one by one (without --together), or those of each sense \
-             together (--cell)"
+             them the senses cancel, and no cell follows these; fit the cells one by one, or those of each sense together"
         ));
     }
     (joint != Symmetry::Handed).then(|| {
         format!(
             "cells do not follow one law: real coefficients are rejected in {one}, each by itself ({p} or below, number of cells counted), \
-             and not in all together; fit the cells one by one (without --together), or those of one sense together (--cell)"
+             and not in all together; fit the cells one by one, or those of one sense together"
         )
     })
 }
@@ -34,7 +33,7 @@ pub(crate) fn doubted(found: &Senses, joint: Symmetry) -> Option<String> {
     (joint != Symmetry::Handed && found.p_value < HANDED_RATE).then(|| {
         format!(
             "whether cells are handed is not decided: tests of each by itself, taken together, say so ({}), and imaginary parts that all \
-             of them have do not; fit the cells one by one (without --together)",
+             of them have do not; fit the cells one by one",
             PValue(found.p_value)
         )
     })

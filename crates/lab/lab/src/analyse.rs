@@ -112,18 +112,21 @@ pub fn settings_of(
     Settings { method, control: control.into(), first_look, budget, escape_norm, max_steps }
 }
 
-/// The `count` largest Lyapunov exponents of the plan's motion, averaged over `t_end` after `transient` (if not
-/// given: twenty looks of the model after four).
+/// The times of an average of growth; nothing: the defaults of the analysis, in looks of the model.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spans {
+    /// Model time that is left out at the beginning.
+    pub transient: Option<f64>,
+    /// Model time that is averaged over, at most.
+    pub t_end: Option<f64>,
+}
+
+/// The `count` largest Lyapunov exponents of the plan's motion, by default averaged over twenty looks of the model after four.
 ///
 /// # Errors
 /// A count the model does not have; input that only the numerics can reject.
-pub fn lyapunov(
-    plan: &Plan,
-    count: usize,
-    (transient, t_end): (Option<f64>, Option<f64>),
-    watch: &dyn Watch,
-) -> Result<Lyapunov, Error> {
-    lyapunov_followed(plan, count, (transient, t_end), watch, &mut |_| {})
+pub fn lyapunov(plan: &Plan, count: usize, spans: Spans, watch: &dyn Watch) -> Result<Lyapunov, Error> {
+    lyapunov_followed(plan, count, spans, watch, &mut |_| {})
 }
 
 /// As [`lyapunov`]; `follow` receives the averages as they are computed.
@@ -133,27 +136,23 @@ pub fn lyapunov(
 pub fn lyapunov_followed(
     plan: &Plan,
     count: usize,
-    times: (Option<f64>, Option<f64>),
+    spans: Spans,
     watch: &dyn Watch,
     follow: &mut dyn FnMut(SoFar<'_>),
 ) -> Result<Lyapunov, Error> {
     let (model, shape) = start(plan)?;
-    let settings = lyapunov_settings(plan, count, times)?;
+    let settings = lyapunov_settings(plan, count, spans)?;
     Ok(motiform_analysis::lyapunov_followed(model.as_ref(), &shape, &settings, watch, follow)?.bounded())
 }
 
 /// The settings of [`lyapunov`] for a plan.
-pub(crate) fn lyapunov_settings(
-    plan: &Plan,
-    count: usize,
-    (transient, t_end): (Option<f64>, Option<f64>),
-) -> Result<LyapunovSettings, Error> {
+pub(crate) fn lyapunov_settings(plan: &Plan, count: usize, spans: Spans) -> Result<LyapunovSettings, Error> {
     let (look, c) = (plan.look()?, &plan.computation);
     let dim = c.initial.0.len() - 2; // without the position
     if count == 0 || count > dim {
         return Err(Error::Count { count, dim });
     }
-    let (transient, span) = (transient.unwrap_or(4.0 * look), t_end.unwrap_or(20.0 * look));
+    let (transient, span) = (spans.transient.unwrap_or(4.0 * look), spans.t_end.unwrap_or(20.0 * look));
     let scales = scales(plan)?;
     scales.check_time("transient", transient, false)?;
     scales.check_time("t_end", span, true)?;

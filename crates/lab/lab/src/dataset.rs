@@ -67,9 +67,8 @@ pub fn read_dataset_by(
 ) -> Result<Dataset, Error> {
     mend(folder)?;
     let path = folder.join(MANIFEST);
-    let text = input::manifest(&path).map_err(|error| {
-        Error::unreadable(&path, format!("{error}; give a folder written by `motiform simulate`"))
-    })?;
+    let text = input::manifest(&path)
+        .map_err(|error| Error::unreadable(&path, format!("{error}; give the folder of a run")))?;
     let mut manifest: Manifest =
         serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(&path, error))?;
     let model = manifest.plan.body().map_err(|error| Error::unreadable(&path, error))?;

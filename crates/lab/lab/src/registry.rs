@@ -10,7 +10,7 @@ use motiform_study::study::RunSettings;
 use motiform_study::{Error, Key, Settings, Study, dataset};
 use serde_json::{Value, json};
 
-/// The registry.
+/// All names that front ends offer, as JSON: models, presets, steppers, settings, motions, numbers of scans.
 ///
 /// # Errors
 /// A preset or a model that fails its own checks.

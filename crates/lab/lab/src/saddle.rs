@@ -1,6 +1,6 @@
 //! Transient chaos: the exponent of the chaotic saddle, and the rate at which orbits leave it.
 
-use crate::analyse;
+use crate::analyse::{self, Spans};
 use crate::captured::{LAST_LOOKS, captured, is_regular, slow, way};
 use crate::pool::spread;
 use motiform_analysis::{
@@ -9,6 +9,7 @@ use motiform_analysis::{
 use motiform_dynamics::digits::four_digits;
 use motiform_dynamics::distributions::student_quantile;
 use motiform_dynamics::{Model, Outcome, StopOnly, Watch};
+use motiform_study::plan::check;
 use motiform_study::{Error, Plan, Random, Scales};
 use serde::Serialize;
 
@@ -77,21 +78,16 @@ enum End {
 pub fn saddle(
     plan: &Plan,
     (samples, random): (usize, Random),
-    (transient, t_end): (Option<f64>, Option<f64>),
+    spans: Spans,
     threads: usize,
     watch: &dyn Watch,
 ) -> Result<Option<Saddle>, Error> {
+    check("runs", samples as f64, samples > 1, "give at least 2")?;
     let (info, look, c) = (plan.info()?, plan.look()?, &plan.computation);
     let model = analyse::model(plan)?;
-    let settings = LyapunovSettings {
-        count: 1,
-        method: plan.method()?,
-        control: c.control.into(),
-        transient: transient.unwrap_or(0.5 * look),
-        span: t_end.unwrap_or(10.0 * look),
-        escape_norm: c.escape_norm,
-        max_steps: c.max_steps,
-    };
+    let [transient, t_end] =
+        [spans.transient.unwrap_or(0.5 * look), spans.t_end.unwrap_or(10.0 * look)].map(Some);
+    let settings = analyse::lyapunov_settings(plan, 1, Spans { transient, t_end })?;
     let bounds = (c.escape_norm, c.max_steps);
     let of = (info, &c.parameters.values()[..]);
     let last = analyse::settings_of(of, settings.method, c.control, bounds, LAST_LOOKS * look);

@@ -11,6 +11,7 @@ use crate::scan::Axis;
 pub use crate::study_reader::schema;
 use crate::{Error, Scales, Ties, presets};
 use motiform_dynamics::Model;
+use motiform_models::parameters::index_of;
 use motiform_models::registry::Display;
 use motiform_models::spelling::canonical;
 use motiform_models::{ModelInfo, ModelName};
@@ -225,10 +226,14 @@ impl Study {
     /// All parameter values, in registry order.
     ///
     /// # Errors
-    /// An unknown model.
+    /// An unknown model, a parameter that it does not have (with the nearest name).
     pub fn values(&self) -> Result<Vec<f64>, Error> {
         let given = |name: &str| self.parameters.iter().find(|(known, _)| known == name).map(|entry| entry.1);
-        let specs = self.info()?.parameters();
+        let info = self.info()?;
+        let specs = info.parameters();
+        for (name, _) in &self.parameters {
+            index_of(specs, info.name, name)?;
+        }
         let mut values: Vec<_> = specs.iter().map(|spec| given(spec.name).unwrap_or(spec.default)).collect();
         self.ties.apply(specs, &mut values);
         Ok(values)
@@ -297,7 +302,7 @@ impl Study {
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
         let info = self.info()?;
         let name = canonical(info.parameters(), name);
-        let index = motiform_models::parameters::index_of(info.parameters(), info.name, name)?;
+        let index = index_of(info.parameters(), info.name, name)?;
         let now = self.values()?[index];
         if let Some(formula) = self.ties.get(name) {
             let problem =

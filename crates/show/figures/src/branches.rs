@@ -63,7 +63,7 @@ pub struct BranchDots {
     pub points: Vec<Point>,
 }
 
-/// A special point.
+/// A special point of a branch, with its marker.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BranchMark {
     /// Its label in the legend (markup).

@@ -18,7 +18,7 @@ pub(super) const ROOM: [f64; 2] = [0.05; 2];
 /// Columns beside those of the axes.
 pub(super) const COLUMNS: [&[&str]; 2] = [&["series"], &["error"]];
 
-/// A measured value.
+/// A measured value with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     /// The abscissa of the measurement.

@@ -7,7 +7,7 @@ use motiform_diagrams::Branches;
 use motiform_dynamics::{Outcome, StopOnly, Watch};
 use motiform_figures::report::{Claim, ReportFigure, Verdict as Judged};
 use motiform_figures::{Drawn, Figure, Style};
-use motiform_lab::analyse;
+use motiform_lab::analyse::{self, Spans};
 use motiform_lab::draw::sheet_in;
 use motiform_lab::pool;
 use motiform_lab::saddle::{Saddle, saddle};
@@ -100,7 +100,7 @@ impl Context<'_> {
     pub(crate) fn lyapunov(&self, study: &Study, count: usize, times: (f64, f64)) -> Result<Lyapunov, Error> {
         let plan = RunPlan::new(study)?;
         let compute = || {
-            let times = (Some(times.0), Some(times.1));
+            let times = Spans { transient: Some(times.0), t_end: Some(times.1) };
             let found = analyse::lyapunov(&plan, count, times, &StopOnly(self.watch))?;
             match found.outcome {
                 Outcome::Interrupted { .. } => Err(Error::Interrupted),
@@ -114,12 +114,7 @@ impl Context<'_> {
     }
 
     /// The chaotic saddle of a study's parameters.
-    pub(crate) fn saddle(
-        &self,
-        study: &Study,
-        runs: usize,
-        times: (Option<f64>, Option<f64>),
-    ) -> Result<Saddle, Error> {
+    pub(crate) fn saddle(&self, study: &Study, runs: usize, times: Spans) -> Result<Saddle, Error> {
         let plan = RunPlan::new(study)?;
         let (starts, watch) = ((runs, Random::SMALL), StopOnly(self.watch));
         let compute = || saddle(&plan, starts, times, self.threads, &watch)?.ok_or(Error::Interrupted);

@@ -50,11 +50,7 @@ impl Task for Following {
     const NICE: i32 = 5;
 
     fn run(job: Job, watch: &dyn Watch, tell: Tell<'_, Found>) -> Result<(), Gone> {
-        let work = Work { job: &job, begun: Moment::now(), watch: Telling::new(&job, watch, tell) };
-        match work.run() {
-            Ok(done) => done,
-            Err(error) => work.end(None, Some(error.to_string())),
-        }
+        Work { job: &job, begun: Moment::now(), watch: Telling::new(&job, watch, tell) }.run()
     }
 }
 
@@ -65,31 +61,30 @@ struct Work<'w> {
 }
 
 impl Work<'_> {
-    fn run(&self) -> Result<Result<(), Gone>, Error> {
+    fn run(&self) -> Result<(), Gone> {
         let mut plan = self.job.plan.clone();
-        if let Err(gone) = self.watch.say(begun(self.job.epoch, &plan)) {
-            return Ok(Err(gone));
-        }
+        self.watch.say(begun(self.job.epoch, &plan))?;
         let mut before: Option<Branches> = None;
         for count in 1..=self.watch.total {
             let old = before.as_ref().map_or(0, |found| found.branches.len());
             plan.computation.branches = count;
             self.watch.count.store(count, Ordering::Relaxed);
-            let found = follow(&plan, before, &self.watch)?;
+            let found = match follow(&plan, before, &self.watch) {
+                Ok(found) => found,
+                Err(error) => return self.end(None, Some(error.to_string())),
+            };
             if self.watch.stopped() {
-                return Ok(self.gone()); // the request that made it stale reports the end
+                return self.gone(); // the request that made it stale reports the end
             }
             let known = Known { epoch: self.job.epoch, plan: plan.clone(), found: found.clone() };
-            if let Err(gone) = (self.watch.tell)(Found::Branches { known, old }) {
-                return Ok(Err(gone));
-            }
+            (self.watch.tell)(Found::Branches { known, old })?;
             let whole = found.left == 0;
             before = Some(found);
             if whole {
                 break;
             }
         }
-        Ok(self.end(before.as_ref(), None))
+        self.end(before.as_ref(), None)
     }
 
     fn end(&self, found: Option<&Branches>, why: Option<String>) -> Result<(), Gone> {

@@ -36,11 +36,40 @@ words! {
     }
 }
 
-messages! {
+/// Declares the messages of the page, each with its content, its variants and their verbs: the types, the enum, and its TypeScript.
+macro_rules! asks {
+    ($(
+        $(#[doc = $doc:literal])* $(#[derive($($derived:ident),*)])? #[serde($($whole:tt)*)]
+        $name:ident $(as $alias:literal)? = $($variant:ident $verb:literal),+ { $($fields:tt)* }
+    )*) => {
+        messages! {$(
+            $(#[doc = $doc])* $(#[derive($($derived),*)])? #[serde($($whole)*)] $name $(as $alias)? { $($fields)* }
+        )*}
+
+        /// A message of the page; see `PROTOCOL.md`.
+        #[derive(Clone, Debug, PartialEq, Deserialize)]
+        #[serde(tag = "do")]
+        pub(crate) enum Ask {
+            $($(#[serde(rename = $verb)] $variant($name),)+)*
+        }
+
+        /// All types of messages.
+        const VERBS: &[&str] = &[$($($verb),+),*];
+
+        /// The union of all messages of the page.
+        fn wishes() -> String {
+            let mut text = "/** Everything the page says. */\nexport type Wish =".to_owned();
+            $($(text += &format!("\n  | {}", line(&format!("do: \"{}\"", $verb), &<$name>::fields()));)+)*
+            text + ";\n\n/** A new body; `null` leaves the start to the preset. */\nexport type Begin = Extract<Wish, { do: \"begin\" }>;\n"
+        }
+    };
+}
+
+asks! {
     /// A new body; `null` leaves the start to the preset.
     #[derive(Default, Deserialize)]
     #[serde(deny_unknown_fields)]
-    Begin {
+    Begin = Begin "begin" {
         model: String,
         preset: Option<String>,
         #[serde(default)]
@@ -56,19 +85,19 @@ messages! {
     /// These parameters from now on; the state stays.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Set { parameters: BTreeMap<String, f64>, }
+    Set = Set "set" { parameters: BTreeMap<String, f64>, }
     /// White noise of this amplitude from now on.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Noise { amplitude: f64, }
+    Noise = Noise "noise" { amplitude: f64, }
     /// Moves the body on by this model time.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Advance { dt: f64, }
+    Advance = Advance "advance" { dt: f64, }
     /// A return map; its line lies at this y above the centre of the path.
     #[derive(Copy, Serialize, Deserialize)]
     #[serde(deny_unknown_fields)]
-    Section as "Strip" {
+    Section as "Strip" = Strips "strips" {
         section: SectionKind,
         #[serde(default)]
         y: Option<f64>,
@@ -76,34 +105,34 @@ messages! {
     /// The map of a window, about `count` cells along each axis.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    MapWindow { epoch: u32, x: Side, y: Option<Side>, count: u16, }
+    MapWindow = Map "map" { epoch: u32, x: Side, y: Option<Side>, count: u16, }
     /// The verdict on a cell of a map.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Cell { epoch: u32, cell: [u16; 2], }
+    Cell = Evidence "evidence" { epoch: u32, cell: [u16; 2], }
     /// Branches of the present motion along a parameter, at most so many.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Follow { epoch: u32, along: Side, branches: u16, }
+    Follow = Follow "follow" { epoch: u32, along: Side, branches: u16, }
     /// Places the body on a point of a branch.
     #[derive(Copy, Deserialize)]
     #[serde(deny_unknown_fields)]
-    BranchPoint { epoch: u32, branch: usize, point: usize, }
+    BranchPoint = Place "place" { epoch: u32, branch: usize, point: usize, }
     /// The body begins again, with these coordinates of the start of maps; everything else is as there.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Start { coordinates: BTreeMap<String, f64>, }
+    Start = Start "start" { coordinates: BTreeMap<String, f64>, }
     /// A random kick of the shape, by this part of its size.
     #[derive(Copy, Deserialize)]
     #[serde(deny_unknown_fields)]
-    Kick {
+    Kick = Kick "kick" {
         #[serde(default = "fifth")]
         strength: f64,
     }
     /// Whatever is given is changed, everything else stays.
     #[derive(Default, Deserialize)]
     #[serde(deny_unknown_fields)]
-    Put {
+    Put = Put "put" {
         #[serde(default)]
         parameters: BTreeMap<String, f64>,
         state: Option<Vec<f64>>,
@@ -115,11 +144,11 @@ messages! {
     /// The outline of this shape is pulled to a point relative to the position.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Pull { state: Vec<f64>, to: [f64; 2], }
+    Pull = Pull "pull" { state: Vec<f64>, to: [f64; 2], }
     /// So many returns ahead, at once.
     #[derive(Copy, Deserialize)]
     #[serde(deny_unknown_fields)]
-    ReturnsAhead as "Ahead" {
+    ReturnsAhead as "Ahead" = Returns "returns" {
         section: SectionKind,
         #[serde(default)]
         y: Option<f64>,
@@ -129,11 +158,11 @@ messages! {
     /// to the size of the shape.
     #[derive(Copy, Deserialize)]
     #[serde(deny_unknown_fields)]
-    Swarm { bodies: u16, from: SwarmStart, spread: f64, }
+    Swarm = Swarm "swarm" { bodies: u16, from: SwarmStart, spread: f64, }
     /// A file to keep.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Export {
+    Export = Export "export" {
         id: u32,
         what: String,
         #[serde(default = "speed")]
@@ -144,11 +173,11 @@ messages! {
     /// A study file as text: from now on the model "edited".
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Define { text: String, }
+    Define = Define "define" { text: String, }
     /// Nothing but the verb.
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    Bare {}
+    Bare = Restart "restart", Unmap "unmap", Unfollow "unfollow", Source "source", Share "share" {}
 }
 
 fn one() -> u64 {
@@ -161,52 +190,6 @@ fn fifth() -> f64 {
 
 fn speed() -> SectionKind {
     SectionKind::Speed
-}
-
-/// Declares the messages of the page: the enum, and its TypeScript.
-macro_rules! asks {
-    ($($variant:ident($payload:ident) = $verb:literal,)*) => {
-        /// A message of the page; see `PROTOCOL.md`.
-        #[derive(Clone, Debug, PartialEq, Deserialize)]
-        #[serde(tag = "do")]
-        pub(crate) enum Ask {
-            $(#[serde(rename = $verb)] $variant($payload),)*
-        }
-
-        /// All types of messages.
-        const VERBS: &[&str] = &[$($verb),*];
-
-        /// The union of all messages of the page.
-        fn wishes() -> String {
-            let mut text = "/** Everything the page says. */\nexport type Wish =".to_owned();
-            $(text += &format!("\n  | {}", line(&format!("do: \"{}\"", $verb), &<$payload>::fields()));)*
-            text + ";\n\n/** A new body; `null` leaves the start to the preset. */\nexport type Begin = Extract<Wish, { do: \"begin\" }>;\n"
-        }
-    };
-}
-asks! {
-    Begin(Begin) = "begin",
-    Set(Set) = "set",
-    Noise(Noise) = "noise",
-    Kick(Kick) = "kick",
-    Put(Put) = "put",
-    Pull(Pull) = "pull",
-    Restart(Bare) = "restart",
-    Start(Start) = "start",
-    Advance(Advance) = "advance",
-    Strips(Section) = "strips",
-    Returns(ReturnsAhead) = "returns",
-    Swarm(Swarm) = "swarm",
-    Map(MapWindow) = "map",
-    Unmap(Bare) = "unmap",
-    Evidence(Cell) = "evidence",
-    Follow(Follow) = "follow",
-    Unfollow(Bare) = "unfollow",
-    Place(BranchPoint) = "place",
-    Source(Bare) = "source",
-    Define(Define) = "define",
-    Share(Bare) = "share",
-    Export(Export) = "export",
 }
 
 /// A message of the page that was read.

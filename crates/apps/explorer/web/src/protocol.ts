@@ -412,25 +412,25 @@ export type Wish =
   | { do: "begin"; model: string; preset: string | null; parameters: Values; state: number[] | null; position: [number, number] | null; t: number; noise: number | null; seed: number }
   | { do: "set"; parameters: Values }
   | { do: "noise"; amplitude: number }
+  | { do: "advance"; dt: number }
+  | { do: "strips"; section: Section; y: number | null }
+  | { do: "map"; epoch: number; x: Axis; y: Axis | null; count: number }
+  | { do: "evidence"; epoch: number; cell: [number, number] }
+  | { do: "follow"; epoch: number; along: Axis; branches: number }
+  | { do: "place"; epoch: number; branch: number; point: number }
+  | { do: "start"; coordinates: Values }
   | { do: "kick"; strength: number }
   | { do: "put"; parameters: Values; state: number[] | null; position: [number, number] | null; velocity: [number, number] | null; t: number | null; noise: number | null }
   | { do: "pull"; state: number[]; to: [number, number] }
-  | { do: "restart" }
-  | { do: "start"; coordinates: Values }
-  | { do: "advance"; dt: number }
-  | { do: "strips"; section: Section; y: number | null }
   | { do: "returns"; section: Section; y: number | null; count: number }
   | { do: "swarm"; bodies: number; from: SwarmStart; spread: number }
-  | { do: "map"; epoch: number; x: Axis; y: Axis | null; count: number }
-  | { do: "unmap" }
-  | { do: "evidence"; epoch: number; cell: [number, number] }
-  | { do: "follow"; epoch: number; along: Axis; branches: number }
-  | { do: "unfollow" }
-  | { do: "place"; epoch: number; branch: number; point: number }
-  | { do: "source" }
+  | { do: "export"; id: number; what: string; section: Section; y: number | null }
   | { do: "define"; text: string }
-  | { do: "share" }
-  | { do: "export"; id: number; what: string; section: Section; y: number | null };
+  | { do: "restart" }
+  | { do: "unmap" }
+  | { do: "unfollow" }
+  | { do: "source" }
+  | { do: "share" };
 
 /** A new body; `null` leaves the start to the preset. */
 export type Begin = Extract<Wish, { do: "begin" }>;

@@ -4,12 +4,12 @@ use crate::args::LyapunovOptions;
 use crate::commands::subject;
 use crate::output::{End, say};
 use crate::progress::Progress;
-use motiform_lab::analyse;
+use motiform_lab::analyse::{self, Spans};
 use motiform_lab::answers::{Exponents, MeanExponents};
 use motiform_lab::pool::all_cores;
 use motiform_lab::saddle::saddle as find_saddle;
 use motiform_lab::samples::{self, Escapes, Samples, Starts};
-use motiform_study::{Error, Plan, Random};
+use motiform_study::{Plan, Random};
 
 /// Default number of exponents.
 const COUNT: usize = 6;
@@ -19,16 +19,6 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let runs =
         options.saddle.map(|runs| study.starts(1).map(|random| (usize::from(runs), random))).transpose()?;
     let (plan, samples) = subject::plan(study, &options.many)?;
-    for (key, value) in [("t_end", options.t_end), ("transient", options.transient)] {
-        if let Some(value) = value.filter(|&value| value < 0.0 || key == "t_end" && value == 0.0) {
-            return Err(Error::Setting {
-                key,
-                value: value.to_string(),
-                remedy: "give a time above 0 (the transient may be 0)",
-            }
-            .into());
-        }
-    }
     if let Some(runs) = runs {
         return saddle(options, &plan, runs);
     }
@@ -40,17 +30,19 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let look = plan.look()?;
     let total = options.transient.unwrap_or(4.0 * look) + options.t_end.unwrap_or(20.0 * look);
     let watch = Progress::new(total, "model time");
-    let spans = (options.transient, options.t_end);
-    let found = watch.over(|watch| analyse::lyapunov(&plan, count, spans, watch))?;
+    let found = watch.over(|watch| analyse::lyapunov(&plan, count, spans(options), watch))?;
     say(&Exponents::new(&plan, &found)?, options.motion.json)?;
     Ok(if found.without_error().is_some() { End::NotAsAsked } else { End::from(&found.outcome) })
+}
+
+fn spans(options: &LyapunovOptions) -> Spans {
+    Spans { transient: options.transient, t_end: options.t_end }
 }
 
 /// `--samples`: the exponents of many orbits.
 fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) -> anyhow::Result<End> {
     let watch = Progress::new(samples.count as f64, "orbits");
-    let spans = (options.transient, options.t_end);
-    let found = watch.over(|watch| samples::lyapunov(plan, samples, count, spans, watch));
+    let found = watch.over(|watch| samples::lyapunov(plan, samples, count, spans(options), watch));
     let Some(found) = found? else { return Ok(End::Interrupted) };
     let (starts, escapes) = (Starts::of(&samples), Escapes::of_orbits(plan, &found.orbits)?);
     let answer = MeanExponents::new(plan, &found, &starts, escapes.as_ref());
@@ -61,8 +53,7 @@ fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) 
 /// `--saddle`: the exponent of transient chaos.
 fn saddle(options: &LyapunovOptions, plan: &Plan, runs: (usize, Random)) -> anyhow::Result<End> {
     let watch = Progress::new(runs.0 as f64, "runs");
-    let spans = (options.transient, options.t_end);
-    let found = watch.over(|watch| find_saddle(plan, runs, spans, all_cores(), watch));
+    let found = watch.over(|watch| find_saddle(plan, runs, spans(options), all_cores(), watch));
     let Some(found) = found? else { return Ok(End::Interrupted) };
     say(&found, options.motion.json)?;
     Ok(if found.is_one() { End::Done } else { End::NotAsAsked })

@@ -4,7 +4,7 @@
 
 use cargo_metadata::MetadataCommand;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 
 fn root() -> PathBuf {
@@ -84,6 +84,28 @@ fn crates_are_no_more_and_no_larger() {
         own.flat_map(str::lines).filter(is_code).count()
     };
     check("crate_lines", crates().map(lines).max().unwrap() as u64);
+}
+
+/// Options and commands are words of the program (`remedy.rs`), not of the libraries, which Python and others use, too. Answers are
+/// lines that it prints.
+#[test]
+fn libraries_name_no_option() {
+    let mut found = Vec::new();
+    ["engine", "data", "lab"]
+        .iter()
+        .for_each(|group| sources(&root().join("crates").join(group), &mut found));
+    let ours = |path: &Path| {
+        let parts: Vec<_> = path.components().map(Component::as_os_str).collect();
+        parts.contains(&"src".as_ref()) && !parts.contains(&"answers".as_ref())
+    };
+    let option = |line: &str| {
+        let begins = |part: &str| part.starts_with(|c: char| c.is_ascii_lowercase());
+        line.contains("`motiform ") || line.match_indices("--").any(|(at, _)| begins(&line[at + 2..]))
+    };
+    for (path, text) in found.iter().filter(|(path, _)| ours(path)) {
+        let line = text.lines().find(|line| !line.trim_start().starts_with("//") && option(line));
+        assert_eq!(line, None, "{}", path.display());
+    }
 }
 
 /// A file that no module names is not compiled: its tests do not run, and nothing says so.

@@ -55,10 +55,20 @@ fn its_studies_are_files() {
     assert_eq!(RunPlan::new(&read).unwrap().hash(), RunPlan::new(&study(0.3)).unwrap().hash());
 }
 
+/// A name that the model does not have is refused, however it came into the study, with those that it has.
+#[test]
+fn its_names_are_checked() {
+    let mut typed = study(0.3);
+    let said = typed.set("kk", 1.0).unwrap_err().to_string();
+    assert!(said.ends_with("(did you mean k?): the parameters are gamma, k, tau"), "{said}");
+    typed.parameters.push(("kk".to_owned(), 1.0));
+    assert_eq!(RunPlan::new(&typed).unwrap_err().to_string(), said);
+}
+
 /// On the circle: 0 along the orbit (its heading), and none above.
 #[test]
 fn its_exponents_are_computed() {
-    let found = lyapunov(&RunPlan::new(&study(0.9)).unwrap(), 4, (None, None), &()).unwrap();
+    let found = lyapunov(&RunPlan::new(&study(0.9)).unwrap(), 4, Spans::default(), &()).unwrap();
     let values: Vec<f64> = found.exponents.iter().map(|exponent| exponent.value).collect();
     assert!(values[0].abs() < 1e-3 && values[1] < 0.0, "{values:?}");
     // the sum is the mean divergence: 2 (gamma - 2 v^2) - 2/tau with v^2 = gamma - 1/tau
@@ -69,7 +79,7 @@ fn its_exponents_are_computed() {
 #[test]
 fn its_branches_are_followed() {
     let mut study = study(0.3);
-    study.follow.along = Some(motiform::study::branches::Along::parse("k=0.1:0.9").unwrap());
+    study.follow.along = Some(Along::parse("k=0.1:0.9").unwrap());
     let plan = BranchPlan::new(&study, &study.follow.branches().unwrap()).unwrap();
     let branches = follow(&plan, None, &()).unwrap();
     let summary = motiform::diagrams::summary(&plan, &branches);

@@ -113,7 +113,7 @@ fn its_motion_is_the_same_in_any_units() {
             "{name}: {}",
             dataset.manifest.outcome
         );
-        let found = lyapunov(&plan, 2, (None, None), &()).unwrap();
+        let found = lyapunov(&plan, 2, Spans::default(), &()).unwrap();
         assert!((found.exponents[1].value / rate + 2.0).abs() < 1e-3, "{name}: {:?}", found.exponents);
     }
 }

@@ -153,10 +153,7 @@ fn starts_that_are_none_are_refused_with_what_to_do() {
     folder.write("empty.json", "{}");
     std::fs::copy(folder.path("first/points.parquet"), folder.path("moved.parquet")).expect("a copy");
     for (arguments, says) in [
-        (
-            "--start nothing:1 --along r=0:30",
-            "there is no such file or folder: give a folder of `motiform continue`",
-        ),
+        ("--start nothing:1 --along r=0:30", "there is no such file or folder: give a folder of branches"),
         (
             "--start equilibria.json --along r=0:30",
             "give FILE:NUMBER, from 1\n  equilibria.json:1  motionless, 1 growing",

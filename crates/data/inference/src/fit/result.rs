@@ -28,7 +28,7 @@ fn ends<'d, D: Deserializer<'d>>(from: D) -> Result<[f64; 2], D::Error> {
     Ok([low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY)])
 }
 
-/// A fitted coefficient.
+/// A fitted coefficient of one term: its real or its imaginary part, with its error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coefficient {
     /// The term's name, `z1: z1* z2`.
@@ -90,7 +90,7 @@ pub struct CellScatter {
     pub factor: f64,
 }
 
-/// A fitted model.
+/// A fitted model: its terms with their coefficients and the noise, and how well these are known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
     /// The terms.

@@ -48,7 +48,7 @@ fn a_circle_never_forgets() {
 #[test]
 fn fourier_sums_are_direct_sums() {
     let mut normal = Normal::new(7, 0);
-    let series: Vec<Vec<f64>> = (0..2).map(|_| (0..57).map(|_| normal.next()).collect()).collect();
+    let series = [57, 40].map(|length| (0..length).map(|_| normal.next()).collect::<Vec<f64>>());
     let sums = lagged_sums(&series, 70).unwrap();
     for (lag, sum) in sums.iter().enumerate() {
         let direct: f64 = series

@@ -5,7 +5,7 @@ use crate::gather::{Gather, Key};
 use crate::input::Input;
 use crate::numbering::{median_difference, numbers};
 use crate::scale::{Said, Scale};
-use crate::{Cell, Error, Note, Options, Place, Result};
+use crate::{Apart, Cell, Error, Note, Options, Place, Result};
 
 /// Frames are counted in intervals, the interval being the median of the differences; uneven times are numbered in order, with a note.
 pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
@@ -30,7 +30,7 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
         times.push(t);
         frame += 1;
     }
-    let (mut cells, mut notes) = gather.finish(&input.place, "write one cell per file")?;
+    let (mut cells, mut notes) = gather.finish(&input.place, Apart::Names("write one cell per file"))?;
     let interval = median_difference(&times);
     match numbers(&times, interval) {
         Some(numbers) => renumber(&mut cells, &mut notes, &numbers),

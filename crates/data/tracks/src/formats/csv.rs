@@ -8,12 +8,8 @@ use crate::input::{Input, decimal, number, whole};
 use crate::scale::{Said, Scale};
 use crate::split::split;
 use crate::units::{lengths, no_time, time};
-use crate::{Error, Note, Options, Place, Result};
+use crate::{Apart, Error, Note, Options, Place, Result};
 use std::borrow::Cow;
-
-/// The remedy where several cells have one name.
-pub(super) const REMEDY: &str =
-    "name the column of the cell: --column cell=HEADER, in Python columns={'cell': HEADER}";
 
 /// Rows `cell, frame, i, x, y` in any order; without a cell there is one, without i the order of the rows is that of the vertices.
 ///
@@ -49,7 +45,7 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
         let frame = times.frame(frame, time, &place)?;
         gather.row(Key { cell: &cell, frame }, i, point, &place)?;
     }
-    let finished = gather.finish(&input.place, REMEDY);
+    let finished = gather.finish(&input.place, Apart::Column);
     let (mut cells, mut notes) = finished.map_err(|error| times.in_words(error))?;
     let rounded = times.even_clock(&cells);
     notes.extend(rounded.map(|[interval, unit]| Note::RoundedTimes {

@@ -1,11 +1,10 @@
 //! Long tables as Parquet: one vertex per row.
 
-use super::csv::REMEDY;
 use super::{Found, stem};
 use crate::gather::{Gather, Key};
 use crate::header::{Header, needed};
 use crate::input::{integer, io};
-use crate::{Error, Options, Place, Result};
+use crate::{Apart, Error, Options, Place, Result};
 use motiform_store::table::parquet_input::{Read, read as read_file, values, wrong};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader};
@@ -37,7 +36,7 @@ pub(super) fn read(path: &Path, options: &Options) -> Result<Found> {
         let expected = if packed { COMPRESSIONS } else { "a sound Parquet file" };
         Error::structure(&place, error.to_string(), expected)
     })?;
-    let (cells, notes) = gather.finish(&place, REMEDY)?;
+    let (cells, notes) = gather.finish(&place, Apart::Column)?;
     Ok(Found { cells, notes, ..Found::default() })
 }
 

@@ -5,7 +5,7 @@ use super::{Found, stem};
 use crate::detect::block;
 use crate::gather::{Gather, Key};
 use crate::input::{Input, number, whole};
-use crate::{Error, Options, Place, Result};
+use crate::{Apart, Error, Options, Place, Result};
 
 /// The outlines in pixels, with the scale of the `.paQP` beside the file.
 pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
@@ -30,7 +30,7 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
         nodes(&mut input, count, &mut points)?;
         gather.outline(Key { cell: &cell, frame }, None, &points, &place)?;
     }
-    let (cells, notes) = gather.finish(&input.place, "write one cell per file")?;
+    let (cells, notes) = gather.finish(&input.place, Apart::Names("write one cell per file"))?;
     Ok(Found { cells, notes, scale: beside(&path, options)?, image: None })
 }
 

@@ -6,7 +6,7 @@ use crate::gather::{Gather, Key};
 use crate::header::{Header, is_table, names, needed, separator};
 use crate::input::{Input, number, whole};
 use crate::split::split;
-use crate::{Error, Options, Place, Result};
+use crate::{Apart, Error, Options, Place, Result};
 use std::path::Path;
 
 /// Columns are found by the header, which may begin with `#` and be repeated.
@@ -37,7 +37,7 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
         let frame = frame.ok_or_else(|| Error::structure(&place, "values", "a line #frame N before them"))?;
         gather.row(Key { cell: &cell, frame }, None, point(&line, table, &place)?, &place)?;
     }
-    let (cells, notes) = gather.finish(&input.place, "write one cell per file")?;
+    let (cells, notes) = gather.finish(&input.place, Apart::Names("write one cell per file"))?;
     Ok(Found { cells, notes, ..Found::default() })
 }
 

@@ -5,13 +5,13 @@ use super::roi_name::named;
 use super::{Found, stem};
 use crate::gather::{Gather, Key};
 use crate::input::{Input, io};
-use crate::{Error, Options, Place, Result};
+use crate::{Apart, Error, Options, Place, Result};
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 use zip::ZipArchive;
 
-const REMEDY: &str = "name the entries FRAME-CELL.roi";
+const REMEDY: Apart = Apart::Names("name the entries FRAME-CELL.roi");
 
 /// One `.roi`: one outline.
 pub(super) fn read_one(input: Input, options: &Options) -> Result<Found> {

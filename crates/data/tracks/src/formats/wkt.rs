@@ -6,11 +6,8 @@ use crate::gather::{Gather, Key};
 use crate::header::{Header, names, needed, polygon, separator};
 use crate::input::{Input, whole};
 use crate::split::split;
-use crate::{Error, Options, Place, Result};
+use crate::{Apart, Error, Options, Place, Result};
 use std::borrow::Cow;
-
-const REMEDY: &str =
-    "give a column with the cell, and name it: --column cell=HEADER, in Python columns={'cell': HEADER}";
 
 /// With a header: columns cell, frame and wkt. Without: lines of `POLYGON (...)`, before it nothing, the frame, or cell and frame.
 pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
@@ -35,7 +32,7 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
             None => bare.line(&line, &input.here(), &mut gather)?,
         }
     }
-    let (cells, notes) = gather.finish(&input.place, REMEDY)?;
+    let (cells, notes) = gather.finish(&input.place, Apart::Column)?;
     Ok(Found { cells, notes, ..Found::default() })
 }
 

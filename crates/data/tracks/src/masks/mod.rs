@@ -9,7 +9,7 @@ mod tiff;
 use crate::formats::Found;
 use crate::gather::{Gather, Key};
 use crate::input::io;
-use crate::{Error, Image, Note, Options, Place, Result};
+use crate::{Apart, Error, Image, Note, Options, Place, Result};
 use contour::outlines;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -17,7 +17,7 @@ use std::io::Read;
 use std::path::Path;
 
 /// The remedy where a frame occurs twice.
-const REMEDY: &str = "number the images at the ends of their names";
+const REMEDY: Apart = Apart::Names("number the images at the ends of their names");
 
 /// Most pixels of an image.
 const MOST_PIXELS: usize = 1 << 28;

@@ -5,7 +5,7 @@ use crate::geometry::edges;
 /// Pairs of edges that are looked at, at most.
 const PAIRS: usize = 20_000_000;
 
-/// The answer.
+/// The answer to whether a polygon crosses itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Crossing {
     /// No two edges cross.

@@ -119,7 +119,10 @@ fn two_cells_under_one_name() {
         }
     }
     let error = refusal(text);
-    assert!(error.contains("6 of its 6 frames") && error.contains("--column cell="), "{error}");
+    assert!(
+        error.contains("6 of its 6 frames") && error.contains("a name of its own in a column"),
+        "{error}"
+    );
 }
 
 #[test]

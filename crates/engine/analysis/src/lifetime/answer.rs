@@ -155,7 +155,7 @@ impl LifeLaws {
         match self {
             Self::PowerLaw { power, advantage, .. } => {
                 format!(
-                    "a power law, so a crisis if the motion before is chaotic, which is not asked here (`lyapunov --saddle` does): {} \
+                    "a power law, so a crisis if the motion before is chaotic, which its largest exponent on the chaotic saddle says: {} \
                      (AIC better by {advantage:.1})",
                     power.words(&time)
                 )

@@ -11,7 +11,7 @@
 use super::{CellField, CellParameters};
 use crate::tensor::Coefficients;
 
-/// The slaved modes.
+/// The modes of a cell that follow the others at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slaved {
     /// None: modes 1, 2, 3, truncated.

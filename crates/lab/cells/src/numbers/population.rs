@@ -35,7 +35,7 @@ pub struct Withheld {
     pub why: String,
 }
 
-/// Numbers over cells.
+/// Means over the cells of a recording, with their intervals.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PopulationNumbers {
     /// Each number over the cells that have it.

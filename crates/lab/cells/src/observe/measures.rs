@@ -210,8 +210,8 @@ pub(super) fn without(track: &Track, frames_of_all: usize, unit: &str) -> String
     let uneven: Vec<f64> = frames.windows(2).map(off).filter(|off| (EVEN..=NO_GAP).contains(off)).collect();
     format!(
         "times are uneven: {} of {} intervals differ from the usual one, {} {unit}, by more than {:.0} %, up to {:.0} %, which leaves no \
-         even stretch of {LEAST} frames; if the camera was even and the stamps are not, give frame numbers and --interval instead of \
-         times; `fit` takes uneven times",
+         even stretch of {LEAST} frames; if the camera was even and the stamps are not, give frame numbers and the interval instead of \
+         times; a fit takes uneven times",
         uneven.len(),
         frames.len() - 1,
         four_digits(dt),

@@ -16,7 +16,7 @@ const REGULAR: (f64, f64) = (0.99, 0.02);
 const MEMORIES: f64 = 8.0;
 const MOST_SCATTER: f64 = 0.25;
 
-/// A repetition.
+/// The repetition of a motion after a period, with how alike two periods are.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Repeats {
     /// Its period (unit of time).

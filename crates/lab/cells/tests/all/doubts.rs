@@ -253,7 +253,10 @@ fn cells_of_both_senses_have_no_law_together() {
     let options = FitOptions { drift: false, simulations: 0, draws: 4, ..FitOptions::default() };
     let why = fit_together(&cells, &options, &()).unwrap().fitted.unwrap_err();
     println!("{why}");
-    assert!(why.contains("cells of both senses are handed") && why.contains("(--cell)"), "{why}");
+    assert!(
+        why.contains("cells of both senses are handed") && why.contains("or those of each sense together"),
+        "{why}"
+    );
     assert!(["1, 2", "3, 4"].iter().all(|side| why.contains(side)), "{why}");
     let fitted = fit_together(&cells[..2], &options, &()).unwrap().fitted.unwrap();
     assert_eq!(fitted.handedness.symmetry, Symmetry::Handed);

@@ -180,7 +180,7 @@ fn uneven_times_are_named_as_such() {
     let why =
         "times are uneven: 160 of 239 intervals differ from the usual one, 1 s, by more than 5 %, up to 6 %";
     assert!(
-        found.motion.why.starts_with(why) && found.motion.why.contains("--interval"),
+        found.motion.why.starts_with(why) && found.motion.why.contains("give frame numbers and the interval"),
         "{}",
         found.motion.why
     );

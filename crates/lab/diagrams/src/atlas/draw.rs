@@ -19,7 +19,7 @@ pub fn draw_atlas(folder: &AtlasFolder, format: &FigureFormat) -> Result<Vec<Pic
     files(vec![("atlas", Box::new(atlas_map(folder)?))], true, format)
 }
 
-/// The map.
+/// The map of an atlas: its regions by colour, with the curves and points that bound them.
 ///
 /// # Errors
 /// An unknown model.

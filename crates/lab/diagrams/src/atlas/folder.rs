@@ -17,7 +17,7 @@ use std::path::Path;
 
 const STATE: &str = "atlas.json";
 
-/// A finished atlas.
+/// A finished atlas, read from its folder: the motions of the plane, and the lines that bound them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtlasFolder {
     /// The plan.
@@ -42,7 +42,7 @@ impl AtlasFolder {
     pub fn read(path: &Path) -> Result<Self, Error> {
         let manifest: Provenance<AtlasComputation> = Provenance::read(path)?;
         if manifest.complete != Some(true) {
-            let why = "this atlas is not finished: the same `motiform atlas` with --resume goes on";
+            let why = "this atlas is not finished: resume it first";
             return Err(Error::unreadable(path, why));
         }
         let State { grid, lines } = read(path, STATE)?;

@@ -26,7 +26,7 @@ pub struct Found {
 pub(crate) const NUMBERS: [&Quantity; 5] =
     [&motion::SPEED_MEAN, &motion::TURNING_RATE, &motion::PERIOD, &motion::LAMBDA_1, &motion::LAMBDA_1_ERROR];
 
-/// A cell.
+/// A cell of the plane, with its motions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Place {
     /// Its motions, the most frequent first.

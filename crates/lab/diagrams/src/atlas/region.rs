@@ -5,7 +5,7 @@ use crate::atlas::grid::Grid;
 use motiform_analysis::{Course, Regime};
 use motiform_study::AtlasPlan;
 
-/// A region.
+/// A connected part of the plane in which all cells have the same motions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     /// Its motions, in the order of legends: more than one where motions coexist.

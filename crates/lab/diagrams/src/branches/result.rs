@@ -37,7 +37,7 @@ impl Leg {
     }
 }
 
-/// A branch.
+/// A branch that was followed from its origin, to both sides where it has two.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
     /// Its origin.

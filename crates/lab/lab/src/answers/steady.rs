@@ -44,7 +44,7 @@ impl Display for SteadyMotions<'_> {
             writeln!(f, "{}{}", leading(one), family(one))?;
         }
         let count = self.equilibria.len();
-        write!(f, "{count} found; nothing proves that these are all, more --starts may find more")
+        write!(f, "{count} found; nothing proves that these are all, more starts may find more")
     }
 }
 

@@ -36,7 +36,7 @@ impl Span {
     }
 }
 
-/// A recorded orbit.
+/// The recorded orbit of a vector field, with its end.
 pub struct Recording {
     /// Rows and crossings; empty if it ended during the transient.
     pub trajectory: Trajectory,

@@ -216,8 +216,8 @@ fn check_axis(plan: &ScanPlan, delay: Option<f64>) -> Result<&motiform_study::sc
     if plan.varies_start()? {
         return Err(Error::Axis {
             text: axis.name.clone(),
-            problem: "mean lives follow a law of a parameter, and this is a coordinate of the start; `motiform scan --axis` \
-                      maps what different starts end in"
+            problem: "mean lives follow a law of a parameter, and this is a coordinate of the start; a scan maps what \
+                      different starts end in"
                 .to_owned(),
         });
     }
@@ -290,7 +290,7 @@ impl Lifetimes {
             (
                 unwatched(true),
                 "values have nothing to watch after the delay, as all of their starts ended before: there is no chaos that lasts for \
-                 it; --transient gives a shorter delay",
+                 it; give a shorter delay",
             ),
             (
                 unwatched(false),

@@ -22,7 +22,7 @@ pub struct Record {
     numbers: Vec<f64>,
 }
 
-/// One sample.
+/// One sample of a body that is moved interactively.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row<'r> {
     /// Model time.

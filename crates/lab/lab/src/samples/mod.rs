@@ -4,7 +4,7 @@ mod escapes;
 mod population;
 mod shares;
 
-use crate::analyse::{self, Body};
+use crate::analyse::{self, Body, Spans};
 pub use escapes::{EscapeLimits, Escapes};
 use motiform_analysis::lyapunov::power_of_time;
 use motiform_analysis::regime::{Course, Settings, Verdict, classifies_in_lanes};
@@ -102,7 +102,7 @@ pub fn lyapunov(
     plan: &RunPlan,
     samples: Samples,
     count: usize,
-    spans: (Option<f64>, Option<f64>),
+    spans: Spans,
     watch: &dyn Watch,
 ) -> Result<Option<Exponents>, Error> {
     samples.check()?;
@@ -246,7 +246,8 @@ mod tests {
 
     #[test]
     fn exponents_are_those_of_each_orbit_and_their_mean_is_sharper() {
-        let (plan, spans) = (plan("preset = \"fig5b\""), (Some(100.0), Some(1000.0)));
+        let (plan, spans) =
+            (plan("preset = \"fig5b\""), Spans { transient: Some(100.0), t_end: Some(1000.0) });
         let found = lyapunov(&plan, samples(12, 2), 6, spans, &()).unwrap().unwrap();
         assert_eq!(found.orbits[0], analyse::lyapunov(&plan, 6, spans, &()).unwrap());
         let population = Population::new(&plan, samples(12, 1), &()).unwrap();
@@ -303,8 +304,8 @@ mod tests {
     fn a_stop_is_heard_and_nonsense_refused() {
         let plan = plan("preset = \"fig5b\"");
         assert_eq!(classify(&plan, samples(4, 2), 0.0, &Stopped).unwrap(), None);
-        assert_eq!(lyapunov(&plan, samples(4, 2), 6, (None, None), &Stopped).unwrap(), None);
+        assert_eq!(lyapunov(&plan, samples(4, 2), 6, Spans::default(), &Stopped).unwrap(), None);
         assert!(classify(&plan, samples(0, 1), 0.0, &()).is_err());
-        assert!(lyapunov(&plan, samples(4, 1), 7, (None, None), &()).is_err());
+        assert!(lyapunov(&plan, samples(4, 1), 7, Spans::default(), &()).is_err());
     }
 }

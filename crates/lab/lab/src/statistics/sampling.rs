@@ -34,7 +34,7 @@ pub fn coarser_than_own(own: &RunSettings, apart: f64) -> Option<String> {
     (apart > usual * (1.0 + 1e-9)).then(|| {
         format!(
             "samples are {apart} apart, and {usual} in the subject's own run: all bodies together would have more than two million; \
-             --dt-out {usual} keeps them all"
+             dt_out = {usual} keeps them all"
         )
     })
 }
@@ -60,7 +60,7 @@ mod tests {
         assert_eq!(coarser_than_own(&own, samples_apart(&own, 100.0, 50)), None);
         let said = coarser_than_own(&own, samples_apart(&own, 4000.0, 500)).unwrap_or_default();
         assert!(
-            said.starts_with("samples are 1 apart, and 0.05") && said.contains("--dt-out 0.05"),
+            said.starts_with("samples are 1 apart, and 0.05") && said.contains("dt_out = 0.05"),
             "{said}"
         );
     }

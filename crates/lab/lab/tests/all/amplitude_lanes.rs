@@ -59,7 +59,7 @@ fn check_samples(plan: &RunPlan) {
     let many = |count| Samples { count, random: 0.1.into(), given: false, threads: 2 };
     let verdicts = samples::classify(plan, many(5), 0.0, &()).unwrap().unwrap();
     assert_eq!(verdicts[0], analyse::classify(plan, 0.0, &()).unwrap().unwrap());
-    let spans = (Some(50.0), Some(200.0));
+    let spans = analyse::Spans { transient: Some(50.0), t_end: Some(200.0) };
     let found = samples::lyapunov(plan, many(9), count, spans, &()).unwrap().unwrap();
     assert_eq!(found.orbits[0], analyse::lyapunov(plan, count, spans, &()).unwrap());
     let members = random_members(plan, 19, Random::Within(0.3)).unwrap();

@@ -80,7 +80,7 @@ fn a_period_is_found_in_any_units() {
         assert_eq!(verdict.regime.name(), "zigzag");
         (study.run.t_end, study.run.transient) = (200.0 / rate, 40.0 / rate);
         let plan = RunPlan::new(&study).unwrap();
-        let found = analyse::lyapunov(&plan, 2, (None, None), &()).unwrap();
+        let found = analyse::lyapunov(&plan, 2, analyse::Spans::default(), &()).unwrap();
         assert!(
             (found.exponents[1].value / rate + 1.1579).abs() < 0.01,
             "{rate} {length}: {:?}",

@@ -4,6 +4,7 @@
 
 use motiform_dynamics::Direction;
 use motiform_dynamics::Watch;
+use motiform_lab::analyse::Spans;
 use motiform_lab::equilibria::equilibria;
 use motiform_lab::samples::{self, Samples};
 use motiform_lab::section::section;
@@ -92,7 +93,9 @@ fn the_progress_of_several_starts_only_grows() {
     let samples = Samples { count: 4, random: Random::basins(1.0), given: false, threads: 1 };
     let [motions, exponents] = [Parts::default(), Parts::default()];
     samples::classify(&plan, samples, 1000.0, &motions).unwrap().unwrap();
-    samples::lyapunov(&plan, samples, 1, (Some(10.0), Some(100.0)), &exponents).unwrap().unwrap();
+    samples::lyapunov(&plan, samples, 1, Spans { transient: Some(10.0), t_end: Some(100.0) }, &exponents)
+        .unwrap()
+        .unwrap();
     for Parts(parts) in [motions, exponents] {
         assert_eq!(parts.into_inner().unwrap(), [0.25, 0.5, 0.75, 1.0]);
     }

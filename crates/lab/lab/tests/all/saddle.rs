@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+use motiform_lab::analyse::Spans;
 use motiform_lab::saddle::{Saddle, saddle};
+use motiform_models::ModelInfo;
 use motiform_study::{Random, RunPlan, Study};
 
 fn found(r: f64, (transient, t_end): (f64, f64), (runs, random): (usize, Option<Random>)) -> Saddle {
@@ -11,7 +13,8 @@ fn found(r: f64, (transient, t_end): (f64, f64), (runs, random): (usize, Option<
     let mut study = Study::parse(&text.replace("r = 28", &format!("r = {r:?}")), "text", "test").unwrap();
     study.random = random;
     let starts = (runs, study.starts(1).unwrap());
-    saddle(&RunPlan::new(&study).unwrap(), starts, (Some(transient), Some(t_end)), 2, &()).unwrap().unwrap()
+    let spans = Spans { transient: Some(transient), t_end: Some(t_end) };
+    saddle(&RunPlan::new(&study).unwrap(), starts, spans, 2, &()).unwrap().unwrap()
 }
 
 #[test]
@@ -39,4 +42,15 @@ fn larger_starts_come_to_the_saddle() {
     assert!(exponent.error < 0.05, "{large:?}");
     let short = found(23.0, (10.0, 200.0), (24, Some(Random::Sizes { min: 10.0, max: 60.0 })));
     assert!(short.missing.contains("before the last 256.1 model time, the way into"), "{short:?}");
+}
+
+#[test]
+fn runs_and_times_are_checked() {
+    let study = Study::of_model(ModelInfo::find("tensor").unwrap());
+    let plan = RunPlan::new(&study).unwrap();
+    let refused =
+        |runs, spans| saddle(&plan, (runs, study.starts(1).unwrap()), spans, 1, &()).unwrap_err().to_string();
+    assert_eq!(refused(1, Spans::default()), "runs = 1: give at least 2");
+    let early = Spans { transient: Some(-1.0), t_end: None };
+    assert_eq!(refused(2, early), "transient = -1: give a time from 0 to 1e9");
 }

@@ -86,7 +86,7 @@ impl RunPlan {
     pub fn check_in_memory(&self) -> Result<(), Error> {
         let Computation { t_end, dt_out, .. } = self.computation;
         let remedy = "this gives more than 20 million rows, too many for memory: give a longer time, \
-                      or write the run with `motiform simulate`";
+                      or write the run to a folder as it is computed";
         check("dt_out", dt_out, t_end / dt_out <= MOST_IN_MEMORY, remedy)
     }
 

@@ -11,7 +11,7 @@ use super::error::{FigureError, Result, check_finite, check_range};
 use super::geometry::{Point, Range, distance};
 use super::path::PathPoint;
 
-/// One picture.
+/// One picture of an animation: the body at a time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Time.

@@ -6,7 +6,7 @@ use crate::svg::escape;
 use crate::text::powers;
 use serde::{Deserialize, Serialize};
 
-/// A table.
+/// A table of a page, with its caption.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Table {
     /// The caption (markup).

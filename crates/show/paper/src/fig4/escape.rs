@@ -6,6 +6,7 @@ use super::{at, figure, power};
 use motiform_analysis::Stay;
 use motiform_figures::report::Section;
 use motiform_figures::{Chart, Drawn, ExpectedLine, LineStyle, SurvivalCurve, SurvivalStep};
+use motiform_lab::analyse::Spans;
 use motiform_lab::saddle::Saddle;
 use motiform_study::Error;
 
@@ -17,7 +18,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let (runs, t_end) = context.choose((400, 4000.0), (80, 1500.0));
     let mut found = Vec::new();
     for kappa2 in values {
-        let times = (Some(SETTLE), Some(t_end));
+        let times = Spans { transient: Some(SETTLE), t_end: Some(t_end) };
         let one = context.saddle(&at(context, *kappa2, 0.1)?, runs, times)?;
         found.push((*kappa2, one));
     }

@@ -6,6 +6,7 @@ use super::{at, figure, power};
 use motiform_analysis::Estimate;
 use motiform_figures::report::{Claim, Section};
 use motiform_figures::{Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured};
+use motiform_lab::analyse::Spans;
 use motiform_study::Error;
 use motiform_study::quantity::motion::LAMBDA_1;
 
@@ -71,7 +72,7 @@ fn run(context: &Context<'_>, (kappa2, seed): (f64, u64), span: f64) -> Result<R
 }
 
 fn left(context: &Context<'_>, kappa2: f64) -> Result<Option<Left>, Error> {
-    let found = context.saddle(&at(context, kappa2, 0.1)?, context.choose(100, 24), (None, None))?;
+    let found = context.saddle(&at(context, kappa2, 0.1)?, context.choose(100, 24), Spans::default())?;
     let of = |exponent| Left { kappa2, exponent, escaped: found.escaped, runs: found.runs };
     Ok(found.exponent.map(of))
 }

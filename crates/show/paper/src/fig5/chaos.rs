@@ -6,6 +6,7 @@ use super::super::fig4::power;
 use super::drawings;
 use motiform_analysis::Lyapunov;
 use motiform_figures::report::{Claim, Section};
+use motiform_lab::analyse::Spans;
 use motiform_lab::saddle::Saddle;
 use motiform_study::{Error, Study};
 
@@ -55,7 +56,7 @@ fn exponent(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
 /// Does the chaos end in a blow-up, as it does at smaller kappa2?
 fn lasting(context: &Context<'_>, study: &Study) -> Result<Claim, Error> {
     let (runs, t_end) = context.choose((100, 20_000.0), (24, 5000.0));
-    let found = context.saddle(study, runs, (Some(100.0), Some(t_end)))?;
+    let found = context.saddle(study, runs, Spans { transient: Some(100.0), t_end: Some(t_end) })?;
     let watched = watched(&found);
     let finds = if found.escaped == 0 {
         format!(

@@ -10,7 +10,7 @@ use super::Found;
 use crate::gather::{Gather, Key};
 use crate::input::Input;
 use crate::scale::{Said, Scale};
-use crate::{Error, Note, Options, Place, Result};
+use crate::{Apart, Error, Note, Options, Place, Result};
 use chains::{Chain, chains};
 use model::Model;
 use std::collections::HashSet;
@@ -32,7 +32,7 @@ pub(super) fn read(input: Input, options: &Options) -> Result<Found> {
             used.extend(chain.spots.iter().copied());
         }
     }
-    let (cells, more) = gather.finish(&place, "")?;
+    let (cells, more) = gather.finish(&place, Apart::Names(""))?;
     notes.extend(more);
     let file = place.path().display().to_string();
     let outlined = model.spots.values().filter(|spot| !spot.points.is_empty()).count();

@@ -27,9 +27,7 @@ struct Entry {
 pub(super) fn point(asked: &Asked<'_>) -> Result<StartPoint, Error> {
     let text = input::manifest(&asked.path).map_err(|error| Error::unreadable(&asked.path, error))?;
     let list: List = serde_json::from_slice(text.as_bytes()).map_err(|error| {
-        asked.wrong(format!(
-            "this is no list of equilibria ({error}): give the output of `motiform equilibria --json`"
-        ))
+        asked.wrong(format!("this is no list of equilibria ({error}): give what `equilibria` prints as JSON"))
     })?;
     let chosen = match asked.point {
         None if list.equilibria.len() == 1 => Some(0),
@@ -55,7 +53,7 @@ pub(super) fn point(asked: &Asked<'_>) -> Result<StartPoint, Error> {
 /// The equilibria in words, so that one can be chosen.
 fn listed(asked: &Asked<'_>, all: &[Entry]) -> String {
     if all.is_empty() {
-        return "the list is empty; more --starts of `motiform equilibria` may find some".to_owned();
+        return "the list is empty; a search from more starts may find some".to_owned();
     }
     let line = |(number, entry): (usize, &Entry)| {
         let values = entry.shape.0.iter().take(MOST).map(|(name, value)| format!("{name} = {value:.6}"));

@@ -140,8 +140,7 @@ impl StartPoint {
 const OURS: [&str; 4] = ["points", "branches", "summary", "manifest"];
 
 /// The remedy of errors: the files that can be a start.
-const KINDS: &str = "give a folder of `motiform continue`, the output of `motiform equilibria --json`, or a dataset of \
-                     `motiform simulate`";
+const KINDS: &str = "give a folder of branches, a list of equilibria as JSON, or the dataset of a run";
 
 /// Returns `true` if a motion of one model is one of the other: defaults and display of parameters do not matter.
 fn is_same(one: &ModelName, other: &ModelName) -> bool {
