@@ -161,6 +161,30 @@ fn a_model_as_text_has_an_atlas() {
     assert!(line.len() > 5 && line.iter().all(|at| at[0].abs() < 1e-9), "{line:?}");
 }
 
+/// Circles of radius 1 and of radius 1e7 on a plane in whose middle all linear terms vanish, which alone say how large motions are: the
+/// same regions, boundaries, lines, and ends.
+#[test]
+fn an_atlas_is_the_same_in_any_unit() {
+    let folder = Folder::new();
+    let atlas = |name: &str, cubic: &str| {
+        folder.write(
+            name,
+            &format!(
+                "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.parameters]\nmu = 0.5\nnu = 0.5\n\n\
+                 [model.amplitudes.equations]\nz1 = \"(mu + i*nu)*z1 - {cubic}*|z1|^2*z1\"\n"
+            ),
+        );
+        let words = format!(
+            "atlas {name} --axis mu=-1:1:9 --axis nu=-1:1:9 --samples 1 --no-figures --out {name}-atlas --json"
+        );
+        let json = folder.run(&words).json();
+        let lines = json["lines"].as_array().unwrap();
+        assert!(lines.len() > 2 && lines.iter().all(|line| line["refused"].is_null()), "{lines:#?}");
+        ["regions", "boundaries", "ends", "curves"].map(|key| json[key].clone())
+    };
+    assert_eq!(atlas("one.toml", "1"), atlas("large.toml", "1e-14"));
+}
+
 #[test]
 fn what_is_no_plane_is_refused_with_the_remedy() {
     let folder = Folder::new();
