@@ -179,10 +179,6 @@ impl<'f, P: Problem> CurveTracer<'f, P> {
             if change.abs() < ACROSS || stalled {
                 // so short a step leaves nothing that another solution would show
                 let x = if stalled { probe.x } else { guess };
-                // where all orbits are a family for one value of the parameter the equations may leave no direction across the curve
-                if !self.problem.is_sound(&x) {
-                    break;
-                }
                 return Ok((Probe { x, ..probe }, steep, off));
             }
             let tolerance = TIGHT.max(FINER * change.abs());

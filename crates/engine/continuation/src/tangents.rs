@@ -23,7 +23,8 @@ pub(super) fn changes<P: Problem>(problem: &P, x: &[f64], direction: &[f64]) -> 
     [direction[last].abs(), square.sqrt(), product(weights, others, others).sqrt()]
 }
 
-/// The slope of a point's own branch, without its sign, in the units of a problem: the branch may have been followed from shapes of another size.
+/// The slope of a point's own branch, without its sign, in the units of a problem: the branch may have been followed from shapes of another
+/// size.
 pub(super) fn own_slope<P: Problem>(problem: &P, x: &[f64], point: &Point) -> f64 {
     let Some([change, shape, others]) = point.tangent else { return point.slope.abs() };
     let weights = problem.weights(x);

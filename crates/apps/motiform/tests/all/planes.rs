@@ -185,6 +185,21 @@ fn an_atlas_is_the_same_in_any_unit() {
     assert_eq!(atlas("one.toml", "1"), atlas("large.toml", "1e-14"));
 }
 
+/// Van der Pol's equations: at mu = 0 all orbits are closed. Rest ends there whatever the stiffness.
+#[test]
+fn a_plane_with_a_family_of_orbits_at_one_value_has_an_atlas() {
+    let folder = Folder::new();
+    folder.write(
+        "pol.toml",
+        "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.parameters]\nmu = 1\nk = 1\n\n\
+         [model.amplitudes.equations]\nz1 = \"im(z1) + i*(mu*(1 - re(z1)^2)*im(z1) - k*re(z1))\"\n",
+    );
+    let words = "atlas pol.toml --axis mu=-1:1:17 --axis k=0.2:2:17 --samples 2 --lines 4 --no-figures --out pol --json";
+    let json = folder.run(words).json();
+    let hopf = json["curves"].as_array().unwrap().iter().find(|curve| curve["kind"] == "hopf");
+    assert!(hopf.is_some_and(|curve| curve["points"].as_u64() > Some(10)), "{json:#}");
+}
+
 #[test]
 fn what_is_no_plane_is_refused_with_the_remedy() {
     let folder = Folder::new();

@@ -44,8 +44,9 @@ struct Grazed {
 motiform_models::plain!(Grazed, 2);
 impl<T: Scalar> VectorField<T> for Grazed {
     fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
-        let sated = u[0] + 1.0;
-        du[0] = u[0] * sated * (u[0] * (-1.0 / self.k) + 1.0) - u[0] * u[1];
+        let one = u[0].constant(1.0);
+        let sated = u[0] + one;
+        du[0] = u[0] * sated * (one - u[0] * (1.0 / self.k)) - u[0] * u[1];
         du[1] = u[0] * u[1] - u[1] * sated * self.d;
     }
 }
