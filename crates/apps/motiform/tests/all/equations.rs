@@ -53,8 +53,8 @@ fn linear_equations_under_noise_have_the_size_that_noise_gives_them() {
     let folder = Folder::new();
     for unit in [1e-6, 1.0, 1e7] {
         let text = format!(
-            "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.parameters]\nk = 0.5\ns = {unit:e}\n\n\
-             [model.amplitudes.equations]\nz1 = \"-k*z1\"\n[model.amplitudes.noise]\nz1 = \"s\"\n"
+            "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.parameters]\nk = 0.5\ns = 1\n\n\
+             [model.amplitudes.equations]\nz1 = \"-k*z1\"\n[model.amplitudes.noise]\nz1 = \"{unit:e}*s\"\n"
         );
         folder.write("walk.toml", &text);
         let words = "statistics walk.toml --bodies 16 --t-end 400 --transient 20 --dt-out 0.2 --json";
