@@ -7,6 +7,7 @@ use super::place::Place;
 use super::point::Point;
 use super::problem::Problem;
 use super::special::{Hopf, Special};
+use super::tangents::changes;
 use super::tracer::{Tracer, neutral};
 
 /// Copies of the critical level, which symmetry makes equal to it, differ from it by less than its residual.
@@ -70,6 +71,8 @@ impl<P: Problem> Tracer<'_, P> {
             family: self.problem.family().len(),
             critical,
             slope: place.slope(),
+            tangent: (special == Some(Special::BranchPoint))
+                .then(|| changes(&self.problem, &place.x, &place.tangent)),
             special,
             certificate,
         }

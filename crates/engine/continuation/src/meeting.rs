@@ -5,6 +5,7 @@ use super::branch::Branch;
 use super::problem::Equations;
 use super::rays::{paired, rays};
 use super::switch::Departure;
+use super::tangents::own_slope;
 use motiform_analysis::{RelativeEquilibrium, Result};
 
 /// Slopes at the distance of the first points of branches that may be of the point's own branch.
@@ -19,7 +20,8 @@ pub(super) fn all<'f>(from: Departure<'_, 'f>, start: &RelativeEquilibrium) -> R
     let slope = |v: &Vec<f64>| v.last().copied().unwrap_or(0.0).abs();
     let found = paired(&rays(from, &problem, &x), &weights);
     let width = weights.last().map_or(1.0, |weight| 1.0 / weight.sqrt());
-    let own = |legs: &&Vec<Vec<f64>>| legs.iter().any(|v| (slope(v) - point.slope.abs()).abs() < OWN * width);
+    let tangent = own_slope(&problem, &x, point);
+    let own = |legs: &&Vec<Vec<f64>>| legs.iter().any(|v| (slope(v) - tangent).abs() < OWN * width);
     let only = found.iter().filter(own).count() == 1;
     let others = found.iter().filter(|legs| !(only && own(legs)));
     let leg = |v: &Vec<f64>| from.cross(start, &Begin::at(point, &x, v)).ok();

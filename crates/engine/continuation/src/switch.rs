@@ -14,7 +14,7 @@ use super::point::{Motion, Point};
 use super::problem::{Equations, Problem};
 use super::settings::Settings;
 use super::special::Special;
-use super::tangents::tangents;
+use super::tangents::{own_slope, tangents};
 use super::tracer::Tracer;
 use motiform_analysis::linear::add;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
@@ -106,7 +106,8 @@ fn unseen<P: Problem>(problem: &P, x: &[f64], most: usize) -> Option<(Vec<f64>, 
 fn direction<P: Problem>(problem: &P, x: &[f64], point: &Point) -> Option<Vec<f64>> {
     let single = point.special == Some(Special::BranchPoint);
     if single {
-        let slope = |v: &Vec<f64>| (v.last().copied().unwrap_or(0.0).abs() - point.slope.abs()).abs();
+        let own = own_slope(problem, x, point);
+        let slope = |v: &Vec<f64>| (v.last().copied().unwrap_or(0.0).abs() - own).abs();
         let width = problem.weights(x).last().map_or(1.0, |weight| 1.0 / weight.sqrt());
         let other = tangents(problem, x).into_iter().max_by(|a, b| slope(a).total_cmp(&slope(b)));
         if let Some(other) = other.filter(|other| slope(other) > TURNS * width) {

@@ -1,12 +1,37 @@
 //! The tangents of two branches that cross.
 
-use super::correct::{crossing, scaled};
+use super::correct::{crossing, product, scaled};
+use super::point::Point;
 use super::problem::Problem;
 use motiform_analysis::linear::{add, dot};
 use motiform_analysis::singular::svd;
 
 /// Least distance of the second differences, in the units of the unknowns.
 const STEP: f64 = 1e-3;
+
+/// The entries that are shapes, of a direction in the unknowns of a problem.
+fn shapes<P: Problem>(problem: &P, direction: &[f64]) -> usize {
+    problem.time().unwrap_or(direction.len() - 2)
+}
+
+/// A direction as in [`Point::tangent`].
+pub(super) fn changes<P: Problem>(problem: &P, x: &[f64], direction: &[f64]) -> [f64; 3] {
+    let (weights, last) = (problem.weights(x), direction.len() - 1);
+    let count = shapes(problem, direction);
+    let [others, weights] = [direction, &weights].map(|all| &all[count..last]);
+    let square = dot(&direction[..count], &direction[..count]) / count as f64;
+    [direction[last].abs(), square.sqrt(), product(weights, others, others).sqrt()]
+}
+
+/// The slope of a point's own branch, without its sign, in the units of a problem: the branch may have been followed from shapes of another
+/// size.
+pub(super) fn own_slope<P: Problem>(problem: &P, x: &[f64], point: &Point) -> f64 {
+    let Some([change, shape, others]) = point.tangent else { return point.slope.abs() };
+    let weights = problem.weights(x);
+    let all: f64 = weights[..shapes(problem, x)].iter().sum();
+    let along = weights.last().map_or(f64::NAN, |weight| weight * change * change);
+    change / (along + all * shape * shape + others * others).sqrt()
+}
 
 /// The tangents, of length 1, of the branches that cross at `x`, where `equations(x + v)` vanishes to first order for `v` in a plane: the
 /// two directions of this plane in which it vanishes to second order,

@@ -41,17 +41,18 @@ impl<P: Problem> CurveTracer<'_, P> {
             Special::Torus { .. } => Degenerate::DoubleHopf,
             _ => Degenerate::Unresolved,
         };
-        Some((kind, self.at_size_zero()))
+        Some((kind, self.at_size_zero(self.spot.parameters())))
     }
 
-    fn at_size_zero(&self) -> [f64; 2] {
+    /// The parameters there; those of the place `near` on the first step of a curve, before which no size is known.
+    fn at_size_zero(&self, near: [f64; 2]) -> [f64; 2] {
         let unit = self.sizes.iter().fold(f64::MIN_POSITIVE, |most, one| most.max(one.0));
         let squares: Vec<f64> = self.sizes.iter().map(|one| (one.0 / unit) * (one.0 / unit)).collect();
         let power = |k: usize| squares.iter().map(|square| (0..k).map(|_| square).product()).collect();
         let columns: Vec<Vec<f64>> = (0..squares.len()).map(power).collect();
         [0, 1].map(|side| {
             let values: Vec<f64> = self.sizes.iter().map(|one| one.1[side]).collect();
-            let last = values.last().copied().unwrap_or(f64::NAN);
+            let last = values.last().copied().unwrap_or(near[side]);
             solve(&columns, &values, 0.0).map_or(last, |found| found[0])
         })
     }

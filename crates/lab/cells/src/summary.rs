@@ -252,13 +252,11 @@ fn unidentified(fitted: &Fitted) -> Vec<String> {
 
 fn coefficients(fitted: &Fitted) -> Value {
     let mut all: Map<String, Value> = Map::new();
+    let known = fitted.has_errors();
     let coefficients = fitted.model().coefficients.iter().enumerate();
     for (place, Coefficient { name, imaginary, estimate, .. }) in coefficients {
-        let mut value = number(estimate);
-        if !fitted.model().converged() {
-            // where the search ended is no maximum, and has no errors
-            value = json!({ "value": estimate.value });
-        }
+        let [error, robust] = [estimate.error, estimate.robust].map(|error| known.then_some(error));
+        let mut value = json!({ "value": estimate.value, "error": error, "robust_error": robust });
         if let Some(weak) = fitted.checks.weak(place) {
             value["weak_form"] = json!(weak);
         }

@@ -81,9 +81,8 @@ pub fn coefficient_columns(fits: &[CellFit]) -> Vec<Column> {
         .filter_map(|fit| Some((fit, fit.fitted.as_ref().ok()?)))
         .flat_map(|(fit, fitted)| {
             let coefficients = fitted.model().coefficients.iter().enumerate();
-            // where a search ended that did not converge is no maximum: it has no errors
-            let sound = fitted.model().converged();
-            coefficients.map(move |(place, coefficient)| (fit, coefficient, fitted.checks.weak(place), sound))
+            let known = fitted.has_errors();
+            coefficients.map(move |(place, coefficient)| (fit, coefficient, fitted.checks.weak(place), known))
         })
         .collect();
     let error =

@@ -93,7 +93,8 @@ pub struct AtlasComputation {
     pub line_steps: u64,
     /// Steps along branches.
     pub stride: Stride,
-    /// A start in the plane: lines have its method, and their own parameters and initial states.
+    /// A start in the plane: lines have its method, and their own parameters and initial states. Its tolerances and bounds are those of
+    /// the scan: at the middle alone terms may vanish that give the equations their unit.
     pub start: Computation,
 }
 
@@ -159,6 +160,7 @@ impl AtlasPlan {
         }
         let ScanPlan { name, title, computation: scan, .. } = ScanPlan::new(&study)?;
         let Some(start) = start else { return Err(Error::NoAxis { free: String::new() }) };
+        let start = Computation { control: scan.control, escape_norm: scan.escape_norm, ..start };
         let computation = AtlasComputation {
             format: ATLAS_FORMAT,
             scan,

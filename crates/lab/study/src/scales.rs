@@ -2,8 +2,9 @@
 
 use crate::Error;
 use crate::checks::check;
+use crate::control::NoiseSettings;
 use motiform_analysis::equilibrium::{Units, balance, largest_balance, prefix};
-use motiform_dynamics::Equivariant;
+use motiform_dynamics::{Equivariant, Model};
 use motiform_models::ModelInfo;
 use std::ops::RangeInclusive;
 
@@ -102,6 +103,13 @@ impl Scales {
     #[must_use]
     pub fn escape_norm(self) -> f64 {
         1e6 * self.largest.max(1.0)
+    }
+
+    /// The same under noise, which leads as far as a free path in a look: linear equations have no size of their own.
+    pub(crate) fn under(self, noise: Option<&NoiseSettings>, model: &dyn Model, look: f64) -> Self {
+        let run = noise.map_or(0.0, NoiseSettings::largest);
+        let largest = model.noise().amplitudes.into_iter().fold(run, f64::max);
+        Self { largest: self.largest.max(prefix(largest * look.sqrt())), ..self }
     }
 
     /// The longest model time.

@@ -44,6 +44,7 @@ impl Plane {
             family: 0,
             critical: 0,
             slope: 0.0,
+            tangent: None,
             special: Some(at.special),
             certificate: None,
         };

@@ -239,7 +239,11 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
             writeln!(text, "{name:<19}{} ({of})", equation.text)?;
         }
     }
-    for (name, placement) in ["plane of Fig. 4", "plane of Fig. 1"].into_iter().zip(&fitted.places) {
+    let names = match fitted.no_place() {
+        Some(_) => &["both planes"][..],
+        None => &["plane of Fig. 4", "plane of Fig. 1"],
+    };
+    for (name, placement) in names.iter().zip(&fitted.places) {
         writeln!(text, "{name:<19}{}", place(placement))?;
     }
     if let Some(prediction) = &fit.prediction {

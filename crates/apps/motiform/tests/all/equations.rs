@@ -46,6 +46,25 @@ fn a_strong_field_locks_the_heading() {
     assert!((onset["gamma"].as_f64().unwrap() + 0.75).abs() < 1e-9, "{onset}");
 }
 
+/// Velocities of an Ornstein-Uhlenbeck process, whose equations have no size of their own: `sqrt(2) s/sqrt(2 k)` is their root mean square
+/// in any unit.
+#[test]
+fn linear_equations_under_noise_have_the_size_that_noise_gives_them() {
+    let folder = Folder::new();
+    for unit in [1e-6, 1.0, 1e7] {
+        let text = format!(
+            "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.parameters]\nk = 0.5\ns = 1\n\n\
+             [model.amplitudes.equations]\nz1 = \"-k*z1\"\n[model.amplitudes.noise]\nz1 = \"{unit:e}*s\"\n"
+        );
+        folder.write("walk.toml", &text);
+        let words = "statistics walk.toml --bodies 16 --t-end 400 --transient 20 --dt-out 0.2 --json";
+        let json = folder.run(words).expect(0).json();
+        let [low, high] = ["lower", "upper"].map(|end| json["rms_speed"][end].as_f64().unwrap() / unit);
+        let exact = std::f64::consts::SQRT_2;
+        assert!(low - 0.05 < exact && exact < high + 0.05, "{unit}: {low} to {high}");
+    }
+}
+
 /// An analysis of the equations without their noise says so.
 #[test]
 fn noise_that_is_left_out_is_said() {

@@ -76,4 +76,9 @@ fn an_interrupted_run_goes_on_to_the_same_numbers() {
         other.contains("another plan (seed: 1 there, 2 requested)") && other.contains("--force"),
         "{other}"
     );
+    // what another version left may have other looks
+    let kept = std::fs::read_to_string(folder.path("parts/orbits.json")).unwrap();
+    folder.write("parts/orbits.json", &kept.replacen("{\"format\":2,", "{", 1));
+    let other = folder.run(&format!("{words} --out parts --resume")).expect(2).stderr;
+    assert!(other.contains("another version of motiform") && other.contains("--force"), "{other}");
 }

@@ -161,6 +161,45 @@ fn a_model_as_text_has_an_atlas() {
     assert!(line.len() > 5 && line.iter().all(|at| at[0].abs() < 1e-9), "{line:?}");
 }
 
+/// Circles of radius 1 and of radius 1e7 on a plane in whose middle all linear terms vanish, which alone say how large motions are: the
+/// same regions, boundaries, lines, and ends.
+#[test]
+fn an_atlas_is_the_same_in_any_unit() {
+    let folder = Folder::new();
+    let atlas = |name: &str, cubic: &str| {
+        folder.write(
+            name,
+            &format!(
+                "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.parameters]\nmu = 0.5\nnu = 0.5\n\n\
+                 [model.amplitudes.equations]\nz1 = \"(mu + i*nu)*z1 - {cubic}*|z1|^2*z1\"\n"
+            ),
+        );
+        let words = format!(
+            "atlas {name} --axis mu=-1:1:9 --axis nu=-1:1:9 --samples 1 --no-figures --out {name}-atlas --json"
+        );
+        let json = folder.run(&words).json();
+        let lines = json["lines"].as_array().unwrap();
+        assert!(lines.len() > 2 && lines.iter().all(|line| line["refused"].is_null()), "{lines:#?}");
+        ["regions", "boundaries", "ends", "curves"].map(|key| json[key].clone())
+    };
+    assert_eq!(atlas("one.toml", "1"), atlas("large.toml", "1e-14"));
+}
+
+/// Van der Pol's equations: at mu = 0 all orbits are closed. Rest ends there whatever the stiffness.
+#[test]
+fn a_plane_with_a_family_of_orbits_at_one_value_has_an_atlas() {
+    let folder = Folder::new();
+    folder.write(
+        "pol.toml",
+        "[model.amplitudes]\nmodes = [1]\nsymmetry = \"none\"\n[model.amplitudes.parameters]\nmu = 1\nk = 1\n\n\
+         [model.amplitudes.equations]\nz1 = \"im(z1) + i*(mu*(1 - re(z1)^2)*im(z1) - k*re(z1))\"\n",
+    );
+    let words = "atlas pol.toml --axis mu=-1:1:17 --axis k=0.2:2:17 --samples 2 --lines 4 --no-figures --out pol --json";
+    let json = folder.run(words).json();
+    let hopf = json["curves"].as_array().unwrap().iter().find(|curve| curve["kind"] == "hopf");
+    assert!(hopf.is_some_and(|curve| curve["points"].as_u64() > Some(10)), "{json:#}");
+}
+
 #[test]
 fn what_is_no_plane_is_refused_with_the_remedy() {
     let folder = Folder::new();

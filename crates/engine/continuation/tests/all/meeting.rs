@@ -36,6 +36,46 @@ fn settings() -> impl Iterator<Item = Settings> {
     )
 }
 
+/// Prey that grows to `k` and its predator (Rosenzweig and MacArthur 1963), in a time that leaves no denominator.
+struct Grazed {
+    k: f64,
+    d: f64,
+}
+motiform_models::plain!(Grazed, 2);
+impl<T: Scalar> VectorField<T> for Grazed {
+    fn eval(&self, _t: T::Real, u: &[T], du: &mut [T]) {
+        let one = u[0].constant(1.0);
+        let sated = u[0] + one;
+        du[0] = u[0] * sated * (one - u[0] * (1.0 / self.k)) - u[0] * u[1];
+        du[1] = u[0] * u[1] - u[1] * sated * self.d;
+    }
+}
+
+/// The branch of both crosses that of the prey alone, `(k, 0)`, at `k = d/(1 - d)`: the other branch is that one, whatever the size of the
+/// shapes from which the first one was followed.
+#[test]
+fn a_branch_from_large_shapes_does_not_cross_itself_at_a_small_one() {
+    for (d, k) in [0.15, 0.2, 0.26, 0.3].into_iter().flat_map(|d| [0.5, 1.0, 3.0].map(|k| (d, k))) {
+        let family = move |k: f64| -> Body { Ok(Box::new(Grazed { k, d })) };
+        let (settings, prey) = (Settings::over(0.1, 4.0), d / (1.0 - d));
+        let both = [prey, (1.0 + prey) * (1.0 - prey / k)];
+        let start = RelativeEquilibrium::find(family(k).unwrap().as_ref(), &both).unwrap();
+        let mut points = Branch::of_equilibria(&family, k, &start, &settings, &()).unwrap();
+        let down = Settings { first_step: -settings.first_step, ..settings };
+        let mut back = Branch::of_equilibria(&family, k, &start, &down, &()).unwrap();
+        let crossing = points.by_ref().chain(back.by_ref()).find(|p| p.special == Some(Special::BranchPoint));
+        let crossing = crossing.unwrap_or_else(|| panic!("{d} {k}"));
+        assert!((crossing.parameter - prey).abs() < 1e-9, "{d} {k}: {}", crossing.parameter);
+        let legs: Vec<Branch<'_>> =
+            switch(&family, &crossing, &settings, &()).unwrap().into_iter().flatten().collect();
+        assert_eq!(legs.len(), 2);
+        for point in legs.into_iter().flatten() {
+            let shape = point.motion.shape();
+            assert!((shape[0] - point.parameter).abs() < 1e-9 && shape[1].abs() < 1e-9, "{d} {k}: {shape:?}");
+        }
+    }
+}
+
 /// `x_i' = scale (p x_i - x_i^3)`, as many as `count`, and `y' = -y`.
 struct Forks {
     p: f64,

@@ -166,6 +166,24 @@ impl Fitted {
         reason.or_else(doubted).or_else(free)
     }
 
+    /// Why there is a place on neither plane, where the reasons are the same.
+    #[must_use]
+    pub fn no_place(&self) -> Option<&[String]> {
+        match &self.places {
+            [Placement::Refused { reasons }, Placement::Refused { reasons: others }] if reasons == others => {
+                Some(reasons)
+            }
+            _ => None,
+        }
+    }
+
+    /// `true` if the errors of the coefficients hold: where a search ended that did not converge is no maximum, and where no interval is
+    /// stated an error would be read as one.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.model().converged() && self.no_intervals().is_none()
+    }
+
     /// A coefficient over all tied sets.
     #[must_use]
     pub fn over_sets(&self, name: &str) -> Option<&Averaged> {

@@ -99,16 +99,16 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
         };
         let mut row = vec![
             Cell::text(format!("{part}{}", typeset(&c.name))),
-            Cell::number(if sound {
-                with_error(c.estimate.value, c.estimate.error)
-            } else {
-                plain(c.estimate.value)
+            Cell::number(match (sound, stated) {
+                (false, _) => plain(c.estimate.value),
+                (true, false) => to_error(c.estimate.value, c.estimate.error),
+                (true, true) => with_error(c.estimate.value, c.estimate.error),
             }),
             Cell::text(unit(&c.term, units)),
-            Cell::number(if sound {
-                to_error(c.estimate.robust, c.estimate.robust)
-            } else {
-                NOT_CONVERGED.to_owned()
+            Cell::number(match (sound, stated) {
+                (false, _) => NOT_CONVERGED.to_owned(),
+                (true, false) => NOT_STATED.to_owned(),
+                (true, true) => to_error(c.estimate.robust, c.estimate.robust),
             }),
             Cell::number(interval),
             Cell::text(literal(&format!("{name} = {}", plain(c.estimate.value / factor)))),

@@ -26,6 +26,12 @@ pub(crate) const PLANES: [(Plane, &str); 2] =
 
 pub(crate) fn section(name: &str, fitted: &Fitted, setting: &Setting<'_>) -> Result<Section, Error> {
     let mut section = Section { title: "Place on the paper's diagrams".to_owned(), ..Section::default() };
+    if let Some(reasons) = fitted.no_place() {
+        let [(_, first), (_, second)] = PLANES;
+        section.about =
+            format!("No place on the {first} or the {second}: {}.", notation(&reasons.join("; ")));
+        return Ok(section);
+    }
     for ((plane, plane_name), placement) in PLANES.into_iter().zip(&fitted.places) {
         match placement {
             Placement::Refused { reasons } => {

@@ -10,7 +10,7 @@ use follow::{End, Followed, Follower};
 use motiform_analysis::{LifeCount, LifeLaws, MeanLife, Stay, compare_life_laws, mean_life, memory};
 use motiform_dynamics::Watch;
 use motiform_store::Kind;
-use motiform_study::plan::check;
+use motiform_study::plan::{check, other_version};
 use motiform_study::{Error, ScanPlan, input};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -88,9 +88,15 @@ pub fn lifetimes(
     lives.is_complete().then(|| lives.summarised(plan, delay)).transpose()
 }
 
+/// Version of the orbits of one plan: raised where their numbers change. 2: looks are those of each value of the parameter.
+const LIVES_FORMAT: u32 = 2;
+
 /// The orbits of a plan, as far as they are followed, in its order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lives {
+    /// [`LIVES_FORMAT`]; absent before it was 2.
+    #[serde(default)]
+    format: u32,
     plan_hash: String,
     /// Absent in what version 0.2.0 left unfinished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -151,7 +157,7 @@ impl Looks {
 
 impl Lives {
     fn of(plan: &ScanPlan, orbits: Vec<Option<Followed>>) -> Self {
-        Self { plan_hash: plan.hash(), plan: Some(plan.clone()), orbits }
+        Self { format: LIVES_FORMAT, plan_hash: plan.hash(), plan: Some(plan.clone()), orbits }
     }
 
     /// Reads the lives of `plan` from a file, to go on with.
@@ -162,11 +168,15 @@ impl Lives {
         let text = input::manifest(path).map_err(|error| Error::unreadable(path, error))?;
         let lives: Self =
             serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(path, error))?;
-        if lives.plan_hash == plan.hash() && lives.orbits.len() == plan.rows() {
+        let same = lives.plan_hash == plan.hash() && lives.orbits.len() == plan.rows();
+        if same && lives.format == LIVES_FORMAT {
             Ok(lives)
         } else {
-            let differences =
-                lives.plan.map_or_else(|| "other settings".to_owned(), |there| there.differences(plan));
+            let differences = match lives.plan {
+                _ if same => other_version(lives.format, LIVES_FORMAT),
+                None => "other settings".to_owned(),
+                Some(there) => there.differences(plan),
+            };
             let path = path.parent().unwrap_or(path).to_owned();
             Err(Error::OtherPlan { path, kind: Kind::Lifetimes, differences })
         }

@@ -1,6 +1,7 @@
 //! Differences between two plans, key by key.
 
 use serde_json::Value;
+use std::fmt::Display;
 
 /// Most differences in a line.
 const MOST: usize = 12;
@@ -14,10 +15,7 @@ pub(super) fn between((mut there, words): Side, (mut requested, asked): Side) ->
     let mut found = Vec::new();
     let formats = [take(&mut there, "format"), take(&mut requested, "format")];
     if formats[0] != formats[1] {
-        found.push(format!(
-            "it was computed by another version of motiform with other numbers: format {} there, {} here",
-            formats[0], formats[1]
-        ));
+        found.push(other_version(&formats[0], &formats[1]));
     }
     for ((path, left), (_, right)) in words.iter().zip(&asked) {
         take(&mut there, path);
@@ -33,6 +31,13 @@ pub(super) fn between((mut there, words): Side, (mut requested, asked): Side) ->
         found.push(more);
     }
     found.join("; ")
+}
+
+/// The difference where another version of motiform computed other numbers.
+pub fn other_version(there: impl Display, here: impl Display) -> String {
+    format!(
+        "it was computed by another version of motiform with other numbers: format {there} there, {here} here"
+    )
 }
 
 /// Takes the value at a path with dots out of an object; null where there is none.

@@ -9,6 +9,7 @@ mod run;
 pub use crate::checks::{check, check_closed, check_figure, check_no_noise, check_stability, check_steps};
 pub use crate::control::{Control, NoiseSettings};
 pub use crate::named::Named;
+pub use difference::other_version;
 pub use motiform_store::sha256_hex;
 pub use provenance::{Provenance, pretty};
 pub use run::{Computation, DEFAULT_STEP, MOST_IN_MEMORY, MOST_ROWS, PLAN_FORMAT, RunPlan, stepper};

@@ -109,7 +109,6 @@ impl RunPlan {
             run.t_end / dt_out <= MOST_ROWS,
             "this gives more than 20 thousand million rows: give a longer time",
         )?;
-        let escape_norm = escape_norm(study, scales)?;
         study.starts(1)?.check()?;
         if run.max_steps == 0 {
             return Err(Error::Setting { key: "max_steps", value: "0".into(), remedy: "give at least 1" });
@@ -126,7 +125,11 @@ impl RunPlan {
         check_steps(model.as_ref(), method, control, run.transient + run.t_end)?;
         let initial = initial::resolve(study, info)?;
         check_start(model.as_ref(), &initial)?;
-        let noise = noise(study, model.as_ref(), info.look_at(&parameters.values()), dt_out)?;
+        let look = info.look_at(&parameters.values());
+        let noise = noise(study, model.as_ref(), look, dt_out)?;
+        let scales =
+            if info.is_built_in() { scales } else { scales.under(noise.as_ref(), model.as_ref(), look) };
+        let escape_norm = escape_norm(study, scales)?;
         let computation = Computation {
             format: PLAN_FORMAT,
             model: ModelName::from(info),

@@ -182,7 +182,8 @@ class CellFit:
     """The p-value of this test; NaN without a fit."""
     coefficients: pd.DataFrame
     """``term``, ``imaginary``, ``value``, ``error``, ``robust_error``, ``low``, ``high`` and ``weak_form`` (the same coefficient by the weak form,
-    a check of sign and order of magnitude; none where noise makes the rates), in the units of the data."""
+    a check of sign and order of magnitude; none where noise makes the rates), in the units of the data. Errors and ends of intervals are NaN where
+    ``summary["no_intervals"]`` says why they do not hold, and where the search did not converge."""
     noise: Noise | None
     """``None`` without a fit."""
     place: Place

@@ -15,8 +15,9 @@ use crate::recordings::{Seen, Shape, Walker, tracks};
 use changes::{ALL, Change};
 use judge::Tally;
 use laws::{Law, full, reduced};
-use motiform_cells::{CellFit, FitOptions, Sample, fit_cells};
+use motiform_cells::{CellFit, FitOptions, Sample, cell_json, coefficient_columns, fit_cells};
 use motiform_inference::Placement;
+use motiform_store::columns::Values;
 use motiform_tracks::Tracks;
 use motiform_tracks::modes::ModeOptions;
 
@@ -151,19 +152,36 @@ fn steady_motions_are_those_that_the_record_shows_and_have_no_place() {
     let of = |name: &str, change: Change, seed| {
         let law = &laws.iter().find(|law| law.0 == name).expect("a row").1;
         let record = change.record(law, law, SAMPLING, seed).expect("it stays in bounds");
-        cells(vec![record], &options, 1).remove(0).fitted.expect("a fit")
+        cells(vec![record], &options, 1).remove(0)
     };
-    let modulated = of("quasi-periodic", Change::Short, 7000);
+    let fit = of("quasi-periodic", Change::Short, 7000);
+    let modulated = fit.fitted.as_ref().expect("a fit");
     assert_eq!(modulated.motion_name(), "undecided", "{}", modulated.why());
     // gamma = .02 in 50 units of time: one e-folding
     assert!(modulated.no_intervals().is_some_and(|why| why.contains("three e-foldings")));
     assert!(modulated.places.iter().all(|place| matches!(place, Placement::Refused { .. })));
-    let circle = of("circular", Change::None, 7000);
+    let fit = of("circular", Change::None, 7000);
+    let circle = fit.fitted.as_ref().expect("a fit");
     assert_eq!(circle.motion_name(), "circular", "{}", circle.why());
     let reason = circle.no_intervals().expect("steady");
     for place in &circle.places {
         let Placement::Refused { reasons } = place else { panic!("{place:?}") };
         assert!(reasons.iter().any(|one| one == reason), "{reasons:?}");
+    }
+    assert!(circle.no_place().is_some(), "both planes have the same reasons");
+    // nor has anything else an error that would be read as an interval
+    let json = cell_json(&fit);
+    let coefficients: Vec<_> = json["coefficients"].as_object().expect("terms").values().collect();
+    assert!(!coefficients.is_empty());
+    assert!(
+        coefficients
+            .iter()
+            .all(|one| one["value"].is_f64() && one["error"].is_null() && one["robust_error"].is_null())
+    );
+    for column in coefficient_columns(&[fit]) {
+        let Values::Number(values) = column.values else { continue };
+        let is_error = ["error", "robust_error", "low", "high"].contains(&column.name.as_str());
+        assert!(!is_error || values.iter().all(|value| value.is_nan()), "{}: {values:?}", column.name);
     }
 }
 
