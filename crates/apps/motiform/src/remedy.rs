@@ -29,9 +29,12 @@ fn of_tracks(error: &TrackError) -> Option<String> {
     match error {
         TrackError::Column { wanted, .. } => Some(format!(": --column {wanted}=HEADER")),
         TrackError::MixedCells { remedy: Apart::Column, .. } => Some(": --column cell=HEADER".to_owned()),
-        TrackError::UnknownFormat { .. } => Some(
-            "; columns of a table are named by --column frame=HEADER, label masks are read with --format masks".to_owned(),
-        ),
+        TrackError::UnknownFormat { found, .. } if found.contains("a table needs a header") => {
+            Some("; columns are named by --column frame=HEADER".to_owned())
+        }
+        TrackError::UnknownFormat { found, .. } if found.contains("label masks") => {
+            Some("; label masks are read with --format masks".to_owned())
+        }
         _ => None,
     }
 }
@@ -75,6 +78,9 @@ fn in_place(error: &StoreError) -> Option<&'static str> {
         StoreError::NoFolder { .. } => ": give one that motiform wrote",
         StoreError::Unwritable { .. } => "; choose an --out in a folder that is writable",
         StoreError::Inventory { .. } => "; choose another --out",
+        StoreError::Unreadable { reason, .. } if reason.ends_with("resume it first") => {
+            ": the same `motiform atlas` with --resume goes on"
+        }
         StoreError::Unreadable { reason, .. } if reason.ends_with("(os error 24)") => {
             "; allow more open files (ulimit -n)"
         }

@@ -80,9 +80,12 @@ pub(crate) fn of_tracks(error: motiform_tracks::Error) -> PyErr {
         TrackError::MixedCells { remedy: Apart::Column, .. } => {
             format!("{error}: columns={{'cell': HEADER}}")
         }
-        TrackError::UnknownFormat { .. } => format!(
-            "{error}; columns of a table are named by columns={{'frame': HEADER}}, label masks are read with format='masks'"
-        ),
+        TrackError::UnknownFormat { found, .. } if found.contains("a table needs a header") => {
+            format!("{error}; columns are named by columns={{'frame': HEADER}}")
+        }
+        TrackError::UnknownFormat { found, .. } if found.contains("label masks") => {
+            format!("{error}; label masks are read with format='masks'")
+        }
         _ => error.to_string(),
     };
     match error {

@@ -325,6 +325,9 @@ def test_columns_have_names(tmp_path: Path) -> None:
     assert motiform.cells.read(path, columns=columns).names == ["one"]
     with pytest.raises(ValueError, match="columns has no 'z'"):
         motiform.cells.read(path, columns={"z": "east"})
+    (tmp_path / "words.txt").write_text("a cell moved\n")
+    with pytest.raises(ValueError, match=r"columns are named by columns=\{'frame': HEADER\}"):
+        motiform.cells.read(tmp_path / "words.txt")
 
 
 def test_settings_of_fits_are_checked() -> None:

@@ -71,8 +71,7 @@ impl<P: Problem> Tracer<'_, P> {
             family: self.problem.family().len(),
             critical,
             slope: place.slope(),
-            tangent: (special == Some(Special::BranchPoint))
-                .then(|| changes(&self.problem, &place.x, &place.tangent)),
+            tangent: special.map(|_| changes(&self.problem, &place.x, &place.tangent)),
             special,
             certificate,
         }

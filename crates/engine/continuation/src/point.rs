@@ -85,8 +85,9 @@ pub struct Point {
     pub critical: usize,
     /// Derivative of the parameter by the length along the branch: it changes its sign at a fold.
     pub slope: f64,
-    /// The tangent where another branch crosses, in numbers that do not depend on the unit of the branch's shapes: the change of the
-    /// parameter, the root mean square of those of the shapes, and that of the other unknowns. `None` elsewhere.
+    /// The tangent at a special point, in numbers that do not depend on the units of the branch: the change of the parameter, the root mean
+    /// square of those of the shapes, and that of the other unknowns (of steady motions the turning rate; of orbits the relative change of
+    /// the period, and the angle). `None` elsewhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangent: Option<[f64; 3]>,
     /// The kind of special point, if it was solved for as one.

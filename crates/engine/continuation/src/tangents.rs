@@ -14,23 +14,30 @@ fn shapes<P: Problem>(problem: &P, direction: &[f64]) -> usize {
     problem.time().unwrap_or(direction.len() - 2)
 }
 
+/// Weight of the change of the unknowns that are no shapes: that of a turning rate is of the problem's unit of rates; the relative change
+/// of a period and angles have no unit.
+fn of_others<P: Problem>(problem: &P, weights: &[f64], count: usize) -> f64 {
+    if problem.time().is_none() { weights[count] } else { 1.0 }
+}
+
 /// A direction as in [`Point::tangent`].
 pub(super) fn changes<P: Problem>(problem: &P, x: &[f64], direction: &[f64]) -> [f64; 3] {
     let (weights, last) = (problem.weights(x), direction.len() - 1);
     let count = shapes(problem, direction);
-    let [others, weights] = [direction, &weights].map(|all| &all[count..last]);
     let square = dot(&direction[..count], &direction[..count]) / count as f64;
-    [direction[last].abs(), square.sqrt(), product(weights, others, others).sqrt()]
+    let [others, own] = [direction, &weights].map(|all| &all[count..last]);
+    let others = product(own, others, others) / of_others(problem, &weights, count);
+    [direction[last].abs(), square.sqrt(), others.sqrt()]
 }
 
 /// The slope of a point's own branch, without its sign, in the units of a problem: the branch may have been followed from shapes of another
 /// size.
 pub(super) fn own_slope<P: Problem>(problem: &P, x: &[f64], point: &Point) -> f64 {
     let Some([change, shape, others]) = point.tangent else { return point.slope.abs() };
-    let weights = problem.weights(x);
-    let all: f64 = weights[..shapes(problem, x)].iter().sum();
+    let (weights, count) = (problem.weights(x), shapes(problem, x));
+    let all: f64 = weights[..count].iter().sum();
     let along = weights.last().map_or(f64::NAN, |weight| weight * change * change);
-    change / (along + all * shape * shape + others * others).sqrt()
+    change / (along + all * shape * shape + of_others(problem, &weights, count) * others * others).sqrt()
 }
 
 /// The tangents, of length 1, of the branches that cross at `x`, where `equations(x + v)` vanishes to first order for `v` in a plane: the

@@ -249,8 +249,8 @@ fn common(usable: &[&Fitted]) -> (Option<Pooled>, Option<String>) {
     if usable.len() < LEAST_CELLS {
         return (None, None);
     }
-    let bias = "estimates from single records are biased by a part of their errors, which a mean over cells keeps; one fit of all cells \
-                has a set of coefficients with errors that count the differences between cells";
+    let bias = "estimates from single records are biased by a part of their errors, which a mean over cells keeps; a fit of all \
+                cells together has one set of coefficients, with errors that count the differences between cells";
     let fits: Vec<&Fit> = usable.iter().map(|one| compared(one)).collect();
     match pooled_fits(&fits) {
         Some(found) if found.p_value >= DIFFER => (Some(found), None),

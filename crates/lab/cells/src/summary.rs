@@ -261,7 +261,7 @@ fn coefficients(fitted: &Fitted) -> Value {
             value["weak_form"] = json!(weak);
         }
         if let Some(error) = fitted.between.as_ref().and_then(|between| between.errors.get(place)) {
-            value["error_between_cells"] = json!(error);
+            value["error_between_cells"] = json!(known.then_some(error));
         }
         if *imaginary {
             if let Some(real) = all.get_mut(name) {

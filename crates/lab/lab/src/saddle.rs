@@ -72,7 +72,7 @@ enum End {
 /// `None` if the watch stopped it.
 ///
 /// # Errors
-/// Input that only the numerics can reject.
+/// Fewer than two runs; times that are none, or longer than the longest one ([`motiform_study::Scales::longest`]).
 ///
 /// # Checked by  tests/all/saddle.rs: Lorenz's equations below and above the chaos
 pub fn saddle(

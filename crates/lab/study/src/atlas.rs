@@ -13,7 +13,7 @@ use motiform_store::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan; part of the hash.
-pub const ATLAS_FORMAT: u32 = 3;
+pub const ATLAS_FORMAT: u32 = 4;
 
 /// Steps of the flow along orbits that a line may take, a few seconds of them. The lines of the plane of the
 /// paper's Fig. 4 take up to half of it; curves on which orbits come

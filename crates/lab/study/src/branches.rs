@@ -1,6 +1,7 @@
 //! Branches as data: which motion is followed, along which parameter, how far.
 
 use crate::plan::{Computation, Plan, Question, RunPlan, check, check_no_noise};
+use crate::scan::Axis;
 use crate::titles::capital;
 use crate::{Error, Given, Stride, Study, Ties, UnitSettings};
 use motiform_analysis::Regime;
@@ -11,7 +12,7 @@ use motiform_store::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan of branches; part of the hash. A change that moves a number raises it.
-pub const BRANCH_FORMAT: u32 = 2;
+pub const BRANCH_FORMAT: u32 = 3;
 
 /// The regimes that are steady or repeat: motions that can be followed.
 pub const FOLLOWED: [Regime; 7] = [
@@ -208,6 +209,9 @@ impl BranchPlan {
             some,
             "give from 2 to 100000 values of the parameter, or 0 for none",
         )?;
+        // at the start alone terms may vanish that give the equations their unit
+        let ends = Axis { name: along.name.clone(), values: vec![along.from, along.to] };
+        let start = RunPlan::over(study, &[ends])?.computation;
         let format = BRANCH_FORMAT;
         let ties = study.ties.clone();
         let computation = BranchComputation {

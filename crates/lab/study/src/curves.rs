@@ -10,7 +10,7 @@ use motiform_store::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Version of the meaning of a plan of curves; part of the hash. A change that moves a number raises it.
-pub const CURVE_FORMAT: u32 = 1;
+pub const CURVE_FORMAT: u32 = 2;
 
 motiform_dynamics::named! {
     /// A kind of special point that can be followed over two parameters, in the order of messages and legends.

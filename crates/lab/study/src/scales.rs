@@ -2,9 +2,8 @@
 
 use crate::Error;
 use crate::checks::check;
-use crate::control::NoiseSettings;
 use motiform_analysis::equilibrium::{Units, balance, largest_balance, prefix};
-use motiform_dynamics::{Equivariant, Model};
+use motiform_dynamics::Equivariant;
 use motiform_models::ModelInfo;
 use std::ops::RangeInclusive;
 
@@ -90,7 +89,9 @@ impl Scales {
         if info.is_built_in() {
             return Ok(Self::ORDINARY);
         }
-        Ok(Self::of(info.build(values)?.as_ref()))
+        let model = info.build(values)?;
+        let noise = model.noise().amplitudes.into_iter().fold(0.0, f64::max);
+        Ok(Self::of(model.as_ref()).under(noise, info.look_at(values)))
     }
 
     /// The absolute tolerance of equations whose shapes have the size 1, for these.
@@ -105,11 +106,9 @@ impl Scales {
         1e6 * self.largest.max(1.0)
     }
 
-    /// The same under noise, which leads as far as a free path in a look: linear equations have no size of their own.
-    pub(crate) fn under(self, noise: Option<&NoiseSettings>, model: &dyn Model, look: f64) -> Self {
-        let run = noise.map_or(0.0, NoiseSettings::largest);
-        let largest = model.noise().amplitudes.into_iter().fold(run, f64::max);
-        Self { largest: self.largest.max(prefix(largest * look.sqrt())), ..self }
+    /// The same under noise of this amplitude, which leads as far as a free path in a look: linear equations have no size of their own.
+    pub(crate) fn under(self, noise: f64, look: f64) -> Self {
+        Self { largest: self.largest.max(prefix(noise * look.sqrt())), ..self }
     }
 
     /// The longest model time.

@@ -181,7 +181,8 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
             false => format!("{} (not converged)", four_digits(estimate.value)),
         };
         write!(text, "  {:<20} {value:<22}", format!("{part}{}", coefficient.name))?;
-        if let Some(error) = fitted.between.as_ref().and_then(|between| between.errors.get(place)) {
+        let between = fitted.between.as_ref().filter(|_| fitted.has_errors());
+        if let Some(error) = between.and_then(|between| between.errors.get(place)) {
             write!(text, " ({} between cells)", four_digits(*error))?;
         }
         let stated = !coefficient.imaginary && fitted.no_intervals().is_none();

@@ -308,3 +308,23 @@ fn misspelt_keys_and_missing_places_are_named() {
     }
     folder.run("simulate tensor --preset fig5a --t-end 60 --from 59 --dt-out 0.1 --out run").expect(0);
 }
+
+/// Words that the library leaves to those who call it: which option names columns, which reads masks.
+#[test]
+fn tables_of_cells() {
+    let folder = Folder::new();
+    folder.write("words.txt", "a cell moved\nand stopped\n");
+    folder.write("binary.dat", "\u{1}\u{2}\u{3}");
+    let rows = |frame: usize, shift: f64| -> String {
+        let row = |i: i32| {
+            let (sin, cos) = (0.6 * f64::from(i)).sin_cos();
+            format!("{frame},{i},{},{sin}\n", cos + shift)
+        };
+        (0..10).map(row).collect()
+    };
+    let both: String = (0..6).map(|frame| rows(frame, 0.0) + &rows(frame, 9.0)).collect();
+    folder.write("two.csv", &format!("frame,i,x,y\n{both}"));
+    std::fs::create_dir(folder.path("masks")).unwrap();
+    let lines = ["observe words.txt", "observe binary.dat", "observe two.csv", "observe masks"];
+    insta::assert_snapshot!("tables_of_cells", refused(&folder, &lines));
+}

@@ -61,7 +61,7 @@ fn linear_equations_under_noise_have_the_size_that_noise_gives_them() {
         let json = folder.run(words).expect(0).json();
         let [low, high] = ["lower", "upper"].map(|end| json["rms_speed"][end].as_f64().unwrap() / unit);
         let exact = std::f64::consts::SQRT_2;
-        assert!(low - 0.05 < exact && exact < high + 0.05, "{unit}: {low} to {high}");
+        assert!(low - 0.05 < exact && exact < high + 0.05 && high - low < 0.3, "{unit}: {low} to {high}");
     }
 }
 

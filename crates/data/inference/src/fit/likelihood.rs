@@ -2,7 +2,7 @@
 
 use super::{Settings, memory, setup};
 use crate::filter::{NOISES, Problem, Theta, Want, evaluate};
-use crate::{Error, Result, Scales, Track};
+use crate::{Error, MOST_MODES, Result, Scales, Track};
 use serde::{Deserialize, Serialize};
 
 /// Values of everything that is fitted, in the units of the data.
@@ -15,7 +15,7 @@ pub struct Parameters {
     /// Process noise of the velocity, above 0 (unit of the velocity / sqrt(time)).
     pub eta_v: f64,
     /// Rate k at which the noise w of the velocity forgets, `w' = -k w + eta_v W'`, above 0 (1/time; `eta_v` in units of the velocity /
-    /// time^(3/2)). `None`: white noise, the limit of a large rate with `eta_v/k` kept.
+    /// time^(3/2)), of at most three modes. `None`: white noise, the limit of a large rate with `eta_v/k` kept.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f64>,
     /// Process noise of the shape, above 0 (unit of the modes / sqrt(time)).
@@ -86,7 +86,11 @@ pub(super) fn units(problem: &Problem, settings: &Settings, scales: &Scales) -> 
 pub fn likelihood(tracks: &[Track], settings: &Settings, at: &Parameters) -> Result<Likelihood> {
     let scales = setup::check(tracks, settings)?;
     let mut problem = setup::checked(tracks, settings, &scales)?;
-    if at.rate.is_some() {
+    if let Some(value) = at.rate {
+        if settings.library.modes == MOST_MODES {
+            let remedy = "take at most three modes, or leave out the rate";
+            return Err(Error::Setting { key: "rate", value, remedy });
+        }
         problem = memory::problem_with_memory(tracks, settings, &scales);
     }
     let theta = natural(&problem, settings, &scales, at)?;

@@ -173,3 +173,14 @@ fn linear(track: &Track, times: &[f64], errors: &[f64], memory: Option<f64>) -> 
     }
     (found, expected)
 }
+
+/// A rate is one more unknown, and the field has four.
+#[test]
+fn a_memory_beside_four_modes_is_refused() {
+    let track = Experiment { frames: 20, ..Experiment::new(four(), 0.05, 11) }.track();
+    let settings = Settings { library: Library::new(4, 1).unwrap(), ..Settings::default() };
+    let coefficients = vec![0.1; settings.library.terms.len()];
+    let at = Parameters { coefficients, s: 1.0, eta_v: 0.1, rate: Some(1.0), eta_shape: 0.1, centre: 0.0 };
+    let refused = likelihood(&[track], &settings, &at).unwrap_err().to_string();
+    assert!(refused.contains("rate") && refused.contains("at most three modes"), "{refused}");
+}

@@ -155,7 +155,7 @@ impl LifeLaws {
         match self {
             Self::PowerLaw { power, advantage, .. } => {
                 format!(
-                    "a power law, so a crisis if the motion before is chaotic, which its largest exponent on the chaotic saddle says: {} \
+                    "a power law, so a crisis if the motion before is chaotic (its largest exponent on the saddle is above 0): {} \
                      (AIC better by {advantage:.1})",
                     power.words(&time)
                 )

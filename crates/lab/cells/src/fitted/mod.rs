@@ -177,8 +177,8 @@ impl Fitted {
         }
     }
 
-    /// `true` if the errors of the coefficients hold: where a search ended that did not converge is no maximum, and where no interval is
-    /// stated an error would be read as one.
+    /// `true` if the errors of the coefficients hold: a search that did not converge ended at no maximum, and where no interval is stated
+    /// an error would be read as one.
     #[must_use]
     pub fn has_errors(&self) -> bool {
         self.model().converged() && self.no_intervals().is_none()

@@ -87,16 +87,16 @@ fn stage(fitted: &Fitted, units: &Units) -> String {
 fn coefficients(fitted: &Fitted, units: &Units) -> Table {
     let between = fitted.between.as_ref();
     let (sound, stated) = (fitted.model().converged(), fitted.no_intervals().is_none());
+    let held = |text: String| match (sound, stated) {
+        (false, _) => NOT_CONVERGED.to_owned(),
+        (true, false) => NOT_STATED.to_owned(),
+        (true, true) => text,
+    };
     let row = |(place, c): (usize, &Coefficient)| {
         let (name, factor) = paper(&c.term, c.imaginary);
         let part = if c.imaginary { "imaginary part of " } else { "" };
         let over = fitted.over_sets(&c.name).filter(|_| !c.imaginary);
         let (value, ends) = over.map_or((c.estimate.value, c.estimate.interval), |o| (o.value, o.interval));
-        let interval = match (sound, stated) {
-            (false, _) => NOT_CONVERGED.to_owned(),
-            (true, false) => NOT_STATED.to_owned(),
-            (true, true) => interval(value, ends),
-        };
         let mut row = vec![
             Cell::text(format!("{part}{}", typeset(&c.name))),
             Cell::number(match (sound, stated) {
@@ -105,20 +105,16 @@ fn coefficients(fitted: &Fitted, units: &Units) -> Table {
                 (true, true) => with_error(c.estimate.value, c.estimate.error),
             }),
             Cell::text(unit(&c.term, units)),
-            Cell::number(match (sound, stated) {
-                (false, _) => NOT_CONVERGED.to_owned(),
-                (true, false) => NOT_STATED.to_owned(),
-                (true, true) => to_error(c.estimate.robust, c.estimate.robust),
-            }),
-            Cell::number(interval),
+            Cell::number(held(to_error(c.estimate.robust, c.estimate.robust))),
+            Cell::number(held(interval(value, ends))),
             Cell::text(literal(&format!("{name} = {}", plain(c.estimate.value / factor)))),
         ];
         if let Some(between) = between {
             row.insert(
                 4,
-                Cell::number(
+                Cell::number(held(
                     between.errors.get(place).map_or_else(|| "not computed".to_owned(), |e| plain(*e)),
-                ),
+                )),
             );
         }
         row

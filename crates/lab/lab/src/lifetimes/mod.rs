@@ -91,11 +91,15 @@ pub fn lifetimes(
 /// Version of the orbits of one plan: raised where their numbers change. 2: looks are those of each value of the parameter.
 const LIVES_FORMAT: u32 = 2;
 
+fn first_format() -> u32 {
+    1
+}
+
 /// The orbits of a plan, as far as they are followed, in its order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lives {
-    /// [`LIVES_FORMAT`]; absent before it was 2.
-    #[serde(default)]
+    /// [`LIVES_FORMAT`]; absent where it was 1.
+    #[serde(default = "first_format")]
     format: u32,
     plan_hash: String,
     /// Absent in what version 0.2.0 left unfinished.
@@ -300,7 +304,7 @@ impl Lifetimes {
             (
                 unwatched(true),
                 "values have nothing to watch after the delay, as all of their starts ended before: there is no chaos that lasts for \
-                 it; give a shorter delay",
+                 it; give a shorter delay (transient)",
             ),
             (
                 unwatched(false),

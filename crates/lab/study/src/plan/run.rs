@@ -2,6 +2,7 @@
 
 use super::{Control, Named, NoiseSettings, Plan, Question};
 use crate::checks::{check, check_figure, check_stability, check_start, check_steps};
+use crate::scan::Axis;
 use crate::study::{FigureSettings, ReturnMapSettings, Study};
 use crate::{Error, Scales, initial};
 use motiform_dynamics::steppers::Method;
@@ -95,10 +96,15 @@ impl RunPlan {
     /// # Errors
     /// [`Error`] naming the key, the value and the remedy.
     pub fn new(study: &Study) -> Result<Self, Error> {
+        Self::over(study, &[])
+    }
+
+    /// The same, with tolerances and bounds in the units of the equations at the ends of these axes.
+    pub(crate) fn over(study: &Study, axes: &[Axis]) -> Result<Self, Error> {
         let info = study.info()?;
         let method = stepper(&study.run.stepper)?;
         let run = &study.run;
-        let scales = study.scales_over(&[])?;
+        let scales = study.scales_over(axes)?;
         scales.check_time("t_end", run.t_end, true)?;
         scales.check_time("transient", run.transient, false)?;
         let dt_out = if run.dt_out == 0.0 { run.t_end / 2000.0 } else { run.dt_out };
@@ -127,8 +133,7 @@ impl RunPlan {
         check_start(model.as_ref(), &initial)?;
         let look = info.look_at(&parameters.values());
         let noise = noise(study, model.as_ref(), look, dt_out)?;
-        let scales =
-            if info.is_built_in() { scales } else { scales.under(noise.as_ref(), model.as_ref(), look) };
+        let scales = if info.is_built_in() { scales } else { scales.under(run.largest_noise(), look) };
         let escape_norm = escape_norm(study, scales)?;
         let computation = Computation {
             format: PLAN_FORMAT,
