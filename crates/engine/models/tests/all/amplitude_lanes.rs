@@ -1,5 +1,5 @@
-//! Amplitude equations in lanes: the same bits as alone, each lane with its own coefficients. Operations on every instruction set are tested
-//! in `dynamics`, orbits on every one in `kernels`, exponents there on the widest.
+//! Amplitude equations in lanes: the same bits as alone, each lane with its own coefficients. Operations on every instruction set are
+//! tested in `dynamics`, orbits on every one in `kernels`, exponents there on the widest.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
