@@ -45,6 +45,12 @@ impl Units {
         if self.time == "frame" { "frames" } else { &self.time }
     }
 
+    /// A time with its unit, from the number as it is written: `1 frame`, `2.5 frames`, `1 s`.
+    #[must_use]
+    pub fn of_time(&self, number: &str) -> String {
+        format!("{number} {}", if number == "1" { &self.time } else { self.times() })
+    }
+
     /// The unit of lengths after a number: `um`, `pixels`.
     #[must_use]
     pub fn lengths(&self) -> &str {

@@ -35,7 +35,7 @@ fn intervals(fitted: &Fitted, units: &Units) -> Table {
     let points = fitted.drift.as_ref().map_or(&[][..], |drift| &drift.points);
     let mut head = vec!["term".to_owned(), "coefficient".to_owned()];
     let every = |point: &DriftPoint| {
-        format!("every {} frames ({} {})", point.every, plain(point.interval), units.times())
+        format!("every {} frames ({})", point.every, units.of_time(&plain(point.interval)))
     };
     head.extend(points.iter().map(every));
     head.extend((!points.is_empty()).then(|| "largest change".to_owned()));

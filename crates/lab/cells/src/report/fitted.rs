@@ -65,7 +65,7 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
         ("noise of the centre, beside the contour's".to_owned(), centre(fitted, units)),
         ("velocity of the stage, subtracted".to_owned(), stage(fitted, units)),
         ("sets of terms that are as good".to_owned(), fitted.selection.subsets.ties.len().to_string()),
-        ("natural time".to_owned(), format!("{} {}", plain(model.scales.time), units.times())),
+        ("natural time".to_owned(), units.of_time(&plain(model.scales.time))),
     ]
 }
 

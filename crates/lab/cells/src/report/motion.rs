@@ -61,12 +61,12 @@ fn parameters(case: &Case<'_>, units: &Units) -> Vec<(String, String)> {
             let text = format!("{} frames, *t* = {from} to {to} {time}", m.frames);
             all.push(("stretch without gaps".to_owned(), text));
         }
-        all.push(("sampling interval".to_owned(), format!("{} {time}", plain(case.cell.track.interval()))));
+        all.push(("sampling interval".to_owned(), units.of_time(&plain(case.cell.track.interval()))));
         all.push((
             format!(
-                "{} (of the stretch, by displacements over {} {time})",
+                "{} (of the stretch, by displacements over {})",
                 cell::SPEED.symbol,
-                plain(m.step)
+                units.of_time(&plain(m.step))
             ),
             format!("{} {}", plain(m.speed), units.unit(Dimension::SPEED)),
         ));

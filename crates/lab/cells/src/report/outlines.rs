@@ -81,7 +81,7 @@ fn polygons(case: &Case<'_>, drawn: Option<&Cell>, setting: &Setting<'_>) -> Res
         let frame = seen[k];
         let read = drawn?.frames.iter().find(|outline| outline.frame == frame.frame)?;
         Some(TrackPanel {
-            name: format!("*t* = {} {}", four_digits(frame.t), units.times()),
+            name: format!("*t* = {}", units.of_time(&four_digits(frame.t))),
             path: vec![seen[..=k].iter().map(|frame| up(frame.centroid, units)).collect()],
             outlines: vec![read.points.iter().map(|p| up(*p, units)).collect()],
         })
@@ -132,7 +132,7 @@ fn strip(cell: &CellTrack, drawn: Option<&Cell>, units: &Units) -> Vec<TrackPane
             None => outline(cell.radius, &frame.y, units),
         };
         TrackPanel {
-            name: format!("*t* = {} {}", four_digits(frame.t), units.times()),
+            name: format!("*t* = {}", units.of_time(&four_digits(frame.t))),
             path: vec![before(frames, k, cell.radius).iter().map(|p| up(*p, units)).collect()],
             outlines: vec![points],
         }
