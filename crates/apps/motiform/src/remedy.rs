@@ -3,7 +3,7 @@
 use motiform_cells::Error as CellError;
 use motiform_store::{Error as StoreError, Kind};
 use motiform_study::Error;
-use motiform_tracks::{Apart, Error as TrackError};
+use motiform_tracks::{Apart, Error as TrackError, Setting};
 
 /// The options that mend an error of any kind, where there are some: the end of its sentence.
 pub(crate) fn end(error: &anyhow::Error) -> String {
@@ -29,10 +29,10 @@ fn of_tracks(error: &TrackError) -> Option<String> {
     match error {
         TrackError::Column { wanted, .. } => Some(format!(": --column {wanted}=HEADER")),
         TrackError::MixedCells { remedy: Apart::Column, .. } => Some(": --column cell=HEADER".to_owned()),
-        TrackError::UnknownFormat { found, .. } if found.contains("a table needs a header") => {
+        TrackError::UnknownFormat { setting: Some(Setting::Columns), .. } => {
             Some("; columns are named by --column frame=HEADER".to_owned())
         }
-        TrackError::UnknownFormat { found, .. } if found.contains("label masks") => {
+        TrackError::UnknownFormat { setting: Some(Setting::Masks), .. } => {
             Some("; label masks are read with --format masks".to_owned())
         }
         _ => None,

@@ -74,16 +74,16 @@ pub(crate) fn of_cells(error: motiform_cells::Error) -> PyErr {
 
 /// As [`python()`], for errors of files with outlines.
 pub(crate) fn of_tracks(error: motiform_tracks::Error) -> PyErr {
-    use motiform_tracks::{Apart, Error as TrackError};
+    use motiform_tracks::{Apart, Error as TrackError, Setting};
     let text = match &error {
         TrackError::Column { wanted, .. } => format!("{error}: columns={{'{wanted}': HEADER}}"),
         TrackError::MixedCells { remedy: Apart::Column, .. } => {
             format!("{error}: columns={{'cell': HEADER}}")
         }
-        TrackError::UnknownFormat { found, .. } if found.contains("a table needs a header") => {
+        TrackError::UnknownFormat { setting: Some(Setting::Columns), .. } => {
             format!("{error}; columns are named by columns={{'frame': HEADER}}")
         }
-        TrackError::UnknownFormat { found, .. } if found.contains("label masks") => {
+        TrackError::UnknownFormat { setting: Some(Setting::Masks), .. } => {
             format!("{error}; label masks are read with format='masks'")
         }
         _ => error.to_string(),

@@ -1,7 +1,7 @@
 //! The format of a file, from its content.
 
 use crate::input::{Input, shorten, text as text_of};
-use crate::{Error, Format, Options, Result, header, masks};
+use crate::{Error, Format, Options, Result, Setting, header, masks};
 use std::path::Path;
 
 /// Bytes that are looked at.
@@ -16,7 +16,12 @@ pub fn detect(path: &Path, options: &Options) -> Result<Format> {
         return Ok(Format::Masks);
     }
     let head = Input::head(path, options.limits, HEAD)?;
-    let unknown = |found: &str| Error::UnknownFormat { file: path.to_owned(), found: found.to_owned() };
+    let may = |found: &str, setting| Error::UnknownFormat {
+        file: path.to_owned(),
+        found: found.to_owned(),
+        setting,
+    };
+    let unknown = |found: &str| may(found, None);
     let text = match head.as_slice() {
         [] => return Err(unknown("the file is empty")),
         [b'P', b'K', 3, 4, ..] | [b'P', b'K', 5, 6, ..] => return Ok(Format::RoiZip),
@@ -47,7 +52,10 @@ pub fn detect(path: &Path, options: &Options) -> Result<Format> {
     let candidates = candidates(text, options);
     match candidates.as_slice() {
         [one] => Ok(*one),
-        [] => Err(unknown(&looks(text))),
+        [] if text.starts_with("#p2 - QuimP") => {
+            Err(unknown("QuimP's parameters: give the .snQP file of the same name"))
+        }
+        [] => Err(may(&looks(text), Some(Setting::Columns))),
         _ => Err(Error::Ambiguous { file: path.to_owned(), candidates }),
     }
 }
@@ -103,8 +111,5 @@ fn amoepy(lines: &[&str]) -> bool {
 /// A description for the error.
 fn looks(text: &str) -> String {
     let first = text.lines().next().unwrap_or_default();
-    if first.starts_with("#p2 - QuimP") {
-        return "QuimP's parameters: give the .snQP file of the same name".to_owned();
-    }
     format!("text that begins {:?}; a table needs a header with columns for frame, x and y", shorten(first))
 }

@@ -21,6 +21,15 @@ impl std::fmt::Display for Apart {
     }
 }
 
+/// The setting of [`Options`](crate::Options) by which a file of unknown content can be read, if it is what it seems to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// Names of the columns of a table.
+    Columns,
+    /// The format: label masks.
+    Masks,
+}
+
 /// The reasons why no tracks were read or written. Messages name the file, the line or entry, and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -49,6 +58,8 @@ pub enum Error {
         file: PathBuf,
         /// The apparent kind of the content.
         found: String,
+        /// The setting that may help.
+        setting: Option<Setting>,
     },
     /// The content fits several formats.
     #[error("{}: the content fits {}; choose one with the option format", .file.display(), names(.candidates))]

@@ -1,6 +1,6 @@
 //! Bytes of a file, decompressed where it is a gzip file, and never more than the limits allow.
 
-use crate::{Error, Limits, Place, Result};
+use crate::{Error, Limits, Place, Result, Setting};
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
 use std::fs::File;
@@ -26,9 +26,11 @@ impl Input {
     pub(crate) fn open(path: &Path, limits: Limits) -> Result<Self> {
         let metadata = path.metadata().map_err(io(path))?;
         if !metadata.is_file() {
-            let found =
-                if metadata.is_dir() { "a folder, which only holds label masks" } else { "not a file" };
-            return Err(Error::UnknownFormat { file: path.to_owned(), found: found.to_owned() });
+            let (found, setting) = match metadata.is_dir() {
+                true => ("a folder, which only holds label masks", Some(Setting::Masks)),
+                false => ("not a file", None),
+            };
+            return Err(Error::UnknownFormat { file: path.to_owned(), found: found.to_owned(), setting });
         }
         let mut file = BufReader::new(File::open(path).map_err(io(path))?);
         let packed = file.fill_buf().map_err(io(path))?.starts_with(&[0x1f, 0x8b]);

@@ -54,7 +54,7 @@ mod units;
 mod write;
 
 pub use detect::detect;
-pub use error::{Apart, Error, Result};
+pub use error::{Apart, Error, Result, Setting};
 pub use form::{Form, form};
 pub use format::Format;
 pub use geometry::{area, centroid, perimeter};

@@ -85,14 +85,15 @@ pub(super) fn units(problem: &Problem, settings: &Settings, scales: &Scales) -> 
 /// # Checked by  `tests/all/filter.rs`: exact Gaussian likelihoods, finite differences
 pub fn likelihood(tracks: &[Track], settings: &Settings, at: &Parameters) -> Result<Likelihood> {
     let scales = setup::check(tracks, settings)?;
-    let mut problem = setup::checked(tracks, settings, &scales)?;
-    if let Some(value) = at.rate {
-        if settings.library.modes == MOST_MODES {
+    let problem = match at.rate {
+        None => setup::problem(tracks, settings, &scales),
+        Some(value) if settings.library.modes == MOST_MODES => {
             let remedy = "take at most three modes, or leave out the rate";
             return Err(Error::Setting { key: "rate", value, remedy });
         }
-        problem = memory::problem_with_memory(tracks, settings, &scales);
-    }
+        Some(_) => memory::problem_with_memory(tracks, settings, &scales),
+    };
+    let problem = setup::followed(problem, tracks, &scales)?;
     let theta = natural(&problem, settings, &scales, at)?;
     let found = evaluate(&problem, &theta, Want::Exact, false);
     let mut units = units(&problem, settings, &scales);

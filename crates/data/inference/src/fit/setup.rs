@@ -38,9 +38,13 @@ pub(super) fn check_seen(scales: &Scales) -> Result<()> {
     }
 }
 
-/// The problem in natural units, if frames are close enough to follow each other.
+/// The problem in natural units, as [`followed`].
 pub(super) fn checked(tracks: &[Track], settings: &Settings, scales: &Scales) -> Result<Problem> {
-    let problem = problem(tracks, settings, scales);
+    followed(problem(tracks, settings, scales), tracks, scales)
+}
+
+/// This problem, if frames are close enough to follow each other.
+pub(super) fn followed(problem: Problem, tracks: &[Track], scales: &Scales) -> Result<Problem> {
     let usual = tracks.iter().map(Track::interval).fold(0.0, f64::max) / scales.time;
     let longest = Problem::longest_gap(usual) * scales.time;
     if problem.frames() == 0 { Err(Error::Gaps { longest }) } else { Ok(problem) }

@@ -84,13 +84,16 @@ impl Fitted {
     }
 
     /// The combinations that the data determine, and of which coefficients: of all terms, or of a handed model's own, as real coefficients
-    /// of all terms are rejected.
+    /// of all terms are rejected. Where errors do not hold, their texts have those of the fit all the same, which says how well it
+    /// determines one beside another.
     #[must_use]
-    pub fn determined(&self) -> (&Identifiability, &'static str) {
-        match self.rejects_real() {
+    pub fn determined(&self) -> (&Identifiability, String) {
+        let (known, of) = match self.rejects_real() {
             true => (&self.known, "of the terms of the handed model"),
             false => (&self.known_of_all, "of all terms"),
-        }
+        };
+        let beside = if self.has_errors() { "" } else { "; no intervals follow from these errors" };
+        (known, format!("{of}{beside}"))
     }
 
     /// The symmetry of the cell: not decided where the fit is doubtful.
