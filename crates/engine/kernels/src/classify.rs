@@ -1,6 +1,6 @@
 //! Motions classified in lanes.
 
-use crate::kernel::{Common, FromModel, Kernel, Text};
+use crate::kernel::{Common, FromModel, Kernel, TEXT, Text};
 use motiform_analysis::Result;
 use motiform_analysis::regime::{Candidate, Settings, Verdict, classify_in_lanes};
 use motiform_dynamics::{Model, Watch};
@@ -25,15 +25,13 @@ type Done<'d> = &'d mut dyn FnMut(usize, Result<Option<Verdict>>);
 /// first row, with any parameters. Each verdict goes to `done` with the row's key. Verdicts are those of [`motiform_analysis::classify`]
 /// to the last bit. When `watch` stops it, the rest is left.
 pub fn classify_rows(kernel: Kernel, settings: &Settings, next: Next<'_>, done: Done<'_>, watch: &dyn Watch) {
-    if !kernel.is_there() {
-        return;
-    }
     match kernel {
         Kernel::Tensor => classify::<Common, 6, 12>(settings, next, done, watch),
-        Kernel::Amplitudes(1) => classify::<Text<2>, 2, 4>(settings, next, done, watch),
-        Kernel::Amplitudes(2) => classify::<Text<4>, 4, 8>(settings, next, done, watch),
-        Kernel::Amplitudes(3) => classify::<Text<6>, 6, 12>(settings, next, done, watch),
-        Kernel::Amplitudes(_) => classify::<Text<8>, 8, 16>(settings, next, done, watch),
+        Kernel::Amplitudes(1) if TEXT => classify::<Text<2>, 2, 4>(settings, next, done, watch),
+        Kernel::Amplitudes(2) if TEXT => classify::<Text<4>, 4, 8>(settings, next, done, watch),
+        Kernel::Amplitudes(3) if TEXT => classify::<Text<6>, 6, 12>(settings, next, done, watch),
+        Kernel::Amplitudes(_) if TEXT => classify::<Text<8>, 8, 16>(settings, next, done, watch),
+        Kernel::Amplitudes(_) => {}
     }
 }
 

@@ -1,6 +1,6 @@
 //! Orbits from their starts to given times, in lanes.
 
-use crate::kernel::{Common, FromModel, Kernel, Text};
+use crate::kernel::{Common, FromModel, Kernel, TEXT, Text};
 use motiform_dynamics::ensemble::{Member, Propagation, Queue, propagate};
 use motiform_dynamics::{Model, Watch};
 
@@ -30,15 +30,13 @@ pub fn propagate_bodies(
     done: Done<'_>,
     watch: &dyn Watch,
 ) -> bool {
-    if !kernel.is_there() {
-        return false;
-    }
     match kernel {
         Kernel::Tensor => run::<Common, 8>(how, next, done, watch),
-        Kernel::Amplitudes(1) => run::<Text<2>, 4>(how, next, done, watch),
-        Kernel::Amplitudes(2) => run::<Text<4>, 6>(how, next, done, watch),
-        Kernel::Amplitudes(3) => run::<Text<6>, 8>(how, next, done, watch),
-        Kernel::Amplitudes(_) => run::<Text<8>, 10>(how, next, done, watch),
+        Kernel::Amplitudes(1) if TEXT => run::<Text<2>, 4>(how, next, done, watch),
+        Kernel::Amplitudes(2) if TEXT => run::<Text<4>, 6>(how, next, done, watch),
+        Kernel::Amplitudes(3) if TEXT => run::<Text<6>, 8>(how, next, done, watch),
+        Kernel::Amplitudes(_) if TEXT => run::<Text<8>, 10>(how, next, done, watch),
+        Kernel::Amplitudes(_) => false,
     }
 }
 

@@ -1,6 +1,6 @@
 //! All Lyapunov exponents, in lanes.
 
-use crate::kernel::{Common, FromModel, Kernel, Text};
+use crate::kernel::{Common, FromModel, Kernel, TEXT, Text};
 use motiform_analysis::Result;
 use motiform_analysis::lyapunov::{
     Lyapunov, LyapunovSettings, TangentMember, lyapunov_in_lanes, runs_in_lanes,
@@ -52,11 +52,11 @@ pub fn exponents_of_body(
     done: Done<'_>,
     watch: &dyn Watch,
 ) {
-    match kernel(body, settings).filter(|kernel| kernel.is_there()) {
+    match kernel(body, settings) {
         Some(Kernel::Tensor) => run::<Common, 6, 42>(body, settings, next, done, watch),
-        Some(Kernel::Amplitudes(1)) => run::<Text<2>, 2, 6>(body, settings, next, done, watch),
-        Some(Kernel::Amplitudes(2)) => run::<Text<4>, 4, 20>(body, settings, next, done, watch),
-        Some(Kernel::Amplitudes(3)) => run::<Text<6>, 6, 42>(body, settings, next, done, watch),
+        Some(Kernel::Amplitudes(1)) if TEXT => run::<Text<2>, 2, 6>(body, settings, next, done, watch),
+        Some(Kernel::Amplitudes(2)) if TEXT => run::<Text<4>, 4, 20>(body, settings, next, done, watch),
+        Some(Kernel::Amplitudes(3)) if TEXT => run::<Text<6>, 6, 42>(body, settings, next, done, watch),
         _ => {}
     }
 }

@@ -15,9 +15,9 @@ pub enum Kernel {
     Amplitudes(usize),
 }
 
-/// `true` if amplitude equations have kernels. In the module of a page, whose registers hold two lanes, they
-/// would gain little and make half a megabyte of it.
-const TEXT: bool = !cfg!(target_family = "wasm");
+/// `true` if amplitude equations have kernels. In the module of a page, whose registers hold two lanes, they would gain little and make half
+/// a megabyte of it. A constant that guards the arm of a `match` keeps what the arm calls from being compiled at all.
+pub(crate) const TEXT: bool = !cfg!(target_family = "wasm");
 
 /// The largest number of modes for which there is a kernel: each number is compiled separately.
 pub const MOST_MODES: usize = 4;
@@ -32,13 +32,7 @@ impl Kernel {
             return Some(Self::Tensor);
         }
         let modes = listed(model)?.equations().definition().modes.len();
-        Some(Self::Amplitudes(modes)).filter(|kernel| modes <= MOST_MODES && kernel.is_there())
-    }
-
-    /// Returns `true` if it is part of this program.
-    #[inline(always)]
-    pub(crate) fn is_there(self) -> bool {
-        TEXT || self == Self::Tensor
+        Some(Self::Amplitudes(modes)).filter(|_| TEXT && modes <= MOST_MODES)
     }
 
     /// The kernel that computes all of these models, which must be of one kind; `None` if no single one does.

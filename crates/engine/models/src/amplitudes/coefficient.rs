@@ -274,36 +274,3 @@ fn apply(function: Function, [re, im]: Value) -> Value {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn kinds_follow_from_how_a_coefficient_is_written() {
-        let mut tape = Tape::default();
-        let (i, gamma) = (tape.imaginary_unit(), tape.parameter(0));
-        let turning = tape.multiply(i, gamma);
-        let square = tape.whole_power(turning, 2);
-        let mixed = tape.add(gamma, turning);
-        let phase = tape.apply(Function::Exp, turning).unwrap();
-        assert_eq!(tape.kind(turning), Kind::Imaginary);
-        assert_eq!(tape.kind(square), Kind::Real);
-        assert_eq!(tape.kind(mixed), Kind::Complex);
-        assert_eq!(tape.kind(phase), Kind::Complex);
-        assert_eq!(tape.apply(Function::Sqrt, mixed), None);
-        let values = tape.evaluate(&[0.5]);
-        assert_eq!(values[square as usize], [-0.25, 0.0]);
-        assert_eq!(values[phase as usize], [libm::cos(0.5), libm::sin(0.5)]);
-    }
-
-    #[test]
-    fn quotients_are_inverse_to_products() {
-        for b in [[2.0, 0.0], [0.0, -3.0], [1.5, 0.25]] {
-            let a = [0.7, -1.1];
-            let back = product(quotient(a, b), b);
-            assert!((back[0] - a[0]).abs() < 1e-15 && (back[1] - a[1]).abs() < 1e-15, "{b:?}");
-            assert_eq!(whole_power(b, -2), quotient([1.0, 0.0], whole_power(b, 2)));
-        }
-    }
-}

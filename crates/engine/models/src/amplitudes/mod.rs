@@ -20,8 +20,6 @@ mod program;
 mod real_parts;
 mod reserved;
 mod tensor_form;
-#[cfg(test)]
-mod tests_of_texts;
 mod tokens;
 
 pub(crate) use built_in::of_tensor;

@@ -13,7 +13,7 @@ use motiform_models::tensor::{FourierField, Tensor, TensorParameters};
 use motiform_models::{ModelInfo, Parameters};
 use proptest::prelude::*;
 
-fn definition(modes: &[u32], equations: &[&str], parameters: &[(&str, f64)]) -> Definition {
+pub(crate) fn definition(modes: &[u32], equations: &[&str], parameters: &[(&str, f64)]) -> Definition {
     Definition {
         modes: modes.to_vec(),
         velocity: None,

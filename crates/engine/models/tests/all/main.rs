@@ -12,4 +12,5 @@ mod noise;
 mod reduced;
 mod registry;
 mod tensor;
+mod texts;
 mod zoo;

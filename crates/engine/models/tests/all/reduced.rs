@@ -59,6 +59,24 @@ fn straight_and_circular_states_are_equilibria_with_these_eigenvalues() {
     assert!(straight > 600 && circular > 300);
 }
 
+/// With `8 b3 = 1` and `b1 = 4`, straight motions are the roots of `s^3 + (kappa2 + 2 a1) s - gamma`.
+#[test]
+fn straight_motions_are_roots_of_a_cubic() {
+    let of = |a1: f64, kappa2: f64, gamma: f64| {
+        let all = Reduced { a1, b1: 4.0, b3: 0.125 }.straight(kappa2, gamma);
+        all.iter().map(|state| state.s).collect::<Vec<f64>>()
+    };
+    // (s + 2)(s + 1)(s - 3) = s^3 - 7 s - 6
+    let three = of(0.5, -8.0, 6.0);
+    assert!(three.len() == 3 && three.iter().zip([-2.0, -1.0, 3.0]).all(|(x, y)| (x - y).abs() < 1e-14), "{three:?}");
+    // (s - 2)(s^2 + 2 s + 5) = s^3 + s - 10
+    let one = of(0.5, 0.0, 10.0);
+    assert!(one.len() == 1 && (one[0] - 2.0).abs() < 1e-15, "{one:?}");
+    // s^3 + .001 s - 1e-12: no digits are lost
+    let small = of(libm::exp2(-12.0), 1e-3 - libm::exp2(-11.0), 1e-12);
+    assert!(small.len() == 1 && (small[0] / 1e-9 - 1.0).abs() < 1e-13, "{small:?}");
+}
+
 #[test]
 fn the_ellipse_at_rest_has_the_saddle_rates() {
     for reduced in &COUPLINGS {

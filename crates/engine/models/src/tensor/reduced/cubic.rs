@@ -28,20 +28,3 @@ pub(super) fn real_roots(p: f64, q: f64) -> Vec<f64> {
     roots.dedup();
     roots
 }
-
-#[cfg(test)]
-mod tests {
-    use super::real_roots;
-
-    #[test]
-    fn one_root_or_three() {
-        // (x - 1)(x - 2)(x + 3) = x^3 - 7 x + 6
-        let roots = real_roots(-7.0, 6.0);
-        assert!(roots.iter().zip([-3.0, 1.0, 2.0]).all(|(x, y)| (x - y).abs() < 1e-14), "{roots:?}");
-        // (x - 2)(x^2 + 2 x + 5) = x^3 + x - 10
-        let roots = real_roots(1.0, -10.0);
-        assert!(roots.len() == 1 && (roots[0] - 2.0).abs() < 1e-15, "{roots:?}");
-        assert_eq!(real_roots(1.0, 0.0), [0.0]);
-        assert!((real_roots(1e-3, 1e-12)[0] + 1e-9).abs() < 1e-22);
-    }
-}
