@@ -53,8 +53,8 @@ fn jitter_variance(beside: &[[bool; 2]]) -> f64 {
 ///
 /// Of two cells and more that are seen on both sides: their mean displacement differs from the median over all frames by more than 8
 /// times the usual difference (1.4826 times the median one), and what exceeds the displacements before and after, with its scatter over
-/// cells, by more than 8 times its error, and by more than cells that step at times of their own have in common. Of one cell alone: where its outline is at another place and its shape goes on
-/// ([`Flag::StageJump`]).
+/// cells, by more than 8 times its error, and by more than cells that step at times of their own have in common. Of one cell alone:
+/// where its outline is at another place and its shape goes on ([`Flag::StageJump`]).
 pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Vec<StageJump> {
     let means: Vec<Option<[f64; 2]>> = (0..grid.times.len()).map(|k| mean_displacement(grid, k)).collect();
     let middle = [0, 1].map(|i| median(means.iter().flatten().map(|d| d[i])).unwrap_or(0.0));
