@@ -112,6 +112,26 @@ pub(crate) fn number(text: &str, what: &str, place: &Place) -> Result<f64> {
     })
 }
 
+/// Seconds of a time in parts, `1:02:03.5`, with so many seconds in each: below 60 but for the first part, whole but for the last.
+pub(crate) fn seconds(text: &str, parts: &[f64], place: &Place) -> Result<f64> {
+    let (sign, digits) = text.trim().strip_prefix('-').map_or((1.0, text.trim()), |digits| (-1.0, digits));
+    let values: Option<Vec<f64>> =
+        digits.replace(',', ".").split(':').map(|part| part.parse().ok()).collect();
+    let last = parts.len().saturating_sub(1);
+    let sound = |(at, value): (usize, &f64)| {
+        (0.0..if at == 0 { f64::INFINITY } else { 60.0 }).contains(value)
+            && (at == last || *value == value.trunc())
+    };
+    match values.filter(|values| values.len() == parts.len() && values.iter().enumerate().all(sound)) {
+        Some(values) => Ok(sign * values.iter().zip(parts).map(|(value, part)| value * part).sum::<f64>()),
+        None => Err(Error::structure(
+            place,
+            format!("time is {:?}", shorten(text)),
+            "a number, h:m:s in all rows, or the parts that the header names, as time [mm:ss],",
+        )),
+    }
+}
+
 /// A whole number of a text, also written as `3.0`.
 pub(crate) fn whole(text: &str, what: &str, place: &Place) -> Result<i64> {
     if let Ok(value) = text.trim().parse::<i64>() {

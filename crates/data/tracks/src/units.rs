@@ -77,6 +77,19 @@ pub(crate) fn time(name: &str, file: &Path) -> Result<Option<String>> {
     known(name, TIMES, file)
 }
 
+/// Seconds in each part of the times of a column whose unit names parts, `time [h:m:s]`, `time (mm:ss)`.
+pub(crate) fn parts(name: &str) -> Option<Vec<f64>> {
+    let unit = divided(name).unit.filter(|unit| unit.contains(':'))?;
+    let seconds = |part: &str| match part.trim().to_lowercase().as_str() {
+        "h" | "hh" => Some(3600.0),
+        "m" | "mm" | "min" => Some(60.0),
+        "s" | "ss" | "sec" => Some(1.0),
+        _ => None,
+    };
+    let parts: Option<Vec<f64>> = unit.split(':').map(seconds).collect();
+    parts.filter(|parts| parts.is_sorted_by(|a, b| a > b))
+}
+
 /// Refuses a column of frames with a unit of time.
 ///
 /// # Errors

@@ -43,7 +43,7 @@ fn entries(
     let Units { length, time, .. } = Units::of(sample);
     let noise = &fitted.model().noise;
     let whole = |number: u64| i64::try_from(number).map_or_else(|_| number.to_string().into(), Value::from);
-    vec![
+    let mut all = vec![
         ("files", sample.tracks.files.clone().into()),
         ("cells", cells.into()),
         ("unit_of_length", length.into()),
@@ -57,9 +57,12 @@ fn entries(
         ("seed", whole(options.seed)),
         ("simulations", whole(options.simulations as u64)),
         ("log_likelihood", fitted.model().log_likelihood.into()),
-        ("error_of_noise", noise.eta_shape.error.into()),
-        ("error_of_noise_velocity", noise.eta_v.error.into()),
-    ]
+    ];
+    if fitted.has_errors_of_noise() {
+        all.push(("error_of_noise", noise.eta_shape.error.into()));
+        all.push(("error_of_noise_velocity", noise.eta_v.error.into()));
+    }
+    all
 }
 
 /// The covariance of the parameters of the model file: that of the coefficients, divided by the factors that the equations have.

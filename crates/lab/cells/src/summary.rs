@@ -1,6 +1,5 @@
 //! Results as JSON: the contract of `motiform fit --json` and `motiform observe --json`.
 
-use crate::fitted::noise_json;
 use crate::{
     CellFit, CellTrack, Comparison, Fitted, FittedRegime, Observation, Prediction, Sample, Statistic,
     fitted_population, observed_population, population_numbers, population_statistics,
@@ -128,7 +127,7 @@ fn add(object: &mut Value, fitted: &Fitted) {
     object["handed_excluded"] = json!(fitted.handedness.excluded);
     object["symmetry"] = json!(fitted.symmetry());
     object["handed_p_value"] = json!(fitted.handedness.p_value);
-    object["noise"] = noise_json(&model.noise);
+    object["noise"] = fitted.noise_json();
     object["stage"] = json!(fitted.stage);
     object["handed_beside_stage"] = json!(fitted.beside_stage);
     object["handed_beside_stretch"] = json!(fitted.beside_stretch);

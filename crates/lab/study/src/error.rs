@@ -104,6 +104,18 @@ pub enum Error {
         /// The remedy.
         remedy: &'static str,
     },
+    /// Bodies that all end before their run does.
+    #[error(
+        "no body completed its run, of {count} (seed {seed}: {outcome}): give a shorter t_end, or other parameters"
+    )]
+    NoBody {
+        /// Number of bodies.
+        count: usize,
+        /// The seed of the first one.
+        seed: u64,
+        /// The outcome of its run, in words.
+        outcome: String,
+    },
     /// An axis of a scan that cannot be used.
     #[error("axis {text:?}: {problem}")]
     Axis {

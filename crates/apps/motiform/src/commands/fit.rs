@@ -214,16 +214,15 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
     }
     text += &sets(fitted)?;
     text += &ladder(fitted)?;
-    let noise = &model.noise;
     let Units { length, time, .. } = Units::of(sample);
     let velocity = fitted.noise_of_velocity(&format!("{length}/{time}^1.5"));
     let shape = fitted.noise_of_shape(&format!("{length}/{time}^0.5"));
     writeln!(text, "noise              velocity {velocity}, shape {shape}")?;
-    if noise.is_of_centre() {
-        let centre = with_error(noise.centre.value, noise.centre.error);
+    if model.noise.is_of_centre() {
+        let centre = fitted.noise_of_centre(&length);
         writeln!(
             text,
-            "centre             {centre} {length} in each coordinate, beside the errors of the contour: outlines move as a whole"
+            "centre             {centre} in each coordinate, beside the errors of the contour: outlines move as a whole"
         )?;
     }
     for [x, y] in &fitted.stage {

@@ -4,29 +4,30 @@ use super::times::Times;
 use super::{Found, stem};
 use crate::gather::{Gather, Key};
 use crate::header::{Header, names, needed, separator};
-use crate::input::{Input, decimal, number, whole};
+use crate::input::{Input, decimal, number, seconds, whole};
 use crate::scale::{Said, Scale};
 use crate::split::split;
-use crate::units::{lengths, no_time, time};
+use crate::units::{lengths, no_time, parts, time};
 use crate::{Apart, Error, Note, Options, Place, Result};
 use std::borrow::Cow;
 
 /// Rows `cell, frame, i, x, y` in any order; without a cell there is one, without i the order of the rows is that of the vertices.
 ///
 /// A column of times stands for that of frames, or gives their times; frames that are not whole numbers are
-/// times too. Units in the header (`x [um]`) are those of the values. Where no comma separates columns it may
-/// be the decimal one.
+/// times too. Units in the header (`x [um]`) are those of the values. Times may be in parts, `0:01:30`. Where no
+/// comma separates columns it may be the decimal one.
 pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
     let file = input.place.path().to_owned();
     let mut first = String::new();
     input.line(&mut first)?;
-    let table = Table::new(&first, options, &input.place)?;
+    let mut table = Table::new(&first, options, &input.place)?;
     let alone = stem(&file);
     let mut gather = Gather::new(options.limits);
     let mut times = Times::new(table.frame.is_some() && options.columns.frame.is_some());
     let mut line = String::new();
     while input.line(&mut line)? {
-        if line.trim().is_empty() {
+        // spreadsheets write rows of separators alone below a table
+        if line.chars().all(|c| c.is_whitespace() || c == char::from(table.separator)) {
             continue;
         }
         let place = input.here();
@@ -41,7 +42,7 @@ pub(super) fn read(mut input: Input, options: &Options) -> Result<Found> {
         let value = |at: usize, what: &str| table.number(&fields[at], what, &place);
         let point = [value(table.x, "x")?, value(table.y, "y")?];
         let frame = table.frame.map(|at| value(at, "frame")).transpose()?;
-        let time = table.time.map(|at| value(at, "time")).transpose()?;
+        let time = table.time.map(|at| table.moment(&fields[at], &place)).transpose()?;
         let frame = times.frame(frame, time, &place)?;
         gather.row(Key { cell: &cell, frame }, i, point, &place)?;
     }
@@ -77,6 +78,8 @@ struct Table {
     /// The units of the header.
     lengths: Option<String>,
     unit_of_time: Option<String>,
+    /// Seconds in each part of a time, none where times are numbers; `None` until the first one is read.
+    parts: Option<Vec<f64>>,
 }
 
 impl Table {
@@ -90,7 +93,12 @@ impl Table {
             None => Some(needed(header.frame, "frame", &names, file)?),
         };
         let lengths = lengths([&names[x], &names[y]], file)?;
-        let unit_of_time = header.time.map(|at| time(&names[at], file)).transpose()?.flatten();
+        let parts = header.time.and_then(|at| parts(&names[at]));
+        let unit_of_time = match (&parts, header.time) {
+            (Some(_), _) => Some("s".to_owned()),
+            (None, Some(at)) => time(&names[at], file)?,
+            (None, None) => None,
+        };
         header.frame.map_or(Ok(()), |at| no_time(&names[at], file))?;
         Ok(Self {
             time: header.time,
@@ -102,7 +110,22 @@ impl Table {
             y,
             lengths,
             unit_of_time,
+            parts,
         })
+    }
+
+    /// A time in seconds, or a number. The first one of a column without a unit says whether all are in hours, minutes and seconds.
+    fn moment(&mut self, text: &str, place: &Place) -> Result<f64> {
+        let unit = &mut self.unit_of_time;
+        let parts = self.parts.get_or_insert_with(|| {
+            let clock = parts("time [h:m:s]").filter(|_| unit.is_none() && text.matches(':').count() == 2);
+            *unit = unit.take().or_else(|| clock.as_ref().map(|_| "s".to_owned()));
+            clock.unwrap_or_default()
+        });
+        if parts.is_empty() && !text.contains(':') {
+            return self.number(text, "time", place);
+        }
+        seconds(text, parts, place)
     }
 
     fn number(&self, text: &str, what: &str, place: &Place) -> Result<f64> {

@@ -186,3 +186,33 @@ fn units_of_a_header_that_are_not_known_or_differ_are_refused() {
     assert_eq!((days.time_unit.as_str(), days.length_unit.as_str()), ("d", "cm"));
     assert!(read(seen("cell,frame [frames],x [],y")).is_ok());
 }
+
+/// Times in parts are those in seconds; rows of separators alone, as spreadsheets write them, are none.
+#[test]
+fn times_in_hours_minutes_and_seconds() {
+    let with = |header: &str, time: &dyn Fn(usize) -> String| {
+        read(table(&format!("cell;{header};x;y"), ';', |x| x.to_string(), |k| time(20 * k + 3590)) + ";;;\n")
+    };
+    let seconds = with("time [s]", &|t: usize| t.to_string()).expect("seconds");
+    assert_eq!(times(&seconds)[..2], [3590.0, 3610.0]);
+    let clock = |t: usize| format!("{}:{:02}:{:02}", t / 3600, t / 60 % 60, t % 60);
+    for (header, time) in [
+        ("time", &clock as &dyn Fn(usize) -> String),
+        ("Time (hh:mm:ss)", &|t: usize| clock(t) + ",0"),
+        ("t [min:s]", &|t: usize| format!("{}:{:02}", t / 60, t % 60)),
+    ] {
+        let found = with(header, time).expect(header);
+        assert_eq!((found.time_unit.as_str(), &found.cells), ("s", &seconds.cells), "{header}");
+    }
+    // two parts may be minutes and seconds, or hours and minutes
+    for (header, time) in [
+        ("time", &(|t: usize| format!("{}:{:02}", t / 60, t % 60)) as &dyn Fn(usize) -> String),
+        ("time [s]", &clock),
+        ("time", &|t: usize| if t < 3600 { t.to_string() } else { clock(t) }),
+        ("time [h:m:s]", &|t: usize| t.to_string()),
+        ("time [h:m:s]", &|t: usize| format!("0:{}:{}", t / 60, t % 60)),
+    ] {
+        let error = with(header, time).expect_err("no common clock").to_string();
+        assert!(error.contains("time [mm:ss]"), "{header}: {error}");
+    }
+}

@@ -28,7 +28,7 @@ const STENCILS: [&[f64]; 2] = [&[-0.5, 1.0, -0.5], &[1.0 / 6.0, -2.0 / 3.0, 1.0,
 pub struct Jitter {
     /// Standard deviation of the displacement of a frame, in each coordinate; 0 where cells have less in common than independent ones.
     pub deviation: f64,
-    /// Share of random shifts of the cells in time with as much in common.
+    /// Share of random shifts of the cells in time, among the frames that each has, with as much in common.
     pub p_value: f64,
     /// Frames with enough cells.
     pub frames: usize,
@@ -59,8 +59,9 @@ impl Jitter {
     /// jitter that is white in time. The displacements e of highest posterior density minimise sum (H - A e)^2 sum 1/v + sum e^2/sigma^2, A
     /// the stencil (conjugate gradients). Of two stencils the one that leaves less of the cells' own motion is taken.
     ///
-    /// The test shifts each cell in time at random, and asks how often sum H^2 sum 1/v is as large. The shifts belong to the cells in the
-    /// order of their residuals, whatever their order in the file.
+    /// The test shifts the residuals of each cell at random among the frames in which it has one, so that as many cells are in each frame,
+    /// and asks how often sum H^2 sum 1/v is as large. The shifts belong to the cells in the order of their residuals, whatever their order
+    /// in the file.
     pub(super) fn of(grid: &Grid) -> Option<Self> {
         let own = |residuals: &Residuals| residuals.noise() / residuals.gain();
         let best = STENCILS.into_iter().filter_map(|stencil| Residuals::of(grid, stencil));
@@ -86,6 +87,13 @@ impl Jitter {
 /// Sum of the squares of the residuals of a cell.
 fn size(own: &[Option<[f64; 2]>]) -> f64 {
     own.iter().flatten().map(|h| h[0] * h[0] + h[1] * h[1]).sum()
+}
+
+/// The residuals of a cell, moved by this share of them among the frames that have one.
+fn shifted(own: &[Option<[f64; 2]>], share: f64) -> Vec<Option<[f64; 2]>> {
+    let by = (share * own.iter().flatten().count() as f64) as usize;
+    let mut moved = own.iter().flatten().cycle().skip(by);
+    own.iter().map(|h| h.and_then(|_| moved.next().copied())).collect()
 }
 
 /// The common part of a frame, and the inverse of its variance by the cells' own motion.
@@ -123,21 +131,21 @@ impl Residuals {
         // in an order of their own, so that the random shifts do not depend on that of the file
         own.sort_by(|a, b| size(a).total_cmp(&size(b)));
         let mut found = Self { stencil, weights: vec![1.0; own.len()], own, common: Vec::new() };
-        found.common = found.together(&|_, k| Some(k));
+        found.common = found.together(&found.own);
         found.weights = found.inverse_variances();
-        found.common = found.together(&|_, k| Some(k));
+        found.common = found.together(&found.own);
         (found.common.iter().flatten().count() >= LEAST_FRAMES).then_some(found)
     }
 
-    /// The weighted means over cells, each cell looked at in another frame.
-    fn together(&self, place: &dyn Fn(usize, usize) -> Option<usize>) -> Vec<Common> {
-        let frames = self.own.first().map_or(0, Vec::len);
+    /// The weighted means of residuals over cells.
+    fn together(&self, residuals: &[Vec<Option<[f64; 2]>>]) -> Vec<Common> {
+        let frames = residuals.first().map_or(0, Vec::len);
         let of_frame = |k: usize| {
             let (mut sum, mut weight, mut count) = ([0.0; 2], 0.0, 0);
-            for (cell, own) in self.own.iter().enumerate() {
-                let Some(h) = place(cell, k).and_then(|k| own[k]) else { continue };
-                sum = [0, 1].map(|i| sum[i] + self.weights[cell] * h[i]);
-                weight += self.weights[cell];
+            for (own, of_cell) in residuals.iter().zip(&self.weights) {
+                let Some(h) = own[k] else { continue };
+                sum = [0, 1].map(|i| sum[i] + of_cell * h[i]);
+                weight += of_cell;
                 count += 1;
             }
             (count >= LEAST_CELLS && weight > 0.0).then(|| (sum.map(|x| x / weight), weight))
@@ -180,12 +188,11 @@ impl Residuals {
         let size = |common: &[Common]| {
             common.iter().flatten().map(|(h, weight)| weight * (h[0] * h[0] + h[1] * h[1])).sum::<f64>()
         };
-        let (observed, frames) = (size(&self.common), self.common.len());
+        let observed = size(&self.common);
         let mut random = Normal::new(SEED, 0);
         let above = (0..SHIFTS).filter(|_| {
-            let by: Vec<usize> =
-                self.own.iter().map(|_| (random.uniform() * frames as f64) as usize).collect();
-            size(&self.together(&|cell, k| Some((k + by[cell]) % frames))) >= observed
+            let shifted: Vec<_> = self.own.iter().map(|own| shifted(own, random.uniform())).collect();
+            size(&self.together(&shifted)) >= observed
         });
         (above.count() + 1) as f64 / (SHIFTS + 1) as f64
     }

@@ -7,6 +7,8 @@ use serde::Serialize;
 
 /// Multiple of the usual common displacement of a frame, and of its error, that a jump exceeds.
 const CLEAR: f64 = 8.0;
+/// Significance of a jump, over all frames that stand out.
+const LEVEL: f64 = 0.01;
 
 /// A displacement that all outlines have from one frame on.
 ///
@@ -51,25 +53,38 @@ fn jitter_variance(beside: &[[bool; 2]]) -> f64 {
 ///
 /// Of two cells and more that are seen on both sides: their mean displacement differs from the median over all frames by more than 8
 /// times the usual difference (1.4826 times the median one), and what exceeds the displacements before and after, with its scatter over
-/// cells, by more than 8 times its error. Of one cell alone: where its outline is at another place and its shape goes on
-/// ([`Flag::StageJump`]).
+/// cells, by more than 8 times its error, and by more than cells that step at times of their own have in common. Of one cell alone:
+/// where its outline is at another place and its shape goes on ([`Flag::StageJump`]).
 pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Vec<StageJump> {
     let means: Vec<Option<[f64; 2]>> = (0..grid.times.len()).map(|k| mean_displacement(grid, k)).collect();
     let middle = [0, 1].map(|i| median(means.iter().flatten().map(|d| d[i])).unwrap_or(0.0));
     let off = |d: &[f64; 2]| libm::hypot(d[0] - middle[0], d[1] - middle[1]);
     let usual = 1.4826 * median(means.iter().flatten().map(off)).unwrap_or(0.0);
     let stands_out = |k: usize| means.get(k).copied().flatten().is_some_and(|d| off(&d) > CLEAR * usual);
+    // two cells that rest between steps go the same way now and then
+    let tests = (0..means.len()).filter(|k| stands_out(*k)).count() as f64;
     (1..grid.times.len())
         .filter_map(|k| {
             let found = excess(grid, k, &stands_out)?;
             let length = libm::hypot(found.displacement[0], found.displacement[1]);
             let clear = match found.error {
-                Some(error) => stands_out(k) && length > CLEAR * error,
+                Some(error) => {
+                    stands_out(k)
+                        && length > CLEAR * error
+                        && tests * p_value(length / error, found.cells) < LEVEL
+                }
                 None => is_flagged(cells, found.frame),
             };
             clear.then_some(found)
         })
         .collect()
+}
+
+/// Probability of a mean of so many times its error, or more, of cells that go in independent directions: of F = r^2/2 with 2 and 2 (n - 1)
+/// degrees of freedom.
+fn p_value(ratio: f64, cells: usize) -> f64 {
+    let freedom = cells as f64 - 1.0;
+    libm::pow(1.0 + ratio * ratio / (2.0 * freedom), -freedom)
 }
 
 /// The excess of the displacements to this frame over those before and after, over the cells that are seen.

@@ -97,7 +97,8 @@ pub(crate) fn fitted(
         true => Some(handed_beside_change(tracks, [&selection.fit, &handedness.fit], watch)?),
         false => None,
     };
-    let mut doubts = doubts(&warnings, &handedness, [beside_stage, beside_stretch, beside_change]);
+    let white = checks.innovations.iter().map(|one| one.p_value).min_by(f64::total_cmp);
+    let mut doubts = doubts(&warnings, &handedness, [beside_stage, beside_stretch, beside_change], white);
     let mut regime = stages.get("regime", watch, |watch| {
         if !known.identifiable || !doubts.is_empty() {
             return Ok(None);

@@ -6,7 +6,6 @@ mod noise;
 mod study;
 
 pub(crate) use make::{Members, fitted};
-pub(crate) use noise::noise_json;
 
 use crate::Checks;
 use crate::regime::FittedRegime;

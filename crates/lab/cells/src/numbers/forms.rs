@@ -1,6 +1,6 @@
 //! Area, perimeter and form over the frames that are seen.
 
-use super::averaged;
+use super::{SIZE, averaged};
 use motiform_statistics::Measured;
 use motiform_tracks::Form;
 use motiform_tracks::modes::{CellModes, FrameModes};
@@ -42,10 +42,10 @@ impl Forms {
             let values: Vec<f64> = seen.iter().map(of).collect();
             Some(FormNumber { mean: averaged(&values, range)?, scatter: scatter(&values) })
         };
-        let (size, share) = ([0.0, f64::INFINITY], [0.0, 1.0]);
+        let share = [0.0, 1.0];
         Self {
-            area: number(size, &|(frame, _)| frame.area),
-            perimeter: number(size, &|(frame, _)| frame.perimeter),
+            area: number(SIZE, &|(frame, _)| frame.area),
+            perimeter: number(SIZE, &|(frame, _)| frame.perimeter),
             aspect_ratio: number([1.0, f64::INFINITY], &|(_, form)| form.aspect_ratio),
             solidity: number(share, &|(_, form)| form.solidity),
             circularity: number(share, &|(_, form)| form.circularity),

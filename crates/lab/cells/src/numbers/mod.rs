@@ -111,14 +111,30 @@ impl Numbers {
     }
 }
 
+/// The range of sizes.
+const SIZE: [f64; 2] = [0.0, f64::INFINITY];
+
 /// Mean of a series in time of a number between `least` and `most`, with an interval that ends there, from 16 samples on
-/// ([`short_series_mean`]); `None` of nothing.
+/// ([`short_series_mean`]); `None` of nothing. Of a number with a least value alone the interval reaches up.
 fn averaged(samples: &[f64], [least, most]: [f64; 2]) -> Option<Measured> {
     if samples.is_empty() {
         return None;
     }
     let value = samples.iter().sum::<f64>() / samples.len() as f64;
     let error = short_series_mean(samples).ok().map(|found| found.error);
-    let interval = error.map(|error| [(value - error).max(least), (value + error).min(most)]);
+    let grows = least.is_finite() && most.is_infinite();
+    let up = |error| if grows { reaching_up(value - least, error) } else { error };
+    let interval = error.map(|error| [(value - error).max(least), (value + up(error)).min(most)]);
     Some(Measured { value, interval })
+}
+
+/// The distance to the upper end, of a mean m above the least value whose error grows with it, as that of a speed does: where the true
+/// mean is m (1 + r), the error of the estimate m is as much larger. The upper end is `m/(1 - r)`, r the relative error, and goes on as
+/// its tangent, `4 m r`, from r = 1/2 on. With the same error to both sides means of few samples are too low more often than they should.
+fn reaching_up(m: f64, error: f64) -> f64 {
+    match error / m {
+        _ if m <= 0.0 => error,
+        r if r < 0.5 => error / (1.0 - r),
+        r => m * (4.0 * r - 1.0),
+    }
 }

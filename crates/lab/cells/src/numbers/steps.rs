@@ -1,7 +1,7 @@
 //! Displacements from frame to frame: speed, path, directionality, turning.
 
-use super::averaged;
 use super::places::Places;
+use super::{SIZE, averaged};
 use motiform_dynamics::sample;
 use motiform_inference::{Bounded, Fix};
 use motiform_statistics::Measured;
@@ -58,7 +58,7 @@ impl Steps {
         let squares: Vec<f64> = rates.iter().map(|rate| rate * rate).collect();
         let own = |error: Bounded| {
             let inverse = sample::mean(whole().map(|pair| (pair[1].t - pair[0].t).powi(-2)))?;
-            Some(less(reaching_up(averaged(&squares, SIGNED)?), error, 4.0 * inverse))
+            Some(less(averaged(&squares, SIZE)?, error, 4.0 * inverse))
         };
         let no_gap = |pair: &[Fix]| pair[1].t - pair[0].t <= NO_GAP * places.interval;
         let (mut way, mut time) = (0.0, 0.0);
@@ -76,7 +76,7 @@ impl Steps {
         }
         Some(Self {
             count: rates.len(),
-            speed: averaged(&rates, SIGNED).map(reaching_up).map(|speed| holding(speed, way / time)),
+            speed: averaged(&rates, SIZE).map(|speed| holding(speed, way / time)),
             rms_speed: error.and_then(own),
             path,
             net,
@@ -86,21 +86,6 @@ impl Steps {
             turning_angles: counts,
         })
     }
-}
-
-/// The mean of speeds, or of their squares, with an upper end for an error that grows with the speed, as that of a speed does: where the
-/// true mean is m (1 + r), the error of the estimate m is as much larger. The upper end is `m/(1 - r)`, r the relative error, and goes on
-/// as its tangent, `4 m r`, from r = 1/2 on; the lower one is 0 at least. With the same error to both sides means of few samples
-/// are too low more often than they should.
-fn reaching_up(mean: Measured) -> Measured {
-    let m = mean.value;
-    let upper = |high: f64| match (high - m) / m {
-        _ if m <= 0.0 => high,
-        r if r < 0.5 => m / (1.0 - r),
-        r => 4.0 * m * r,
-    };
-    let ends = |[low, high]: [f64; 2]| [low.max(0.0), upper(high)];
-    Measured { interval: mean.interval.map(ends), ..mean }
 }
 
 /// The root of a mean square without `times` the variance of an error; no interval where that of the error has an open end.

@@ -1,7 +1,7 @@
 //! The fitted equations: coefficients, noise, what the data determine, the motion, what is doubtful.
 
 use crate::Units;
-use crate::report::numbers::{estimate, interval, plain, with_error};
+use crate::report::numbers::{interval, plain, with_error};
 use crate::report::place::notation;
 use crate::report::terms::{typeset, unit};
 use crate::{CellFit, Fitted};
@@ -47,13 +47,12 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
 
 fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
     let model = fitted.model();
-    let noise = &model.noise;
     let (symmetry, p) = (fitted.symmetry().name(), PValue(fitted.handedness.p_value));
     vec![
         ("symmetry".to_owned(), format!("{symmetry}, {p}; {}", fitted.handedness.excluded_parts())),
         ("frames with a likelihood".to_owned(), model.frames.to_string()),
         ("log-likelihood".to_owned(), plain(model.log_likelihood)),
-        ("factor of the stated errors".to_owned(), estimate(&noise.s)),
+        ("factor of the stated errors".to_owned(), fitted.factor_of_errors()),
         (
             "noise of the velocity".to_owned(),
             fitted.noise_of_velocity(&format!("{}/√{}", units.unit(Dimension::SPEED), units.time)),
@@ -71,9 +70,8 @@ fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
 
 /// The noise that all outlines of a frame may have together, as the fit of one cell sees it.
 fn centre(fitted: &Fitted, units: &Units) -> String {
-    let noise = &fitted.model().noise;
-    match noise.is_of_centre() {
-        true => format!("{} {}", estimate(&noise.centre), units.lengths()),
+    match fitted.model().noise.is_of_centre() {
+        true => fitted.noise_of_centre(units.lengths()),
         false => "none is seen".to_owned(),
     }
 }

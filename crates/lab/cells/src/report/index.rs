@@ -96,7 +96,7 @@ fn tables(cases: &[Case<'_>], names: &[String], units: &Units) -> Vec<Table> {
     let link = |case: &Case<'_>, file: &String| Cell::link(literal(&case.cell.name), page_name(file));
     let mut reasons: Vec<String> = Vec::new();
     let mut row = |(case, file): (&Case<'_>, &String)| {
-        let mut row = vec![link(case, file), Cell::number(case.cell.frames().to_string())];
+        let mut row = vec![link(case, file), Cell::number(case.observation.numbers.seen.to_string())];
         for quantity in FREE {
             let shown = free::value(&case.observation.numbers, quantity);
             row.push(Cell::number(
@@ -106,7 +106,7 @@ fn tables(cases: &[Case<'_>], names: &[String], units: &Units) -> Vec<Table> {
         row.push(Cell::text(motion(case.observation.motion.regime)));
         row
     };
-    let mut head = vec!["cell".to_owned(), "frames that count".to_owned()];
+    let mut head = vec!["cell".to_owned(), "frames seen".to_owned()];
     head.extend(FREE.map(|quantity| units.axis(quantity)));
     head.push("observed motion".to_owned());
     let rows = cases.iter().zip(names).map(&mut row).collect();
@@ -116,6 +116,7 @@ fn tables(cases: &[Case<'_>], names: &[String], units: &Units) -> Vec<Table> {
     let fitted = |(case, file): (&Case<'_>, &String)| {
         vec![
             link(case, file),
+            Cell::number(case.cell.frames().to_string()),
             Cell::text(motion_of_fit(case)),
             Cell::text(fitted_of(case).map_or("no fit", |fitted| fitted.symmetry().name())),
             Cell::text(fitted_of(case).map_or_else(|| "none".to_owned(), place_words)),
@@ -125,7 +126,7 @@ fn tables(cases: &[Case<'_>], names: &[String], units: &Units) -> Vec<Table> {
     let fits = Table {
         caption: "The fit of each cell; where there is none, or no place, the page of the cell says why."
             .to_owned(),
-        head: ["cell", "motion of the fit", "symmetry", "place", "simulated cells"]
+        head: ["cell", "frames that count", "motion of the fit", "symmetry", "place", "simulated cells"]
             .map(str::to_owned)
             .to_vec(),
         rows: cases.iter().zip(names).map(fitted).collect(),

@@ -2,12 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
+use crate::recordings::{Shape, Walker, tracks};
 use motiform_cells::report::{Case, pages};
 use motiform_cells::{CellFit, CellTrack, FitOptions, Observation, Sample, fit_cells, fit_together, observe};
 use motiform_dynamics::Normal;
 use motiform_lab::draw::FigureFormat;
 use motiform_lab::simulate::simulate;
 use motiform_study::{RunPlan, presets::find_any};
+use motiform_tracks::modes::ModeOptions;
 use motiform_tracks::synthetic::{Synthetic, blur};
 use motiform_tracks::{Cell, Outline, Tracks};
 
@@ -47,7 +49,7 @@ fn sample() -> Sample {
         files: Vec::new(),
         notes: Vec::new(),
     };
-    Sample::of_tracks(tracks, &motiform_tracks::modes::ModeOptions::default())
+    Sample::of_tracks(tracks, &ModeOptions::default())
 }
 
 fn drawn(sample: &Sample, fits: &[CellFit]) -> Vec<File> {
@@ -195,7 +197,7 @@ fn one_law_for_all_cells_is_on_the_first_page() {
     let (first, second) = (&sample.tracks.cells[0].frames[..150], &sample.tracks.cells[0].frames[200..350]);
     let cell = |name: &str, frames: &[Outline]| Cell { name: name.to_owned(), frames: frames.to_vec() };
     sample.tracks.cells = vec![cell("one", first), cell("two", second)];
-    let sample = Sample::of_tracks(sample.tracks, &motiform_tracks::modes::ModeOptions::default());
+    let sample = Sample::of_tracks(sample.tracks, &ModeOptions::default());
     let cells: Vec<&CellTrack> = sample.cells.iter().collect();
     let options = FitOptions { draws: 4, drift: false, together: true, ..FitOptions::default() };
     let fit = fit_together(&cells, &options, &()).unwrap();
@@ -216,4 +218,14 @@ fn one_law_for_all_cells_is_on_the_first_page() {
     ] {
         assert!(page.contains(words), "{words}");
     }
+}
+
+/// Rods have no modes, and numbers of every frame: the first page says of how many.
+#[test]
+fn the_first_page_counts_the_frames_of_its_numbers() {
+    let rod = Walker { speed: 0.5, persistence: 5.0, shape: Shape::Rod, frames: 77, noise: 0.001 };
+    let sample = Sample::of_tracks(tracks(vec![rod.outlines(3)]), &ModeOptions::default());
+    assert_eq!(sample.cells[0].frames(), 0);
+    let files = drawn(&sample, &[]);
+    assert!(std::str::from_utf8(&files[0].1).unwrap().contains(">77</td>"));
 }

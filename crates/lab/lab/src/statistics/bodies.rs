@@ -79,18 +79,16 @@ pub fn simulated_kept(
             None => missing += 1,
         }
     }
-    if kept.is_empty() && missing > 0 {
-        return Err(Error::Interrupted.into());
-    }
-    let mut notes = notes(&early, missing, count);
     if kept.is_empty() {
-        return Err(Error::Setting {
-            key: "bodies",
-            value: count.to_string(),
-            remedy: "no body completed its run: give a shorter t_end, or other parameters",
+        return Err(match early.first() {
+            Some((seed, outcome)) if missing == 0 => {
+                Error::NoBody { count, seed: *seed, outcome: outcome.to_string() }
+            }
+            _ => Error::Interrupted,
         }
         .into());
     }
+    let mut notes = notes(&early, missing, count);
     let statistics = measured(&plans[0], kept, settings, &Part { watch, from: SIMULATED, to: 1.0 })?;
     notes.extend(at_rest(&statistics));
     let source = json!({ "plan": plans[0], "plan_hash": plans[0].hash(), "bodies": count });

@@ -30,6 +30,8 @@ pub(super) enum Change {
     Fourth(f64),
     /// The linear rate of z2 changes by this part from the beginning to the end.
     Ramp(f64),
+    /// The linear rate of the velocity oscillates by this part, five times.
+    Rhythm(f64),
     /// The second half is that of another law.
     Glued,
     /// y is multiplied by this.
@@ -79,6 +81,7 @@ impl Change {
             Self::Coloured(_)
                 | Self::Fourth(_)
                 | Self::Ramp(_)
+                | Self::Rhythm(_)
                 | Self::Glued
                 | Self::Stretched(_)
                 | Self::Channel(_)
@@ -92,6 +95,7 @@ impl Change {
             Self::Coloured(memory) => law.memory = memory,
             Self::Fourth(size) => law.fourth = size,
             Self::Ramp(part) => law.ramp = part,
+            Self::Rhythm(part) => law.rhythm = part,
             _ => {}
         }
         let (dt, frames) = sampling;

@@ -28,6 +28,8 @@ pub(super) struct Law {
     pub(super) memory: f64,
     /// Relative change of the linear rates of the shape over the record.
     pub(super) ramp: f64,
+    /// Relative size of five oscillations of the linear rate of the velocity over the record.
+    pub(super) rhythm: f64,
     /// z4 as a part of z2^2, which no model of three modes has.
     pub(super) fourth: f64,
 }
@@ -49,7 +51,7 @@ pub(super) fn full(motion: &'static str, kappa2: f64, kappa3: f64, radius: f64) 
         term("z3: z1 z2", 3, 0.4, &[1, 2]),
         term("z3: z1^3", 3, 0.0125, &[1, 1, 1]),
     ];
-    Law { motion: Some(motion), terms, radius, noise: 0.01, memory: 0.0, ramp: 0.0, fourth: 0.0 }
+    Law { motion: Some(motion), terms, radius, noise: 0.01, memory: 0.0, ramp: 0.0, rhythm: 0.0, fourth: 0.0 }
 }
 
 /// The paper's reduced model (presets fig1, fig3), with a z3 that only noise moves.
@@ -63,7 +65,16 @@ pub(super) fn reduced(motion: &'static str, gamma: f64, kappa2: f64) -> Law {
         term("z2: |z2|^2 z2", 2, -8.0, &[2, 2, -2]),
         term("z3: z3", 3, -1.0, &[3]),
     ];
-    Law { motion: Some(motion), terms, radius: 0.35, noise: 0.002, memory: 0.0, ramp: 0.0, fourth: 0.0 }
+    Law {
+        motion: Some(motion),
+        terms,
+        radius: 0.35,
+        noise: 0.002,
+        memory: 0.0,
+        ramp: 0.0,
+        rhythm: 0.0,
+        fourth: 0.0,
+    }
 }
 
 impl Law {
@@ -122,6 +133,9 @@ impl<'a> Run<'a> {
             let mut product = *value;
             if *equation == 2 && factors.len() == 1 {
                 product = product * (1.0 + self.law.ramp * part);
+            }
+            if *equation == 1 && factors.len() == 1 {
+                product = product * (1.0 + self.law.rhythm * libm::sin(5.0 * std::f64::consts::TAU * part));
             }
             for &factor in *factors {
                 let z = z[factor.unsigned_abs() as usize - 1];

@@ -12,11 +12,12 @@ mod judge;
 mod laws;
 
 use crate::recordings::{Seen, Shape, Walker, tracks};
+use crate::samples::draws;
 use changes::{ALL, Change};
 use judge::Tally;
 use laws::{Law, full, reduced};
 use motiform_cells::{CellFit, FitOptions, Sample, cell_json, coefficient_columns, fit_cells};
-use motiform_inference::Placement;
+use motiform_inference::{Placement, Symmetry};
 use motiform_store::columns::Values;
 use motiform_tracks::Tracks;
 use motiform_tracks::modes::ModeOptions;
@@ -141,6 +142,22 @@ fn nothing_wrong_is_said_of_a_sample() {
         print(name, &tally);
         assert!(tally.cells == 1 && tally.wrong.is_empty(), "{name}: {:?}", tally.wrong);
     }
+}
+
+/// Circling cells of a mirror-symmetric law whose drive comes and goes are not handed, whatever the likelihood says of some of them.
+#[test]
+fn a_drive_that_comes_and_goes_is_no_handedness() {
+    let options = FitOptions { drift: false, simulations: 0, draws: 4, ..FitOptions::default() };
+    let law = &laws()[1].1;
+    let mut handed = 0;
+    for seed in 0..draws(5, 20) {
+        let record = Change::Rhythm(0.15).record(law, law, SAMPLING, 7400 + seed).expect("in bounds");
+        let fit = cells(vec![record], &options, 1).remove(0).fitted.expect("a fit");
+        println!("{seed}: {:?}, {:?}", fit.handedness.symmetry, fit.doubts);
+        handed += u32::from(fit.handedness.symmetry == Symmetry::Handed);
+        assert_ne!(fit.symmetry(), Symmetry::Handed, "{seed}");
+    }
+    assert!(handed > 0, "none that tests it");
 }
 
 /// A quasi-periodic cell of less than two periods, whose fitted equations end in a circle after the record: no circle. A cell that
