@@ -149,18 +149,18 @@ impl Task for Classification {
     const NICE: i32 = 3;
 
     fn run(job: Motion, watch: &dyn Watch, tell: Tell<'_, Found>) -> Result<(), Gone> {
-        Work { job: &job, watch, tell }.run()
+        NamingJob { job: &job, watch, tell }.run()
     }
 }
 
 /// One motion to be classified.
-struct Work<'w> {
+struct NamingJob<'w> {
     job: &'w Motion,
     watch: &'w dyn Watch,
     tell: Tell<'w, Found>,
 }
 
-impl Work<'_> {
+impl NamingJob<'_> {
     fn run(&self) -> Result<(), Gone> {
         let Some(regime) = self.name()? else { return Ok(()) };
         // A name that has not changed has the same exponents.

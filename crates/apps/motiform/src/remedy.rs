@@ -52,6 +52,8 @@ fn remedy(error: &Error) -> Option<&'static str> {
         Error::Setting { key: "in", .. } => ": --curve KIND",
         Error::Store(error) => return in_place(error),
         Error::OtherPlan { .. } => "; choose another --out, or --force to replace it",
+        Error::Unfinished { .. } => ": the same command with --resume goes on",
+        Error::NoResult { kind: Kind::Dataset, .. } => "; give a folder written by `motiform simulate`",
         Error::NoResult { kind: Kind::Scan, .. } => "; give a folder written by `motiform scan`",
         Error::NoResult { kind: Kind::Branches | Kind::Curves, .. } => {
             "; give a folder written by `motiform continue`"
@@ -78,9 +80,6 @@ fn in_place(error: &StoreError) -> Option<&'static str> {
         StoreError::NoFolder { .. } => ": give one that motiform wrote",
         StoreError::Unwritable { .. } => "; choose an --out in a folder that is writable",
         StoreError::Inventory { .. } => "; choose another --out",
-        StoreError::Unreadable { reason, .. } if reason.ends_with("resume it first") => {
-            ": the same `motiform atlas` with --resume goes on"
-        }
         StoreError::Unreadable { reason, .. } if reason.ends_with("(os error 24)") => {
             "; allow more open files (ulimit -n)"
         }

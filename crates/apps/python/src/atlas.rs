@@ -15,7 +15,7 @@ use motiform_study::Error;
 use motiform_study::atlas::{self, AtlasPlan};
 use motiform_study::scan::Axis;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{PyBytes, PyDict, PyType};
 use std::path::PathBuf;
 
 /// A finished atlas.
@@ -26,7 +26,7 @@ pub(crate) struct Atlas(AtlasFolder);
 type Counts = (Option<u64>, Option<f64>, usize);
 
 /// A folder, and whether it is new, resumed or replaced.
-type Place = Option<(PathBuf, String)>;
+pub(crate) type Place = Option<(PathBuf, String)>;
 
 /// The atlas of a plane: both axes as text, as on the command line; what a signal or the callable raised in its place.
 #[pyfunction]
@@ -98,6 +98,17 @@ pub(crate) fn read_atlas(path: PathBuf) -> PyResult<Atlas> {
 
 #[pymethods]
 impl Atlas {
+    /// The atlas of this JSON.
+    #[staticmethod]
+    fn of_json(text: &str) -> PyResult<Self> {
+        serde_json::from_str(text).map(Self).map_err(of_json)
+    }
+
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<(Py<PyAny>, (String,))> {
+        let text = serde_json::to_string(&self.0).map_err(of_json)?;
+        Ok((PyType::new::<Self>(py).getattr("of_json")?.unbind(), (text,)))
+    }
+
     /// The JSON of the command line.
     fn summary(&self) -> PyResult<String> {
         serde_json::to_string(&atlas_summary(&self.0)).map_err(of_json)

@@ -1,7 +1,7 @@
 //! Conversion of errors to Python exceptions, with the texts of the library and the keywords that mend them.
 
 use motiform_models::Error as ModelError;
-use motiform_store::Error as StoreError;
+use motiform_store::{Error as StoreError, Kind};
 use motiform_study::Error;
 use pyo3::PyErr;
 use pyo3::exceptions::{
@@ -34,6 +34,8 @@ fn remedy(error: &Error) -> Option<&'static str> {
     Some(match error {
         Error::NoAxis { .. } => "; give axes={\"NAME\": values}",
         Error::Store(error) => return in_place(error),
+        Error::Unfinished { .. } => ": the same call with resume=True goes on",
+        Error::NoResult { kind: Kind::Dataset, .. } => "; give a folder that motiform wrote",
         Error::OtherPlan { .. } => "; choose another one, or overwrite=True to replace it",
         Error::PartFailed { .. } | Error::InTheWay { .. } => "; resume=True continues it",
         _ => return None,

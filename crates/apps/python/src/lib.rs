@@ -15,6 +15,7 @@ mod errors;
 mod field;
 mod flow;
 mod foreign;
+mod lifetimes;
 mod read;
 mod registry;
 mod run;
@@ -49,6 +50,8 @@ mod _motiform {
     use super::field::Field;
     #[pymodule_export]
     use super::flow::Flow;
+    #[pymodule_export]
+    use super::lifetimes::lifetimes;
     #[pymodule_export]
     use super::read::{read_fields, read_run, read_scan, read_table};
     #[pymodule_export]

@@ -192,7 +192,7 @@ impl ScanPlan {
 }
 
 /// An axis from its text (`0.1:1.6:64`, as on the command line) or its values.
-fn axis(name: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
+pub(crate) fn axis(name: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     if let Ok(text) = values.extract::<String>() {
         return Axis::parse(&format!("{name}={text}")).map_err(python);
     }

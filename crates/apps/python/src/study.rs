@@ -199,7 +199,10 @@ fn random(value: &Bound<'_, PyAny>) -> PyResult<Random> {
     }
     let random = match value.extract::<(f64, f64)>() {
         Ok((min, max)) => Random::Sizes { min, max },
-        Err(_) => Random::Within(number("random", value)?),
+        Err(_) => Random::Within(value.extract().map_err(|_| {
+            let remedy = "give a size, such as 0.3, or the smallest and the largest, such as (0.01, 1.0)";
+            PyTypeError::new_err(format!("random = {value}: {remedy}"))
+        })?),
     };
     random.check().map_err(of_keywords)?;
     Ok(random)

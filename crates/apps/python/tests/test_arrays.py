@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
@@ -36,6 +37,27 @@ def test_any_array_is_used_or_refused(array: npt.NDArray[np.float64], fortran: b
 def test_what_is_not_real_is_refused(wrong: npt.ArrayLike) -> None:
     with pytest.raises(TypeError, match="must hold real numbers"):
         BODY(0.0, wrong)
+
+
+@pytest.mark.parametrize(
+    ("call", "match"),
+    [
+        (lambda: BODY.lyapunov(2.5), "count must be a whole number of at least 0, not 2.5"),
+        (lambda: BODY.equilibria(starts="a"), "starts must be a whole number"),
+        (lambda: BODY.branches(("kappa2", 0.1, 1.0), points=0.5), "points must be a whole number"),
+        (lambda: BODY.atlas({"kappa2": 3, "kappa3": (0.1, 1.0)}), "kappa2 = 3: give .low, high."),
+        (lambda: BODY.statistics(4, threshold=3), "threshold = 3: give a quantity"),
+        (lambda: BODY.statistics(4, radii=["x"]), "radii must hold real numbers"),
+        (lambda: BODY.simulate(10.0, random=(1.0,)), "random = .1.0,.: give a size"),
+        (lambda: motiform.ensemble(BODY, "x"), "t must hold real numbers"),
+        (lambda: motiform.ensemble(BODY, 1.0, parameters={"kappa2": "x"}), "parameters.'kappa2'. must hold real numbers"),
+        (lambda: motiform.scan("fig1", {"kappa2": [0.1]}), "give a body"),
+        (lambda: motiform.scan(BODY, ["kappa2"]), "a mapping from parameters to values"),
+    ],
+)
+def test_what_is_of_another_kind_is_named(call: Callable[[], object], match: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=match):
+        call()
 
 
 FINITE = st.floats(allow_nan=True, allow_infinity=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import subprocess
 from pathlib import Path
 
@@ -32,6 +33,8 @@ def test_numbers_are_those_of_the_command_line(folder: tuple[Path, dict[str, obj
     again = motiform.read(path)
     assert isinstance(again, motiform.Atlas) and again.summary == printed
     assert again.cells.equals(found.cells) and again.curves.equals(found.curves)
+    kept = pickle.loads(pickle.dumps(found))
+    assert kept == found and kept.figure() == found.figure()
     region = found.regions[0]
     assert sum(one.share for one in found.regions) == pytest.approx(1.0) and len(region.motions) == 1
     across, upwards, motions = found.grid()
@@ -77,6 +80,10 @@ def test_cells_are_verified(folder: tuple[Path, dict[str, object]], binary: Path
     assert not damaged.intact and any("other motions" in problem for problem in damaged.different), damaged
     done = subprocess.run([binary, "verify", copy, "--all", "--json"], capture_output=True, check=False)
     assert done.returncode == 1 and json.loads(done.stdout)["different"] == list(damaged.different)
+    manifest = json.loads((copy / "manifest.json").read_text())
+    (copy / "manifest.json").write_text(json.dumps({**manifest, "complete": False}))
+    with pytest.raises(ValueError, match="contains an atlas that is not finished.*resume=True"):
+        motiform.read(copy)
 
 
 def test_a_folder_is_written_and_axes_are_checked(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 import numpy.typing as npt
+import pandas as pd
 import pytest
 
 import motiform
@@ -263,6 +264,25 @@ def test_label_masks(kind: str, tmp_path: Path) -> None:
     (tmp_path / "res_track.txt").write_text("3 5 8\n")
     with pytest.raises(ValueError, match="line 1"):
         motiform.cells.read_masks(tmp_path)
+
+
+def test_tables_and_masks_in_memory_are_those_of_files(tmp_path: Path) -> None:
+    tifffile = pytest.importorskip("tifffile")
+    rows = [("a", frame, *point) for frame, (_, points) in enumerate(simulated("fig5b")[:20]) for point in points]
+    table = pd.DataFrame(rows, columns=["cell", "frame", "x", "y"])
+    table.to_csv(tmp_path / "cells.csv", index=False)
+    one, other = (motiform.cells.read(given, interval=2.0, pixel_size=0.5) for given in (table, tmp_path / "cells.csv"))
+    assert one["a"].modes.identical(other["a"].modes) and one["a"].notes == other["a"].notes
+    named = motiform.cells.read(table.rename(columns={"x": "pos"}), interval=2.0, pixel_size=0.5, columns={"x": "pos"})
+    assert named["a"].modes.identical(one["a"].modes)
+    y, x = np.mgrid[:60, :70]
+    labels = np.stack([300 * (np.hypot(x - 30 - frame, 1.3 * (y - 30)) < 15) for frame in range(6)]).astype(np.int64)
+    tifffile.imwrite(tmp_path / "stack.tif", labels.astype(np.uint16), photometric="minisblack")
+    here, there = (motiform.cells.read_masks(given, interval=2.0) for given in (labels, tmp_path / "stack.tif"))
+    assert here["300"].modes.identical(there["300"].modes)
+    for wrong, kind in ((labels * 0.5, TypeError), (labels[0], TypeError), (-labels, ValueError), (labels << 10, ValueError)):
+        with pytest.raises(kind, match="labels"):
+            motiform.cells.read_masks(wrong)
 
 
 def test_masks_in_one_file_and_what_is_no_mask(tmp_path: Path) -> None:

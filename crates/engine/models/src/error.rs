@@ -40,7 +40,7 @@ pub enum Error {
         known: Vec<&'static str>,
     },
     /// The model has no such coordinate.
-    #[error("unknown initial value {name:?} of model {model}{}: the names are {}", hint(.nearest), .known.join(", "))]
+    #[error("unknown coordinate {name:?} of model {model}{}: the names are {}", hint(.nearest), .known.join(", "))]
     UnknownCoordinate {
         /// The name given.
         name: String,
@@ -50,6 +50,16 @@ pub enum Error {
         nearest: Option<&'static str>,
         /// All known names.
         known: Vec<&'static str>,
+    },
+    /// Not one value for each parameter.
+    #[error("values = {got} numbers: model {model} has {expected} parameters; give one value for each")]
+    ValueCount {
+        /// The model.
+        model: &'static str,
+        /// The number of its parameters.
+        expected: usize,
+        /// The number given.
+        got: usize,
     },
     /// A number that is not finite, or outside what the model allows.
     #[error("{name} = {} is out of range: give a number from {min} to {max}", written(*.value))]

@@ -235,9 +235,13 @@ impl ModelInfo {
     /// The model with these values, in registry order.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a value the model cannot be computed with (or that is not finite), and what the model itself
-    /// rejects.
+    /// [`Error::ValueCount`]; [`Error::OutOfRange`] for a value the model cannot be computed with (or that is not finite), and what the
+    /// model itself rejects.
     pub fn build(&self, values: &[f64]) -> Result<Box<dyn Model>, Error> {
+        let (model, expected, got) = (self.name, self.parameters().len(), values.len());
+        if got != expected {
+            return Err(Error::ValueCount { model, expected, got });
+        }
         for (spec, &value) in self.parameters().iter().zip(values) {
             let (min, max) = spec.allowed;
             if !(min..=max).contains(&value) {

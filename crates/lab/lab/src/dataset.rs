@@ -1,16 +1,11 @@
 //! The folder of a dataset: `manifest.json`, `trajectory.*`, `crossings.*`, and figures.
 
 use crate::readings::{CROSSING, columns};
-use motiform_store::{
-    Fields, Format, Staged, Table, mend, read_table, table_metadata, write_fields, write_table,
-};
+use motiform_store::{Fields, Format, Staged, Table, read_table, table_metadata, write_fields, write_table};
+use motiform_study::Error;
 use motiform_study::dataset::{Dataset, Manifest};
-use motiform_study::plan::pretty;
-use motiform_study::{Error, input};
+use motiform_study::plan::{Computation, Question, manifest, pretty};
 use std::path::{Path, PathBuf};
-
-/// The name of the manifest in every dataset folder.
-const MANIFEST: &str = "manifest.json";
 
 /// Writes the tables, the fields (if any) and the manifest of a dataset into a staged folder.
 ///
@@ -46,13 +41,13 @@ pub fn write_rest(
     if let Some(fields) = fields {
         write_fields(&staged.path().join("fields.h5"), fields).map_err(|error| staged.shown(error))?;
     }
-    Ok(staged.write(MANIFEST, &pretty(manifest, staged.target())?)?)
+    Ok(staged.write(Computation::MANIFEST, &pretty(manifest, staged.target())?)?)
 }
 
 /// Reads a dataset folder back.
 ///
 /// # Errors
-/// [`Error::Store`] for a folder without a manifest, or files that are missing or damaged.
+/// [`Error::NoResult`] for a folder without a manifest, [`Error::Store`] for files that are missing or damaged.
 pub fn read_dataset(folder: &Path) -> Result<Dataset, Error> {
     read_dataset_by(folder, &|_, path| Ok(read_table(path)?))
 }
@@ -65,13 +60,8 @@ pub fn read_dataset_by(
     folder: &Path,
     read: &dyn Fn(&mut Manifest, &Path) -> Result<Table, Error>,
 ) -> Result<Dataset, Error> {
-    mend(folder)?;
-    let path = folder.join(MANIFEST);
-    let text = input::manifest(&path)
-        .map_err(|error| Error::unreadable(&path, format!("{error}; give the folder of a run")))?;
-    let mut manifest: Manifest =
-        serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(&path, error))?;
-    let model = manifest.plan.body().map_err(|error| Error::unreadable(&path, error))?;
+    let mut manifest: Manifest = manifest::<Computation, _>(folder)?;
+    let model = manifest.plan.body()?;
     let path = trajectory_path(folder)?;
     let trajectory = read(&mut manifest, &path)?;
     let columns = columns(model.as_ref()).columns;

@@ -74,14 +74,14 @@ pub(crate) struct Simulation<'r> {
 }
 
 /// A part of a run: how it ended.
-struct Stretch {
+struct RunPart {
     ending: Ending,
     last: Vec<f64>,
     steps: u64,
     rejected: u64,
 }
 
-impl Stretch {
+impl RunPart {
     /// The ending, if it came before the end of the stretch.
     fn early(&self) -> Option<Ending> {
         (!self.ending.is_complete()).then_some(self.ending)
@@ -123,7 +123,7 @@ impl Simulation<'_> {
     }
 
     /// The shape through the transient, except for its last part of length `rest`; the position is reset.
-    fn transient(&self, rest: f64, passes: f64) -> Result<Stretch, Error> {
+    fn transient(&self, rest: f64, passes: f64) -> Result<RunPart, Error> {
         let c = self.computation;
         let mut last = start(self.plan, self.model);
         let shape = ..last.len() - 2;
@@ -137,7 +137,7 @@ impl Simulation<'_> {
         last[shape].copy_from_slice(orbit.state());
         let counters = orbit.counters();
         let ending = Ending::of_transient(outcome, c.transient);
-        Ok(Stretch { ending, last, steps: counters.steps, rejected: counters.rejected })
+        Ok(RunPart { ending, last, steps: counters.steps, rejected: counters.rejected })
     }
 
     /// Records the last interval of a run that ended during its transient, as long as the recording would have been. Nothing with noise,
@@ -171,7 +171,7 @@ impl Simulation<'_> {
         passes: f64,
         pass: f64,
         record: &mut dyn Record,
-    ) -> Result<Stretch, Error> {
+    ) -> Result<RunPart, Error> {
         let c = self.computation;
         let orbit = self.plan.method()?.orbit(self.body, c.control.into(), from, start)?;
         let mut orbit = noisy(c, orbit, self.model, 1)?;
@@ -190,7 +190,7 @@ impl Simulation<'_> {
         let counters = orbit.counters();
         let last = orbit.state().to_vec();
         let ending = Ending::from(outcome);
-        Ok(Stretch { ending, last, steps: counters.steps, rejected: counters.rejected })
+        Ok(RunPart { ending, last, steps: counters.steps, rejected: counters.rejected })
     }
 
     /// The local error of a fixed step at the end of the run, by halving it; `None` for adaptive steps, and if the
@@ -212,7 +212,7 @@ impl Simulation<'_> {
         relative.is_finite().then_some(relative)
     }
 
-    fn run(&self, recording: &Stretch, centre: Option<[f64; 2]>, crossings: Option<Table>) -> Run {
+    fn run(&self, recording: &RunPart, centre: Option<[f64; 2]>, crossings: Option<Table>) -> Run {
         let (shape, position) = recording.last.split_at(recording.last.len() - 2);
         let values = self.model.decoded(shape);
         let names = self.model.coordinates().iter().map(|c| c.name.to_owned());

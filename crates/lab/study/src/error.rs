@@ -179,6 +179,14 @@ pub enum Error {
         /// The reason.
         reason: String,
     },
+    /// A folder whose result is not finished.
+    #[error("{} contains {} that is not finished", .path.display(), .kind.words())]
+    Unfinished {
+        /// The folder.
+        path: PathBuf,
+        /// The kind of result.
+        kind: Kind,
+    },
     /// A folder that contains the result of another plan.
     #[error("{} contains the {} of another plan ({differences})", .path.display(), .kind.name())]
     OtherPlan {

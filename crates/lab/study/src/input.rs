@@ -1,5 +1,6 @@
 //! Reading of texts of bounded length, so that reading a device ends.
 
+use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
@@ -20,10 +21,10 @@ pub fn text(path: &Path, most: u64) -> Result<String> {
     String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
-/// The text of a manifest: only of a file, because reading from a pipe might never end.
-pub fn manifest(path: &Path) -> Result<String> {
+/// What a JSON file holds: only of a file, because reading from a pipe might never end.
+pub fn json<T: DeserializeOwned>(path: &Path) -> Result<T> {
     if !path.metadata()?.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "it is not a file"));
     }
-    text(path, MANIFEST)
+    Ok(serde_json::from_slice(text(path, MANIFEST)?.as_bytes())?)
 }

@@ -50,17 +50,17 @@ impl Task for Following {
     const NICE: i32 = 5;
 
     fn run(job: Job, watch: &dyn Watch, tell: Tell<'_, Found>) -> Result<(), Gone> {
-        Work { job: &job, begun: Moment::now(), watch: Telling::new(&job, watch, tell) }.run()
+        FollowingJob { job: &job, begun: Moment::now(), watch: Telling::new(&job, watch, tell) }.run()
     }
 }
 
-struct Work<'w> {
+struct FollowingJob<'w> {
     job: &'w Job,
     begun: Moment,
     watch: Telling<'w>,
 }
 
-impl Work<'_> {
+impl FollowingJob<'_> {
     fn run(&self) -> Result<(), Gone> {
         let mut plan = self.job.plan.clone();
         self.watch.say(begun(self.job.epoch, &plan))?;

@@ -24,7 +24,7 @@ pub(super) fn compute(
     answers: &Answers,
 ) -> Done {
     let Some(view) = super::turn(job, map_state, answers)? else { return Ok(()) };
-    let work = Work {
+    let work = Shared {
         view: &view,
         map_state,
         current,
@@ -38,7 +38,7 @@ pub(super) fn compute(
 }
 
 /// The data that the threads share.
-struct Work<'w> {
+struct Shared<'w> {
     view: &'w View,
     map_state: &'w Mutex<MapState>,
     current: &'w Current<'w>,
@@ -48,7 +48,7 @@ struct Work<'w> {
     telling: Mutex<Telling>,
 }
 
-impl Work<'_> {
+impl Shared<'_> {
     /// One thread: cells until none is left.
     fn run(&self) {
         // The cells under way, by their number in the plan.
@@ -89,7 +89,7 @@ impl Work<'_> {
     }
 }
 
-impl Watch for Work<'_> {
+impl Watch for Shared<'_> {
     fn stopped(&self) -> bool {
         self.gone.load(Ordering::Relaxed) || self.current.stopped()
     }

@@ -2,8 +2,9 @@
 
 use crate::args::LyapunovOptions;
 use crate::commands::subject;
-use crate::output::{End, say};
+use crate::output::{End, say, warn};
 use crate::progress::Progress;
+use motiform_dynamics::Outcome;
 use motiform_lab::analyse::{self, Spans};
 use motiform_lab::answers::{Exponents, MeanExponents};
 use motiform_lab::pool::all_cores;
@@ -13,6 +14,8 @@ use motiform_study::{Plan, Random};
 
 /// Default number of exponents.
 const COUNT: usize = 6;
+
+const BEFORE_AN_ESCAPE: &str = "for the exponent of chaos before an escape, use --saddle 200";
 
 pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let study = subject::motion(&options.motion)?;
@@ -32,6 +35,9 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let watch = Progress::new(total, "model time");
     let found = watch.over(|watch| analyse::lyapunov(&plan, count, spans(options), watch))?;
     say(&Exponents::new(&plan, &found)?, options.motion.json)?;
+    if found.exponents.is_empty() && matches!(found.outcome, Outcome::Escaped { .. }) {
+        warn(BEFORE_AN_ESCAPE);
+    }
     Ok(if found.without_error().is_some() { End::NotAsAsked } else { End::from(&found.outcome) })
 }
 
@@ -47,6 +53,12 @@ fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) 
     let (starts, escapes) = (Starts::of(&samples), Escapes::of_orbits(plan, &found.orbits)?);
     let answer = MeanExponents::new(plan, &found, &starts, escapes.as_ref());
     say(&answer, options.motion.json)?;
+    if found.orbits.iter().any(|orbit| !orbit.outcome.is_complete()) {
+        warn(BEFORE_AN_ESCAPE);
+    }
+    if !found.agree {
+        warn("`motiform classify --samples` names the motions to which the orbits lead");
+    }
     Ok(if answer.is_whole() { End::Done } else { End::NotAsAsked })
 }
 

@@ -35,4 +35,11 @@ fn a_plane_with_one_motion_has_a_page_without_blanks() {
     for words in ["all cells have the same motions", "No line was followed", "steady", "circular"] {
         assert!(page.contains(words), "{words}");
     }
+    let manifest = std::fs::read_to_string(folder.path("one/manifest.json")).expect("a manifest");
+    folder.write("one/manifest.json", &manifest.replace("\"complete\": true", "\"complete\": false"));
+    let refused = folder.run("figure one --out figures").expect(2).stderr;
+    assert!(
+        refused.contains("one contains an atlas that is not finished: the same command with --resume"),
+        "{refused}"
+    );
 }

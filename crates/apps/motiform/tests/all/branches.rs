@@ -157,6 +157,20 @@ fn orbits_that_gain_a_symmetry_meet_the_orbit_that_has_it() {
     }
 }
 
+/// Exactly at its bifurcation a motion has no name; the start that the error names finds the bifurcation.
+#[test]
+fn a_start_at_a_bifurcation_says_which_one_decides() {
+    let folder = Folder::new();
+    let text = "[model.amplitudes]\nmodes = [1]\n[model.amplitudes.parameters]\nmu = 0.0\n[model.amplitudes.equations]\n\
+                z1 = \"mu*z1 - |z1|^2*z1\"\n";
+    folder.write("fork.toml", text);
+    let refused = folder.run("continue fork.toml --along mu=-1:2").expect(2).stderr;
+    assert!(refused.contains("a start beside it decides: mu = 1"), "{refused}");
+    let found = follow(&folder, "fork.toml --set mu=1 --along mu=-1:2");
+    let at = |entry: &Value| entry["mu"].as_f64().is_some_and(|mu| mu.abs() < 1e-8);
+    assert!(found["branches"][0]["special"].as_array().expect("a list").iter().any(at), "{found}");
+}
+
 /// FitzHugh and Nagumo: the cycles explode within a range of the parameter of 1e-9, which is no connection, because there is no saddle.
 #[test]
 fn a_canard_explosion_is_no_homoclinic_orbit() {

@@ -184,7 +184,9 @@ fn exponents_come_with_errors_and_a_self_check() {
 fn no_exponent_of_a_run_that_left() {
     let folder = Folder::new();
     let words = "lyapunov tensor --preset fig4 --set kappa2=0.1 --set kappa3=0.1";
-    let json = folder.run(&format!("{words} --json")).expect(1).json();
+    let done = folder.run(&format!("{words} --json")).expect(1);
+    assert!(done.stderr.contains("use --saddle 200"), "{}", done.stderr);
+    let json = done.json();
     assert_eq!(
         (&json["outcome"]["kind"], json["exponents"].as_array().unwrap().len()),
         (&"escaped".into(), 0)

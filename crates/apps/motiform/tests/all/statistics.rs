@@ -55,7 +55,7 @@ fn bad_input_names_the_remedy() {
     for (words, told) in [
         ("statistics", "MODEL|STUDY.toml|DATASET"),
         ("statistics tensr", "tensor"),
-        ("statistics empty", "give the folder of a run"),
+        ("statistics empty", "give a folder written by `motiform simulate`"),
         ("statistics empty --bodies 3", "datasets are recorded already"),
         ("statistics empty --initial v1=0.1", "datasets are recorded already"),
         ("statistics empty --t-end 10", "datasets are recorded already"),

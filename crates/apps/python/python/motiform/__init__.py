@@ -20,6 +20,7 @@ from .ensembles import Ensemble, ensemble
 from .equations import Amplitudes
 from .errors import Doubtful, EndedEarly, Incomplete, Interrupted, WorkersLost
 from .fields import Field, Orbit
+from .lifetimes import Lifetimes
 from .measurements import Measured, Statistics, statistics
 from .models import Model, preset, study
 from .reading import chunks, read
@@ -52,6 +53,7 @@ __all__ = [
     "Field",
     "Incomplete",
     "Interrupted",
+    "Lifetimes",
     "Measured",
     "Model",
     "Motions",

@@ -150,6 +150,13 @@ def follow_branches(
     start: str | None = None,
     progress: _Progress = None,
 ) -> tuple[str, bytes, BaseException | None]: ...
+def lifetimes(
+    study: Study,
+    along: tuple[str, Any],
+    counts: tuple[int, int, float | None, float | None],
+    out: tuple[str, str] | None,
+    progress: _Progress = None,
+) -> str: ...
 def make_atlas(
     study: Study,
     axes: list[str] | None,
@@ -183,6 +190,8 @@ def section(
 ) -> tuple[_Table, tuple[str, bool, str]]: ...
 
 class Atlas:
+    @staticmethod
+    def of_json(text: str) -> Atlas: ...
     def summary(self) -> str: ...
     def tables(self) -> tuple[bytes, bytes]: ...
     def figure(

@@ -113,6 +113,7 @@ class Analysed(Described):
 
         More: docs/continuation.md.
         """
+        known_whole(starts=starts)
         if starts < 1:
             raise ValueError(f"starts = {starts}: give at least 1")
         study = with_given(self._study, None, {"seed": seed})

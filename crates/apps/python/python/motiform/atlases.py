@@ -15,6 +15,7 @@ import pandas as pd
 
 from . import _motiform, plotting
 from .branches import _points
+from .calls import real
 from .equality import equal, hashed
 from .units import Asked, Units, chosen, table_in
 
@@ -132,7 +133,7 @@ def axis_text(name: str, values: Any) -> str:
     """An axis of a plane as the command line writes it."""
     if isinstance(values, str):
         return f"{name}={values}"
-    parts = list(values)
+    parts = real(values, name).ravel()
     if len(parts) not in (2, 3):
         raise ValueError(f"{name} = {values!r}: give (low, high), (low, high, count), or text such as '0.1:1.6'")
     low, high = (repr(float(part)) for part in parts[:2])

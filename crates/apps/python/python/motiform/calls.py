@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import reprlib
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
@@ -74,12 +75,34 @@ def span(study: _motiform.Study) -> float:
     return float(run["transient"] + run["t_end"])
 
 
-def real(values: npt.ArrayLike) -> Floats:
+def real(values: npt.ArrayLike, key: str = "u") -> Floats:
     """An array of doubles; values that are not real numbers are rejected, not converted."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
-        raise TypeError(f"u must hold real numbers, not {array.dtype}")
+        raise TypeError(f"{key} must hold real numbers, not {array.dtype}")
     return array.astype(np.float64, copy=False)
+
+
+def axis_of(name: str, values: str | npt.ArrayLike) -> Any:
+    """Values for the native module: text, or a contiguous array of doubles."""
+    if isinstance(values, str):
+        return values
+    if isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], int) and isinstance(values[1], float):
+        low, high, count = values
+        raise ValueError(
+            f"axis {name}: {values} is three values, or {count} values from {low} to {high}: "
+            f'give the list {list(values)}, or the text "{low}:{high}:{count}"'
+        )
+    array = real(values, f"axis {name}")
+    if array.ndim > 1:
+        raise ValueError(f"axis {name} has {array.ndim} dimensions: give one")
+    return np.ascontiguousarray(np.atleast_1d(array))
+
+
+def paths_of(given: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> list[str]:
+    """One path, or several."""
+    several = [given] if isinstance(given, (str, os.PathLike)) else given
+    return [os.fspath(path) for path in several]
 
 
 def known_end(on_end: OnEnd | None) -> None:
@@ -93,14 +116,18 @@ WHOLE = 2**64
 
 
 def known_whole(**given: Any) -> None:
-    """Raises for whole numbers that are negative or too large; the native module says what else is wrong."""
+    """Raises for what is no whole number, is negative or too large; the native module says what else is wrong."""
     for name, value in given.items():
-        if isinstance(value, (int, np.integer)) and name in _WHOLE and not 0 <= value < WHOLE:
+        if name not in _WHOLE or value is None:
+            continue
+        if not isinstance(value, (int, np.integer)):
+            raise TypeError(f"{name} must be a whole number of at least 0, not {value!r}")
+        if not 0 <= value < WHOLE:
             remedy = f"from 0 to {WHOLE - 1}" if name == "seed" else "above 0"
             raise ValueError(f"{name} = {value}: give a whole number {remedy}")
 
 
-_WHOLE = ("seed", "max_steps", "samples", "bodies", "count", "threads")
+_WHOLE = ("seed", "max_steps", "samples", "bodies", "count", "threads", "starts", "branches", "points", "doublings", "lines")
 
 
 def known_apart(dt_out: Any) -> None:

@@ -88,7 +88,7 @@ class Curves:
         return plotting.plot_curves(self, ax)
 
     def __repr__(self) -> str:
-        kinds = ", ".join(curve.kind for curve in self.curves)
+        kinds = ", ".join(curve.kind for curve in self.curves) or "none"
         return f"<{len(self)} curves over {' and '.join(self.parameters)}: {kinds}>"
 
 

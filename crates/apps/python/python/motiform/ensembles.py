@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _motiform
-from .calls import Random, known_whole, remark, with_given
+from .calls import Random, known_whole, real, remark, with_given
 from .equality import equal, hashed
 from .progress import Bar, Progress
 from .results import Outcome, outcome_of
@@ -110,10 +110,10 @@ def ensemble(
         "random": random, "seed": seed, "stepper": stepper, "rtol": rtol, "atol": atol, "step": step, "max_steps": max_steps,
         "escape_norm": escape_norm,
     }  # fmt: skip
-    times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+    times = np.atleast_1d(real(t, "t"))
     if times.ndim != 1 or times.size == 0:
         raise ValueError("t must be one time or a list of times")
-    varied = {name: np.atleast_1d(np.asarray(values, dtype=np.float64)) for name, values in (parameters or {}).items()}
+    varied = {name: np.atleast_1d(real(values, f"parameters[{name!r}]")) for name, values in (parameters or {}).items()}
     if isinstance(body, Field):
         return body._ensemble(times, starts, varied, given, threads, progress)
     study = with_given(body._study, None, given)
@@ -165,7 +165,7 @@ def _starts(body: Model, study: Any, starts: int | npt.ArrayLike | None, members
 
 def _rows(starts: npt.ArrayLike, widths: tuple[int, ...]) -> Floats:
     """An array of starts, (members, one of these widths)."""
-    array = np.array(np.atleast_2d(np.asarray(starts)), dtype=np.float64)
+    array = np.array(np.atleast_2d(real(starts, "starts")))
     if array.ndim != 2 or array.shape[1] not in widths:
         wanted = ", or ".join(f"(members, {width})" + (" with x and y" if place else "") for place, width in enumerate(widths))
         raise ValueError(f"starts has the shape {array.shape}: give {wanted}")

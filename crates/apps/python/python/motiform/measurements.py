@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from . import _motiform, plotting
-from .calls import left_out
+from .calls import left_out, paths_of, real
 from .equality import equal, hashed
 from .units import Asked, Units, chosen, converted, dimensions, factor
 
@@ -174,9 +174,7 @@ def statistics(
 
     A run that did not reach its end counts as far as it goes, with the warning :class:`EndedEarly`.
     """
-    several = [folders] if isinstance(folders, (str, os.PathLike)) else list(folders)
-    paths = [os.fspath(folder) for folder in several]
-    text, tables, _ = _motiform.statistics_of(paths, float(transient), asked(radii, threshold))
+    text, tables, _ = _motiform.statistics_of(paths_of(folders), float(transient), asked(radii, threshold))
     result = statistics_from(text, tables)
     left_out(result.summary["notes"])
     return result
@@ -185,7 +183,9 @@ def statistics(
 def asked(radii: Sequence[float], threshold: Threshold) -> tuple[list[float], tuple[str, float | None] | None]:
     """As the native module takes it."""
     pair = (threshold, None) if isinstance(threshold, str) else threshold
-    return [float(radius) for radius in radii], pair
+    if pair is not None and not (isinstance(pair, tuple) and len(pair) == 2 and isinstance(pair[0], str)):
+        raise TypeError(f"threshold = {threshold!r}: give a quantity, or one with a value, such as ('speed', 0.5)")
+    return real(list(radii), "radii").tolist(), pair
 
 
 _READ: dict[str, Callable[[str], Any]] = {"quantity": str, "count": int, "starts": int}

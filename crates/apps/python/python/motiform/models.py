@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import reprlib
 from collections.abc import Mapping, Sequence
@@ -15,8 +16,9 @@ from ._registry import PRESETS
 from .analysed import Analysed
 from .atlases import Atlas, atlas_of, axis_text
 from .branches import Branches, branches_of
-from .calls import OnEnd, Random, ended_early, known_end, known_whole, left_out, raised_with, range_of, real, remark, span, with_given
+from .calls import OnEnd, Random, axis_of, ended_early, known_end, known_whole, left_out, raised_with, range_of, real, remark, span, with_given
 from .curves import Curves, curves_of
+from .lifetimes import Lifetimes, lifetimes_of
 from .measurements import Statistics, Threshold, asked, statistics_from
 from .progress import Bar, Progress
 from .trajectory import Floats, Trajectory
@@ -137,6 +139,7 @@ class Model(Analysed):
 
         More: docs/continuation.md.
         """
+        known_whole(doublings=doublings, branches=branches, points=points)
         study = with_given(self._study, initial, {"seed": seed})
         name, range_ = range_of("along", along)
         remark(study, (name,))
@@ -229,6 +232,7 @@ class Model(Analysed):
 
         More: docs/continuation.md.
         """
+        known_whole(branches=branches, points=points)
         study = with_given(self._study, initial, {"seed": seed})
         names = [kinds] if isinstance(kinds, str) else list(kinds)
         (first, side), (second, other) = range_of("along", along), range_of("across", across)
@@ -277,7 +281,7 @@ class Model(Analysed):
 
         More: docs/atlas.md.
         """
-        known_whole(samples=samples, threads=threads)
+        known_whole(samples=samples, lines=lines, branches=branches, threads=threads)
         names = None if axes is None else [axis_text(name, values) for name, values in axes.items()]
         study = with_given(self._study, None, {"random": random, "seed": seed})
         remark(study, () if axes is None else tuple(axes))
@@ -289,6 +293,49 @@ class Model(Analysed):
         if native is None:
             raise KeyboardInterrupt
         return atlas_of(native, self.units)
+
+    def lifetimes(
+        self,
+        along: Mapping[str, str | npt.ArrayLike],
+        *,
+        samples: int = 64,
+        until: float | None = None,
+        transient: float | None = None,
+        random: Random | None = None,
+        seed: int | None = None,
+        threads: int | None = None,
+        out: str | os.PathLike[str] | None = None,
+        resume: bool = False,
+        overwrite: bool = False,
+        progress: Progress = None,
+    ) -> Lifetimes:
+        """How long transient chaos lives along a parameter, until the body blows up or is captured by a stable steady motion.
+
+        >>> body = motiform.preset("fig4").replace(kappa3=0.1)
+        >>> found = body.lifetimes({"kappa2": "0.36:0.46:6"}, until=2e5)
+        >>> found.values[["kappa2", "events", "life", "lower", "upper"]]
+        >>> print(found.law, found.sentence)
+        >>> found.plot()
+
+        `along`: a parameter with its values, an array, or text as on the command line (``"0.36:0.46:6"``). At each value `samples` random starts
+        are followed for `until` (model time, in whole looks of the model; 100 looks if not given). A life counts from `transient` on, the way onto the
+        chaotic set (one look if not given, and longer where bodies are captured). `random`: by default 0.01 to 1 times the model's typical
+        size. `out`, `resume`, `overwrite`: a folder that :func:`read` reads, as with ``--out --resume --force``. An interruption raises
+        ``KeyboardInterrupt``: the lives that have ended are the short ones, and give no mean; with `out` they are kept.
+
+        Source: Cox and Oakes (1984), Analysis of Survival Data, ch. 3; Grebogi, Ott, Yorke (1986), Phys. Rev. Lett. 57, 1284. More: docs/lifetimes.md.
+        """
+        known_whole(samples=samples, threads=threads)
+        if not isinstance(along, Mapping) or len(along) != 1:
+            raise TypeError(f"along = {along!r}: give one parameter with its values, such as {{'kappa2': '0.36:0.46:6'}}")
+        ((name, values),) = along.items()
+        study = with_given(self._study, None, {"random": random, "seed": seed})
+        remark(study, (name,))
+        place = None if out is None else (os.fspath(out), "resume" if resume else "replace" if overwrite else "new")
+        counts = (samples, threads or os.cpu_count() or 1, until, transient)
+        with Bar(progress, 100.0, "%") as bar:
+            text = _motiform.lifetimes(study, (name, axis_of(name, values)), counts, place, bar.callable())
+        return lifetimes_of(json.loads(text), self.units)
 
     def __call__(self, t: float, u: npt.ArrayLike) -> Floats:
         """The vector field: d/dt of the coordinates at `u`, for integrators such as ``scipy.integrate.solve_ivp``.

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .atlases import Atlas
     from .branches import Branches
     from .curves import Curves
+    from .lifetimes import Lifetimes
     from .measurements import Statistics
     from .trajectory import Trajectory
 
@@ -243,6 +244,18 @@ def _axis(name: str, units: Units | None) -> tuple[str, float]:
         return "turning angle (rad)", 1.0
     dimension = dimensions("state", "statistic").get(name, (0, 0))
     return label(_WORDS.get(name, name), units, dimension), factor(units, dimension)
+
+
+def plot_lifetimes(found: Lifetimes, ax: Axes | None) -> Axes:
+    """Mean lives with their 95 % limits; an arrow upwards where only the lower limit is known."""
+    ax = plt.subplots(layout="constrained")[1] if ax is None else ax
+    table = found.values[found.values["watched"] > 0.0]
+    known, above = table[table["events"] > 0], table[table["events"] == 0]
+    off = [known["life"] - known["lower"], known["upper"] - known["life"]]
+    ax.errorbar(known[found.parameter], known["life"], yerr=off, fmt="o", ms=4, capsize=2)
+    ax.errorbar(above[found.parameter], above["lower"], yerr=0.2 * above["lower"], fmt="_", lolims=True, color="grey")
+    ax.set(yscale="log", xlabel=found.parameter, ylabel=label("mean life", found.units if not found.in_model_units else None, TIME))
+    return ax
 
 
 def plot_statistics(found: Statistics, what: str, ax: Axes | None, units: Units | None) -> Axes:

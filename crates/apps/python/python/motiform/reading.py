@@ -17,11 +17,12 @@ from .atlases import Atlas, atlas_of
 from .branches import Branches, branches_of
 from .curves import Curves, curves_of
 from .errors import Incomplete
+from .lifetimes import Lifetimes, lifetimes_of
 from .scans import read_scan
 from .trajectory import Floats, Trajectory, _frame, crossing_frame
 
 
-def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Branches | Curves | Atlas | xr.Dataset | pd.DataFrame | dict[str, Any]:
+def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Branches | Curves | Atlas | Lifetimes | xr.Dataset | pd.DataFrame | dict[str, Any]:
     """Reads a file or folder written by the command line.
 
     ======================================  ===============================================
@@ -30,6 +31,7 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Bra
     ``.csv``, other ``.parquet``            ``pandas.DataFrame``
     folder of ``motiform continue``         :class:`Branches`, with ``--curve`` :class:`Curves`
     folder of ``motiform atlas``            :class:`Atlas`
+    folder of ``motiform lifetimes``        :class:`Lifetimes`
     folder of ``motiform scan``             ``xarray.Dataset``, as :func:`scan` returns it
     a ``.parquet`` part of that folder      ``pandas.DataFrame`` of its rows
     ``fields.h5``                           ``xarray.Dataset`` with ``phi`` and ``outline``
@@ -50,6 +52,8 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Bra
             return curves_of(*_motiform.read_curves(os.fspath(path))[:2])
         if (path / "atlas.json").exists():
             return atlas_of(_motiform.read_atlas(os.fspath(path)))
+        if (path / "lifetimes.json").exists():
+            return lifetimes_of(json.loads((path / "lifetimes.json").read_text(encoding="utf-8")))
         return Trajectory(_motiform.read_run(os.fspath(path)))
     if path.suffix in (".parquet", ".csv"):
         if (path.parent / "_manifest.json").exists():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import reprlib
 import signal
 import warnings
 from collections.abc import Mapping, Sequence
@@ -18,7 +19,7 @@ import xarray as xr
 
 from . import _motiform
 from ._registry import ATTRACTORS, COURSES, NUMBERS, REGIMES, VERSION, info_of
-from .calls import Random, known_whole, remark
+from .calls import Random, axis_of, known_whole, paths_of, remark
 from .errors import Incomplete, Interrupted
 from .executors import gather
 from .models import Model
@@ -87,8 +88,10 @@ def scan(
 
     More: docs/python.md, docs/clusters.md.
     """
-    known_whole(samples=samples, seed=seed)
-    made = None if axes is None else [(name, _axis(name, values)) for name, values in axes.items()]
+    known_whole(samples=samples, seed=seed, threads=threads)
+    if not isinstance(model, Model) or not isinstance(axes, Mapping | None):
+        raise TypeError(f"scan({reprlib.repr(model)}, {reprlib.repr(axes)}): give a body, and a mapping from parameters to values")
+    made = None if axes is None else [(name, axis_of(name, values)) for name, values in axes.items()]
     study = model._study if random is None else model._study.with_(None, None, {"random": random})
     plan = _motiform.ScanPlan(study, made, samples, seed, budget)
     remark(study, (name for name, _ in plan.axes()))
@@ -148,9 +151,9 @@ def _stop(_: float) -> None:
     raise KeyboardInterrupt
 
 
-def merge(folders: Sequence[Path], out: Path, *, overwrite: bool = False) -> xr.Dataset:
+def merge(folders: Path | Sequence[Path], out: Path, *, overwrite: bool = False) -> xr.Dataset:
     """Merges the folders of a scan's shards into `out`, and reads it."""
-    _, damaged = _motiform.merge([os.fspath(folder) for folder in folders], os.fspath(out), overwrite)
+    _, damaged = _motiform.merge(paths_of(folders), os.fspath(out), overwrite)
     _warn_of(damaged)
     return read_scan(out, False)
 
@@ -288,24 +291,6 @@ class ScanAccessor:
         from .plotting import plot_scan
 
         return plot_scan(self._data, ax)
-
-
-def _axis(name: str, values: str | npt.ArrayLike) -> Any:
-    """Values for the native module: text, or a contiguous array of doubles."""
-    if isinstance(values, str):
-        return values
-    if isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], int) and isinstance(values[1], float):
-        low, high, count = values
-        raise ValueError(
-            f"axis {name}: {values} is three values, or {count} values from {low} to {high}: "
-            f'give the list {list(values)}, or the text "{low}:{high}:{count}"'
-        )
-    array = np.asarray(values)
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"axis {name} must hold real numbers, not {array.dtype}")
-    if array.ndim > 1:
-        raise ValueError(f"axis {name} has {array.ndim} dimensions: give one")
-    return np.ascontiguousarray(np.atleast_1d(array), dtype=np.float64)
 
 
 def _threads(threads: int | None) -> int:

@@ -239,8 +239,8 @@ class Trajectory:
         `radius`, above 0, is that of the undeformed body (:attr:`radius`); `scale` enlarges the body about its centre. ``None``
         if the shape is not a closed curve.
         """
-        if points < 3:
-            raise ValueError(f"points = {points}: give at least 3")
+        if not isinstance(points, (int, np.integer)) or points < 3:
+            raise ValueError(f"points = {points}: give a whole number of at least 3")
         if radius is not None and not 0.0 < radius < np.inf:
             raise ValueError(f"radius = {radius}: give a length above 0; by default it is {self.radius:g}")
         row = self.row(t)

@@ -44,7 +44,7 @@ pub(crate) struct Evaluation {
 
 /// Evaluates the likelihood; innovations and scores of frames are kept if `keep`.
 pub(crate) fn evaluate(problem: &Problem, theta: &Theta, want: Want, keep: bool) -> Evaluation {
-    let work = Work { problem, theta, want, keep };
+    let work = Asked { problem, theta, want, keep };
     let mut found = match problem.modes() {
         2 => run_lanes(Kernel::<4, 6>(work)),
         4 => run_lanes(Kernel::<8, 10>(work)),
@@ -57,9 +57,9 @@ pub(crate) fn evaluate(problem: &Problem, theta: &Theta, want: Want, keep: bool)
 }
 
 /// The work on states of one size: `STATE = SHAPE + 2`.
-struct Kernel<'a, const SHAPE: usize, const STATE: usize>(Work<'a>);
+struct Kernel<'a, const SHAPE: usize, const STATE: usize>(Asked<'a>);
 
-struct Work<'a> {
+struct Asked<'a> {
     problem: &'a Problem,
     theta: &'a Theta,
     want: Want,
@@ -85,7 +85,7 @@ impl<const SHAPE: usize, const STATE: usize> LaneKernel for Kernel<'_, SHAPE, ST
 
 /// An evaluation under way.
 struct Run<'a, B, const SHAPE: usize, const STATE: usize> {
-    work: &'a Work<'a>,
+    work: &'a Asked<'a>,
     law: Law<'a, SHAPE, STATE>,
     noise: ErrorsOfFrames,
     stages: [Stage<SHAPE, STATE>; 4],
@@ -120,7 +120,7 @@ impl<const SHAPE: usize, const STATE: usize> simd::Kernel for Step<'_, '_, SHAPE
 
 impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, STATE> {
     #[inline(always)]
-    fn new(work: &'a Work<'a>, c: &'a [Complex<f64>]) -> Self {
+    fn new(work: &'a Asked<'a>, c: &'a [Complex<f64>]) -> Self {
         let problem = work.problem;
         let second = work.want == Want::Exact;
         let stage = Stage::new(&problem.field);

@@ -47,6 +47,23 @@ fn values_that_cannot_be_computed_with_are_refused() {
     }
 }
 
+/// Values that were missing had their defaults, and those beyond the last parameter were dropped.
+#[test]
+fn a_body_needs_one_value_for_each_parameter() {
+    for info in MODELS {
+        let values: Vec<f64> = info.parameters().iter().map(|spec| spec.default).collect();
+        info.build(&values).expect("a body");
+        for wrong in [&values[1..], &[values.clone(), vec![0.0]].concat()] {
+            let message = info.build(wrong).map(drop).unwrap_err().to_string();
+            let (got, model, expected) = (wrong.len(), info.name, values.len());
+            assert!(
+                message.contains(&format!("values = {got} numbers: model {model} has {expected} parameters")),
+                "{message}"
+            );
+        }
+    }
+}
+
 #[test]
 fn greek_letters_are_spelled_and_symbols_are_known() {
     for typed in ["κ2", "κ₂", "κ_2", "kappa2"] {

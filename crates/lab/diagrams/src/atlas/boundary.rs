@@ -1,7 +1,7 @@
 //! Where neighbouring cells have different motions, and which bifurcation lies between them.
 
 use crate::atlas::grid::{Grid, rank};
-use crate::atlas::line::{CrossingKind, Line, LineEnd, StabilityCurve};
+use crate::atlas::line::{EndKind, Line, LineEnd, StabilityCurve};
 use crate::branches::draw::curve_stretches;
 use motiform_analysis::Regime;
 use motiform_study::AtlasPlan;
@@ -126,12 +126,30 @@ pub(crate) fn differing(pair: &Pair) -> Vec<Regime> {
 
 /// The known bifurcations, in units of cells.
 pub(crate) struct Atlas {
-    stretches: Vec<Stretch>,
-    ends: Vec<(Regime, String, [f64; 2])>,
+    stretches: Vec<Bound>,
+    ends: Vec<(Regime, EndKind, [f64; 2])>,
+}
+
+/// The bifurcation on an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Name<'s> {
+    /// That of a curve.
+    Curve(&'s str),
+    /// One that is known on lines alone.
+    End(EndKind),
+}
+
+impl<'s> Name<'s> {
+    pub(crate) fn words(self) -> &'s str {
+        match self {
+            Self::Curve(label) => label,
+            Self::End(kind) => kind.words(),
+        }
+    }
 }
 
 /// A part of a curve that bounds a motion.
-struct Stretch {
+struct Bound {
     motion: Regime,
     /// `true` for period doublings.
     doubles: bool,
@@ -146,18 +164,18 @@ impl Atlas {
             for stretch in curve_stretches(curve).into_iter().filter(|stretch| stretch.bounds) {
                 let points = stretch.points.iter().map(|at| grid.units(plan, *at)).collect();
                 let doubles = curve.kind == CurveKind::PeriodDoubling;
-                found.stretches.push(Stretch { motion: *motion, doubles, label: stretch.label, points });
+                found.stretches.push(Bound { motion: *motion, doubles, label: stretch.label, points });
             }
         }
         for LineEnd { at, kind, motion } in lines.iter().flat_map(|line| &line.ends) {
-            found.ends.push((*motion, kind.words().to_owned(), grid.units(plan, *at)));
+            found.ends.push((*motion, *kind, grid.units(plan, *at)));
         }
         found
     }
 
     /// The bifurcation of a motion that only one side of an edge has: the nearest curve that passes between its cells, or else the
     /// nearest end of a branch. The doublings of a cascade accumulate: beside chaos the first one stands for all.
-    pub(crate) fn name<'s>(&'s self, grid: &Grid, labels: &[Vec<Regime>], edge: Edge) -> Option<&'s str> {
+    pub(crate) fn name<'s>(&'s self, grid: &Grid, labels: &[Vec<Regime>], edge: Edge) -> Option<Name<'s>> {
         let (at, between) = (edge.centre(grid), differing(&edge.pair(labels)));
         let own = |motion: &Regime| between.contains(motion);
         let chaos = own(&Regime::Chaotic);
@@ -167,11 +185,14 @@ impl Atlas {
             let begins_chaos = chaos && stretch.doubles && off <= REACH;
             let second_lacks = labels[edge.cells[0]].contains(&stretch.motion);
             (begins_chaos || edge.is_passed(grid, &stretch.points, second_lacks))
-                .then_some((off, stretch.label.as_str()))
+                .then_some((off, Name::Curve(&stretch.label)))
         });
-        let ends =
-            self.ends.iter().filter(|end| own(&end.0)).map(|end| (distance(at, [end.2; 2]), end.1.as_str()));
-        let closer = |best: Option<(f64, &'s str)>, one: (f64, &'s str)| match best {
+        let ends = self
+            .ends
+            .iter()
+            .filter(|end| own(&end.0))
+            .map(|end| (distance(at, [end.2; 2]), Name::End(end.1)));
+        let closer = |best: Option<(f64, Name<'s>)>, one: (f64, Name<'s>)| match best {
             Some(known) if known.0 <= one.0 => best,
             _ => Some(one),
         };
@@ -196,7 +217,7 @@ fn distance(at: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
 pub fn boundaries(plan: &AtlasPlan, grid: &Grid, lines: &[Line]) -> Vec<Boundary> {
     let labels = grid.labels();
     let known = Atlas::of(plan, grid, lines);
-    let mut all: Vec<(Pair, Vec<Option<&str>>)> = Vec::new();
+    let mut all: Vec<(Pair, Vec<Option<Name<'_>>>)> = Vec::new();
     for edge in edges(grid, &labels) {
         let (pair, name) = (edge.pair(&labels), known.name(grid, &labels, edge));
         match all.iter_mut().find(|entry| entry.0 == pair) {
@@ -209,18 +230,18 @@ pub fn boundaries(plan: &AtlasPlan, grid: &Grid, lines: &[Line]) -> Vec<Boundary
     descending(all, |boundary: &Boundary| boundary.edges)
 }
 
-fn summed(between: Pair, names: &[Option<&str>], renamed: &[[Regime; 2]]) -> Boundary {
+fn summed(between: Pair, names: &[Option<Name<'_>>], renamed: &[[Regime; 2]]) -> Boundary {
     let mut kinds: Vec<(String, usize)> = Vec::new();
-    for name in names.iter().flatten() {
-        match kinds.iter_mut().find(|kind| kind.0 == **name) {
+    for name in names.iter().flatten().map(|name| name.words()) {
+        match kinds.iter_mut().find(|kind| kind.0 == name) {
             Some(kind) => kind.1 += 1,
-            None => kinds.push(((*name).to_owned(), 1)),
+            None => kinds.push((name.to_owned(), 1)),
         }
     }
     let kinds = descending(kinds, |kind| kind.1);
     let unnamed = names.iter().filter(|name| name.is_none()).count();
-    let crossing = |kind: &(String, usize)| CrossingKind::find(&kind.0).is_some();
-    let why = (unnamed > 0).then(|| match kinds.iter().any(crossing) {
+    let crossing = |name: &Name<'_>| matches!(name, Name::End(EndKind::Crossing(_)));
+    let why = (unnamed > 0).then(|| match names.iter().flatten().any(crossing) {
         true => "a crossing of branches without a symmetry that the model states has no curve here: it is known on the lines alone",
         false => why(&differing(&between), renamed),
     });
@@ -266,6 +287,7 @@ fn why(differing: &[Regime], renamed: &[[Regime; 2]]) -> &'static str {
 mod tests {
     use super::*;
     use crate::atlas::grid::{Found, Place};
+    use crate::atlas::line::CrossingKind;
 
     fn grid(rows: &[&str]) -> Grid {
         let motion = |letter: char| match letter {
@@ -310,15 +332,17 @@ mod tests {
     fn a_curve_beyond_a_cell_does_not_bound_it() {
         let grid = grid(&["scc", "scc", "scc"]);
         let labels = grid.labels();
-        let known = |x: f64, label: &str| Stretch {
+        let known = |x: f64, label: &str| Bound {
             motion: Regime::Circular,
             doubles: label == "doubling",
             label: label.to_owned(),
             points: vec![[x, -1.0], [x, 0.5], [x, 3.0]],
         };
-        let name = |stretches: Vec<Stretch>, row: usize| {
+        let name = |stretches: Vec<Bound>, row: usize| {
             let edge = Edge { cells: [3 * row, 3 * row + 1], side: 0 };
-            Atlas { stretches, ends: Vec::new() }.name(&grid, &labels, edge).map(str::to_owned)
+            Atlas { stretches, ends: Vec::new() }
+                .name(&grid, &labels, edge)
+                .map(|name| name.words().to_owned())
         };
         for row in 0..3 {
             assert_eq!(name(vec![known(1.3, "doubling")], row), None);
@@ -327,6 +351,17 @@ mod tests {
             assert_eq!(name(vec![known(-0.1, "breaking")], row).unwrap(), "breaking");
             assert_eq!(name(vec![known(-0.7, "breaking")], row), None);
         }
+    }
+
+    /// A pitchfork that breaks a symmetry has a curve, and one that breaks none has not: they have one name.
+    #[test]
+    fn a_reason_tells_a_curve_from_a_crossing_of_its_name() {
+        let between = [vec![Regime::Straight], vec![Regime::Circular]];
+        let why = |name| summed(between.clone(), &[Some(name), None], &[]).why.unwrap();
+        let crossing = Name::End(EndKind::Crossing(CrossingKind::Pitchfork));
+        assert_eq!(crossing.words(), CurveKind::Pitchfork.name());
+        assert!(why(crossing).contains("without a symmetry"));
+        assert!(!why(Name::Curve(crossing.words())).contains("without a symmetry"));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::atlas::summary::atlas_summary;
 use crate::atlas::tables::{cell_columns, curve_columns};
 use crate::branches::folder::{finish, keep, put_table, read};
 use motiform_lab::draw::FigureFormat;
-use motiform_store::{Folder, Opening};
+use motiform_store::{Folder, Kind, Opening};
 use motiform_study::atlas::AtlasComputation;
 use motiform_study::plan::pretty;
 use motiform_study::{AtlasPlan, Error, Provenance};
@@ -18,7 +18,7 @@ use std::path::Path;
 const STATE: &str = "atlas.json";
 
 /// A finished atlas, read from its folder: the motions of the plane, and the lines that bound them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AtlasFolder {
     /// The plan.
     pub plan: AtlasPlan,
@@ -38,12 +38,11 @@ impl AtlasFolder {
     /// Reads a finished atlas.
     ///
     /// # Errors
-    /// [`Error::Store`] where a file is missing or damaged, or the atlas is not finished.
+    /// [`Error::NoResult`]; [`Error::Unfinished`]; [`Error::Store`] where a file is missing or damaged.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let manifest: Provenance<AtlasComputation> = Provenance::read(path)?;
         if manifest.complete != Some(true) {
-            let why = "this atlas is not finished: resume it first";
-            return Err(Error::unreadable(path, why));
+            return Err(Error::Unfinished { path: path.to_owned(), kind: Kind::Atlas });
         }
         let State { grid, lines } = read(path, STATE)?;
         let count = manifest.plan.scan().cells();

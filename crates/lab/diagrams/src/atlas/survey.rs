@@ -46,7 +46,7 @@ pub fn survey(
 ) -> Result<Option<Grid>, Error> {
     let scan = plan.scan();
     let size = [0, 1].map(|side| scan.computation.axes[side].values.len());
-    let mut work = Work { scan: &scan, size, places: vec![None; scan.cells()], threads, journal };
+    let mut work = Surveyor { scan: &scan, size, places: vec![None; scan.cells()], threads, journal };
     for (level, stride) in STRIDES.into_iter().enumerate() {
         let share = |level: usize| level as f64 / STRIDES.len() as f64;
         let part = Part { watch, from: share(level), to: share(level + 1) };
@@ -61,7 +61,7 @@ pub fn survey(
     Ok(places.map(|places| Grid { size, places }))
 }
 
-struct Work<'w> {
+struct Surveyor<'w> {
     scan: &'w ScanPlan,
     size: [usize; 2],
     places: Vec<Option<Place>>,
@@ -69,7 +69,7 @@ struct Work<'w> {
     journal: &'w dyn Journal,
 }
 
-impl Work<'_> {
+impl Surveyor<'_> {
     /// The cells of a grid that must be computed, rising; the others get the motions of the cells around them, which are the same.
     fn wanted(&mut self, level: usize, stride: usize) -> Vec<usize> {
         let [across, upwards] = self.size.map(|count| ticks(count, stride));

@@ -42,7 +42,7 @@ pub fn trace(
     let scan = plan.scan();
     let labels = grid.labels();
     let all = edges(grid, &labels);
-    let mut work = Work { plan, scan: &scan, grid, labels: &labels, lines: Vec::new(), vain: Vec::new() };
+    let mut work = Tracer { plan, scan: &scan, grid, labels: &labels, lines: Vec::new(), vain: Vec::new() };
     let name = format!("bifurcations at the boundaries (at most {} lines)", plan.computation.lines);
     begins(&Stage { name, share: [0.0, 1.0], even: false });
     for round in 0.. {
@@ -82,7 +82,7 @@ pub fn trace(
     Ok(Some(work.lines))
 }
 
-struct Work<'w> {
+struct Tracer<'w> {
     plan: &'w AtlasPlan,
     scan: &'w ScanPlan,
     grid: &'w Grid,
@@ -92,7 +92,7 @@ struct Work<'w> {
     vain: Vec<Pair>,
 }
 
-impl Work<'_> {
+impl Tracer<'_> {
     fn pair(&self, edge: Edge) -> Pair {
         pieces(self.grid, self.labels, &[edge]).swap_remove(0).0
     }

@@ -123,6 +123,5 @@ pub(crate) fn finish<C: Question>(
 /// Reads a state.
 pub(crate) fn read<T: for<'d> Deserialize<'d>>(folder: &Path, name: &str) -> Result<T, Error> {
     let path = folder.join(name);
-    let text = input::manifest(&path).map_err(|error| Error::unreadable(&path, error))?;
-    serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(&path, error))
+    input::json(&path).map_err(|error| Error::unreadable(&path, error))
 }

@@ -63,7 +63,7 @@ fn follow_bodies(
     watch: &dyn Watch,
 ) -> Result<Branches, Error> {
     let plan = bodies.plan;
-    let mut work = Work {
+    let mut work = Branching {
         bodies,
         watch,
         stop: &StopOnly(watch),
@@ -99,7 +99,7 @@ fn follow_bodies(
     Ok(done)
 }
 
-struct Work<'w> {
+struct Branching<'w> {
     bodies: &'w Bodies<'w>,
     watch: &'w dyn Watch,
     /// For the flow, whose progress is none of the work.
@@ -110,7 +110,7 @@ struct Work<'w> {
     expected: usize,
 }
 
-impl Work<'_> {
+impl Branching<'_> {
     /// The origins that were not asked yet, in the order of the branches, without doublings after too many others.
     fn open(&self) -> impl Iterator<Item = Origin> {
         self.unasked().filter(|&origin| !self.is_too_deep(origin))

@@ -80,11 +80,7 @@ impl Display for Exponents<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let found = &self.orbit;
         if found.exponents.is_empty() {
-            write!(f, "no exponents: the run {}", found.outcome)?;
-            if matches!(found.outcome, Outcome::Escaped { .. }) {
-                write!(f, "\nFor the exponent of the chaos before the escape, use --saddle 200")?;
-            }
-            return Ok(());
+            return write!(f, "no exponents: the run {}", found.outcome);
         }
         values(f, found.exponents, found.without_error.as_deref())?;
         check(f, found)?;
@@ -192,16 +188,13 @@ impl Display for MeanExponents<'_> {
         let (lasted, all) = (self.lasted, self.orbits.len());
         write!(f, "means over {lasted} of {all} orbits; {}", self.starts.sentence())?;
         if lasted < all {
-            write!(f, "; the others ended early: for chaos before an escape, use --saddle 200")?;
+            write!(f, "; the others ended early")?;
         }
         for line in self.escapes.into_iter().flat_map(|escapes| escapes.words(all)) {
             write!(f, "\nescape     {line}")?;
         }
         if !self.agree {
-            write!(
-                f,
-                "\nThe orbits do not agree: they lead to different motions (`motiform classify --samples`)"
-            )?;
+            write!(f, "\nThe orbits do not agree: they lead to different motions")?;
         }
         Ok(())
     }

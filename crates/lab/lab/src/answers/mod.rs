@@ -6,6 +6,7 @@
 mod apart;
 mod classified;
 mod exponents;
+mod lived;
 mod motions;
 mod saddle;
 mod scanned;
@@ -13,6 +14,7 @@ mod steady;
 
 pub use classified::Classified;
 pub use exponents::{Exponents, MeanExponents, OfOrbit};
+pub use lived::Lived;
 pub use motions::Motions;
 pub use scanned::Scanned;
 pub use steady::SteadyMotions;

@@ -1,17 +1,20 @@
 //! Transient chaos along a parameter: how long it lives at each value, and by which law.
 
+mod folder;
 mod follow;
 #[cfg(test)]
 mod tests;
 
 use crate::captured::way;
 use crate::pool::{Keeping, complete};
+pub use folder::{follow_into, open, write};
 use follow::{End, Followed, Follower};
 use motiform_analysis::{LifeCount, LifeLaws, MeanLife, Stay, compare_life_laws, mean_life, memory};
 use motiform_dynamics::Watch;
 use motiform_store::Kind;
 use motiform_study::plan::{check, other_version};
-use motiform_study::{Error, ScanPlan, input};
+use motiform_study::scan::Axis;
+use motiform_study::{Error, ScanPlan, Study, input};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Duration;
@@ -58,6 +61,22 @@ pub struct LifeAt {
     pub delay: f64,
     /// Mean life after the delay.
     pub life: MeanLife,
+}
+
+/// Asks a study for lives along an axis, from so many random starts at each value, with the longest time of an orbit and the delay (model
+/// time; `None` for their defaults).
+///
+/// # Errors
+/// Times that are none; a range over which the model has no size.
+pub fn ask(study: &mut Study, axis: Axis, samples: u64, times: [Option<f64>; 2]) -> Result<(), Error> {
+    for (key, value) in ["until", "transient"].into_iter().zip(times) {
+        let is_one = value.is_none_or(|value| value > 0.0 || key == "transient" && value == 0.0);
+        check(key, value.unwrap_or(0.0), is_one, "give a model time above 0 (the transient may be 0)")?;
+    }
+    (study.scan.axes, study.scan.samples, study.scan.budget) = (vec![axis], samples, times[0].unwrap_or(0.0));
+    study.initial.clear();
+    study.random = Some(study.starts_over(2, &study.scan.axes)?); // those that sample basins, also of one start
+    Ok(())
 }
 
 /// The lifetimes of chaos along the only axis of a plan, from its random starts, each followed to `plan`'s
@@ -169,9 +188,7 @@ impl Lives {
     /// # Errors
     /// [`Error::Store`]; [`Error::OtherPlan`] for another plan.
     pub fn read(path: &Path, plan: &ScanPlan) -> Result<Self, Error> {
-        let text = input::manifest(path).map_err(|error| Error::unreadable(path, error))?;
-        let lives: Self =
-            serde_json::from_slice(text.as_bytes()).map_err(|error| Error::unreadable(path, error))?;
+        let lives: Self = input::json(path).map_err(|error| Error::unreadable(path, error))?;
         let same = lives.plan_hash == plan.hash() && lives.orbits.len() == plan.rows();
         if same && lives.format == LIVES_FORMAT {
             Ok(lives)
@@ -219,7 +236,7 @@ impl Lives {
 }
 
 /// The only axis of the plan, and the delay checked.
-fn check_axis(plan: &ScanPlan, delay: Option<f64>) -> Result<&motiform_study::scan::Axis, Error> {
+fn check_axis(plan: &ScanPlan, delay: Option<f64>) -> Result<&Axis, Error> {
     let [axis] = &plan.computation.axes[..] else {
         let text = plan.computation.axes.last().map_or_else(String::new, |axis| axis.name.clone());
         return Err(Error::Axis {

@@ -20,7 +20,7 @@ pub(super) fn classify(
     stop: &dyn Watch,
 ) -> bool {
     let Some((settings, kernel)) = kernel(plan) else { return false };
-    Work { single, plan, settings, kernel, next, done, stop }.run();
+    LaneRows { single, plan, settings, kernel, next, done, stop }.run();
     true
 }
 
@@ -39,7 +39,7 @@ fn kernel(plan: &ScanPlan) -> Option<(Settings, Kernel)> {
 }
 
 /// The rows of one thread.
-struct Work<'w> {
+struct LaneRows<'w> {
     single: &'w dyn Evaluate,
     plan: &'w ScanPlan,
     settings: Settings,
@@ -49,7 +49,7 @@ struct Work<'w> {
     stop: &'w dyn Watch,
 }
 
-impl Work<'_> {
+impl LaneRows<'_> {
     /// Runs the kernel; a row that it does not compute is classified separately.
     fn run(self) {
         let Self { single, plan, settings, kernel, next, done, stop } = self;

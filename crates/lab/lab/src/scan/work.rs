@@ -47,7 +47,7 @@ pub fn compute(
 ) -> Result<Ended, Error> {
     let cells: usize = parts.iter().map(|&part| plan.cells_of(part).len()).sum();
     let total = cells * plan.computation.samples;
-    let work = Work {
+    let work = Shared {
         plan,
         store,
         evaluate,
@@ -137,7 +137,7 @@ pub fn rows_at(
 }
 
 /// The data that the threads share.
-struct Work<'w> {
+struct Shared<'w> {
     plan: &'w ScanPlan,
     store: &'w dyn Store,
     evaluate: &'w dyn Evaluate,
@@ -154,7 +154,7 @@ struct Work<'w> {
     most: AtomicUsize,
 }
 
-impl Work<'_> {
+impl Shared<'_> {
     /// One thread: rows until none is left, or a stop.
     fn compute(&self) {
         let mut next = || if self.stopped() { None } else { held(&self.queue).next() };
@@ -191,7 +191,7 @@ impl Work<'_> {
 }
 
 /// Stops an evaluation: by the caller's watch, or after a failure in another thread.
-impl Watch for Work<'_> {
+impl Watch for Shared<'_> {
     fn stopped(&self) -> bool {
         self.failed.load(Ordering::Relaxed) || self.watch.stopped()
     }

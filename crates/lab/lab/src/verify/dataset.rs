@@ -23,10 +23,7 @@ const ROWS: usize = 1000;
 pub fn verify_dataset(folder: &Path, all: bool, watch: &dyn Watch) -> Result<Option<Repeated>, Error> {
     let there = read_dataset_by(folder, &|_, path| first_group(path))?;
     let plan = &there.manifest.plan;
-    if plan.hash() != there.manifest.plan_hash {
-        let reason = "it was changed: its plan does not give its hash";
-        return Err(Error::unreadable(&folder.join("manifest.json"), reason));
-    }
+    plan.is_hashed_as(&there.manifest.plan_hash, folder)?;
     let path = trajectory_path(folder)?;
     let enough = AtomicBool::new(false);
     let c = &plan.computation;

@@ -11,7 +11,7 @@ pub use crate::control::{Control, NoiseSettings};
 pub use crate::named::Named;
 pub use difference::other_version;
 pub use motiform_store::sha256_hex;
-pub use provenance::{Provenance, pretty};
+pub use provenance::{Provenance, manifest, pretty};
 pub use run::{Computation, DEFAULT_STEP, MOST_IN_MEMORY, MOST_ROWS, PLAN_FORMAT, RunPlan, stepper};
 pub(crate) use run::{control, escape_norm};
 

@@ -3,8 +3,10 @@
 use super::{Plan, Question};
 use crate::{Error, input};
 use motiform_store::{Folder, Opening, VERSION, mend};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize, Serializer};
 use serde_json::json;
+use std::fmt::Display;
 use std::path::Path;
 
 /// The manifest of a result that grows in its folder. It contains no host, user, time of day, threads or shards.
@@ -45,19 +47,9 @@ impl<C: Question> Provenance<C> {
     /// # Errors
     /// [`Error::NoResult`] where it is missing, damaged, or its plan was changed.
     pub fn read(folder: &Path) -> Result<Self, Error> {
-        mend(folder)?;
-        let path = folder.join(C::MANIFEST);
-        let none = |reason: String| Error::NoResult {
-            path: folder.to_owned(),
-            kind: C::KIND,
-            reason: format!("{}: {reason}", C::MANIFEST),
-        };
-        let text = input::manifest(&path).map_err(|error| none(error.to_string()))?;
-        let read: Self = serde_json::from_slice(text.as_bytes()).map_err(|error| none(error.to_string()))?;
-        match read.plan.hash() == read.plan_hash {
-            true => Ok(read),
-            false => Err(none("it was changed: its plan does not give its hash".to_owned())),
-        }
+        let read: Self = manifest::<C, _>(folder)?;
+        read.plan.is_hashed_as(&read.plan_hash, folder)?;
+        Ok(read)
     }
 
     /// The bytes of the manifest; `target` is the folder that errors name.
@@ -78,7 +70,29 @@ impl<C: Question> Provenance<C> {
     }
 }
 
+/// The manifest in the folder of an answer.
+///
+/// # Errors
+/// [`Error::NoResult`] where it is missing or damaged.
+pub fn manifest<C: Question, M: DeserializeOwned>(folder: &Path) -> Result<M, Error> {
+    mend(folder)?;
+    input::json(&folder.join(C::MANIFEST)).map_err(|error| no_result::<C>(folder, &error))
+}
+
+fn no_result<C: Question>(folder: &Path, reason: &dyn Display) -> Error {
+    Error::NoResult { path: folder.to_owned(), kind: C::KIND, reason: format!("{}: {reason}", C::MANIFEST) }
+}
+
 impl<C: Question> Plan<C> {
+    /// Refuses a hash that the manifest in this folder states, if it is not that of the plan.
+    ///
+    /// # Errors
+    /// [`Error::NoResult`].
+    pub fn is_hashed_as(&self, hash: &str, folder: &Path) -> Result<(), Error> {
+        let changed: &dyn Display = &"it was changed: its plan does not give its hash";
+        (self.hash() == hash).then_some(()).ok_or_else(|| no_result::<C>(folder, changed))
+    }
+
     /// Refuses the folder of another plan, before anything is written in it.
     ///
     /// # Errors

@@ -5,11 +5,16 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
+import pandas as pd
+from PIL import Image
 
 from .. import _motiform
+from ..calls import paths_of
 from ..trajectory import Floats
 from .sample import Cells
 
@@ -18,9 +23,12 @@ Outlines = Mapping[str, Iterable[tuple[float, Any]]]
 
 Path = str | os.PathLike[str]
 
+LARGEST = 2**16 - 1
+"""The largest label of an image."""
+
 
 def read(
-    path: Path | Sequence[Path],
+    path: Path | Sequence[Path] | pd.DataFrame,
     *,
     interval: float | None = None,
     pixel_size: float | None = None,
@@ -34,7 +42,7 @@ def read(
     Parameters
     ----------
     path
-        A file, or several that form one data set.
+        A file, or several that form one data set; or a table in memory, with the columns that a CSV file would have.
     interval
         Time between frames in `time_unit`. If neither the file nor this says it, times are in frames.
     pixel_size
@@ -55,29 +63,39 @@ def read(
     ValueError
         For content that cannot be read, with the place in the file; ``OSError`` if the file cannot be opened.
     """
-    paths = [path] if isinstance(path, (str, os.PathLike)) else list(path)
+    if isinstance(path, pd.DataFrame):
+        with TemporaryDirectory() as place:
+            file = os.path.join(place, "table.csv")
+            path.to_csv(file, index=False)
+            return read(file, interval=interval, pixel_size=pixel_size, time_unit=time_unit, length_unit=length_unit, format=format, columns=columns)
     known = ("cell", "frame", "i", "x", "y", "wkt")
     named = dict(columns or {})
     if unknown := [name for name in named if name not in known]:
         raise ValueError(f"columns has no {unknown[0]!r}: the columns are {', '.join(known)}")
     asked = (pixel_size, interval, (length_unit, time_unit), format, list(named.items()))
-    return Cells(_motiform.Sample.read([os.fspath(one) for one in paths], asked))
+    return Cells(_motiform.Sample.read(paths_of(path), asked))
 
 
 def read_masks(
-    path: Path | Sequence[Path],
+    path: Path | Sequence[Path] | npt.NDArray[np.integer[Any]],
     *,
     interval: float | None = None,
     pixel_size: float | None = None,
     time_unit: str | None = None,
     length_unit: str | None = None,
 ) -> Cells:
-    """Reads label masks (TIFF or PNG): a folder, an image, a stack of images in one TIFF, or several images.
+    """Reads label masks (TIFF or PNG): a folder, an image, a stack of images in one TIFF, or several images; or an array (frames, y, x).
 
     The pixels of a cell have its number, the same in all frames; 0 is the background. Numbers at the end of the names are the
     frames (``mask007.tif``). In a folder, ``res_track.txt`` or ``man_track.txt`` of the Cell Tracking Challenge says which cells
     come from which. The outline of a cell is the contour at half level around its largest part; y points down.
     """
+    if isinstance(path, np.ndarray):
+        with TemporaryDirectory() as place:
+            first, *others = _images(path)
+            file = os.path.join(place, "masks.tif")
+            first.save(file, save_all=True, append_images=others)
+            return read_masks(file, interval=interval, pixel_size=pixel_size, time_unit=time_unit, length_unit=length_unit)
     return read(
         path,
         interval=interval,
@@ -86,6 +104,15 @@ def read_masks(
         length_unit=length_unit,
         format="masks",
     )
+
+
+def _images(labels: npt.NDArray[Any]) -> list[Image.Image]:
+    """An image for each frame of an array of labels."""
+    if labels.dtype.kind not in "iu" or labels.ndim != 3:
+        raise TypeError(f"labels must be an array of whole numbers, (frames, y, x), not {labels.dtype} of shape {labels.shape}")
+    if not labels.size or labels.min() < 0 or labels.max() > LARGEST:
+        raise ValueError(f"labels: give at least one frame, with whole numbers from 0 to {LARGEST}")
+    return [Image.fromarray(frame.astype(np.uint16)) for frame in labels]
 
 
 def from_arrays(

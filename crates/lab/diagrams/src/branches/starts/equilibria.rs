@@ -25,8 +25,7 @@ struct Entry {
 
 /// The equilibrium of this number, from 1; the only one, if no number is given.
 pub(super) fn point(asked: &Asked<'_>) -> Result<StartPoint, Error> {
-    let text = input::manifest(&asked.path).map_err(|error| Error::unreadable(&asked.path, error))?;
-    let list: List = serde_json::from_slice(text.as_bytes())
+    let list: List = input::json(&asked.path)
         .map_err(|error| asked.wrong(format!("this is no list of equilibria ({error}): give one as JSON")))?;
     let chosen = match asked.point {
         None if list.equilibria.len() == 1 => Some(0),

@@ -69,7 +69,7 @@ fn folders_that_do_not_fit_are_refused() {
         told(&[&one, &noise]).contains("its noise is") && told(&[&one, &silent]).contains("noise is none")
     );
     assert!(told(&[]).contains("at least one track"));
-    assert!(told(&[&folder.path().to_owned()]).contains("give the folder of a run"));
+    assert!(told(&[&folder.path().to_owned()]).contains("contains no dataset: manifest.json"));
     let late = read(&[one], 99.0, &Settings::default()).unwrap_err().to_string();
     assert!(late.contains("body 0 has 11 samples"), "{late}");
 }
