@@ -15,8 +15,8 @@ pub enum Kernel {
     Amplitudes(usize),
 }
 
-/// `true` if amplitude equations have kernels. In the module of a page, whose registers hold two lanes, they would gain little and make half
-/// a megabyte of it. A constant that guards the arm of a `match` keeps what the arm calls from being compiled at all.
+/// `true` if amplitude equations have kernels. In the module of a page, whose registers hold two lanes, they would gain little and make
+/// half a megabyte of it. A constant that guards the arm of a `match` keeps what the arm calls from being compiled at all.
 pub(crate) const TEXT: bool = !cfg!(target_family = "wasm");
 
 /// The largest number of modes for which there is a kernel: each number is compiled separately.

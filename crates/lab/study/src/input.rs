@@ -21,7 +21,7 @@ pub fn text(path: &Path, most: u64) -> Result<String> {
     String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
-/// What a JSON file holds: only of a file, because reading from a pipe might never end.
+/// The content of a JSON file: only of a file, because reading from a pipe might never end.
 pub fn json<T: DeserializeOwned>(path: &Path) -> Result<T> {
     if !path.metadata()?.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "it is not a file"));

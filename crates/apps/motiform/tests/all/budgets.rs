@@ -111,7 +111,7 @@ fn libraries_name_no_option() {
 fn tests_are_where_they_are_run() {
     let mut found = Vec::new();
     sources(&root().join("crates"), &mut found);
-    for (path, text) in found.iter().filter(|(_, text)| text.contains("#[test]")) {
+    for (path, _) in found.iter().filter(|(_, text)| text.contains("#[test]")) {
         let crate_of = path.ancestors().find(|folder| folder.join("src").is_dir()).expect("a crate");
         let manifest = std::fs::read_to_string(crate_of.join("Cargo.toml")).expect("a manifest");
         let tested = !manifest.contains("[lib]\ntest = false") || !path.starts_with(crate_of.join("src"));
