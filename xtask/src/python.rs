@@ -8,7 +8,8 @@ use std::process::Command;
 /// Builds the package with everything its tests need into `target/python`, and runs its tests.
 pub(crate) fn test() -> Result<()> {
     let python = environment("target/python")?;
-    let install = ["-m", "pip", "install", "--quiet", "--no-compile", "--disable-pip-version-check", ".[test]"];
+    let install =
+        ["-m", "pip", "install", "--quiet", "--no-compile", "--disable-pip-version-check", ".[test]"];
     // Crates with the features that they have in the whole workspace are not built again (crates/apps/python/Cargo.toml).
     let features = "--features workspace";
     step("python package", Command::new(&python).args(install).env("MATURIN_PEP517_ARGS", features))?;

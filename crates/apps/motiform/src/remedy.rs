@@ -52,7 +52,7 @@ fn remedy(error: &Error) -> Option<&'static str> {
         Error::Setting { key: "in", .. } => ": --curve KIND",
         Error::Store(error) => return in_place(error),
         Error::OtherPlan { .. } => "; choose another --out, or --force to replace it",
-        Error::Unfinished { .. } => ": the same command with --resume goes on",
+        Error::Unfinished { .. } => ": the `motiform atlas` that began it goes on with --resume",
         Error::NoResult { kind: Kind::Dataset, .. } => "; give a folder written by `motiform simulate`",
         Error::NoResult { kind: Kind::Scan, .. } => "; give a folder written by `motiform scan`",
         Error::NoResult { kind: Kind::Branches | Kind::Curves, .. } => {

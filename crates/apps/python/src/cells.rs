@@ -35,16 +35,21 @@ pub(crate) struct Sample(motiform_cells::Sample);
 
 #[pymethods]
 impl Sample {
-    /// Files.
+    /// Files; those that stand for data `in_memory` are not named in results.
     #[staticmethod]
-    fn read(py: Python<'_>, paths: Vec<PathBuf>, asked: Asked) -> PyResult<Self> {
+    #[pyo3(signature = (paths, asked, in_memory=false))]
+    fn read(py: Python<'_>, paths: Vec<PathBuf>, asked: Asked, in_memory: bool) -> PyResult<Self> {
         let (pixel_size, interval, (length_unit, time_unit), format, columns) = asked;
         let format = format.map(|name| name.parse()).transpose().map_err(of_tracks)?;
         let columns = Columns::named(&columns);
         let options =
             Options { format, pixel_size, interval, length_unit, time_unit, columns, ..Options::default() };
         let read = || motiform_cells::Sample::read(&paths, &options, &ModeOptions::default());
-        py.detach(read).map(Self).map_err(of_cells)
+        let mut sample = py.detach(read).map_err(of_cells)?;
+        if in_memory {
+            sample.tracks.files.clear();
+        }
+        Ok(Self(sample))
     }
 
     /// Outlines in memory.

@@ -34,8 +34,8 @@ fn remedy(error: &Error) -> Option<&'static str> {
     Some(match error {
         Error::NoAxis { .. } => "; give axes={\"NAME\": values}",
         Error::Store(error) => return in_place(error),
-        Error::Unfinished { .. } => ": the same call with resume=True goes on",
-        Error::NoResult { kind: Kind::Dataset, .. } => "; give a folder that motiform wrote",
+        Error::Unfinished { .. } => ": the call of atlas that began it goes on with resume=True",
+        Error::NoResult { kind: Kind::Dataset, .. } => "; give the folder of a simulation",
         Error::OtherPlan { .. } => "; choose another one, or overwrite=True to replace it",
         Error::PartFailed { .. } | Error::InTheWay { .. } => "; resume=True continues it",
         _ => return None,

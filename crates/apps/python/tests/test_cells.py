@@ -273,6 +273,7 @@ def test_tables_and_masks_in_memory_are_those_of_files(tmp_path: Path) -> None:
     table.to_csv(tmp_path / "cells.csv", index=False)
     one, other = (motiform.cells.read(given, interval=2.0, pixel_size=0.5) for given in (table, tmp_path / "cells.csv"))
     assert one["a"].modes.identical(other["a"].modes) and one["a"].notes == other["a"].notes
+    assert motiform.cells.read(table.set_index("cell"), interval=2.0, pixel_size=0.5)["a"].modes.identical(one["a"].modes)
     named = motiform.cells.read(table.rename(columns={"x": "pos"}), interval=2.0, pixel_size=0.5, columns={"x": "pos"})
     assert named["a"].modes.identical(one["a"].modes)
     y, x = np.mgrid[:60, :70]

@@ -87,7 +87,7 @@ pub(crate) fn parts(name: &str) -> Option<Vec<f64>> {
         _ => None,
     };
     let parts: Option<Vec<f64>> = unit.split(':').map(seconds).collect();
-    parts.filter(|parts| parts.is_sorted_by(|a, b| a > b))
+    parts.filter(|parts| parts.windows(2).all(|pair| pair[0] == 60.0 * pair[1]))
 }
 
 /// Refuses a column of frames with a unit of time.

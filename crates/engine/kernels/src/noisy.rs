@@ -54,14 +54,30 @@ pub fn propagate_noisy_bodies(
     match (kernel, stretch) {
         (Kernel::Tensor, Stretch::Shape) => run::<Common, ShapeAlone, 6>(span, next, done, watch),
         (Kernel::Tensor, Stretch::Plane) => run::<Common, WithPosition, 8>(span, next, done, watch),
-        (Kernel::Amplitudes(1), Stretch::Shape) if TEXT => run::<Text<2>, ShapeAlone, 2>(span, next, done, watch),
-        (Kernel::Amplitudes(1), Stretch::Plane) if TEXT => run::<Text<2>, WithPosition, 4>(span, next, done, watch),
-        (Kernel::Amplitudes(2), Stretch::Shape) if TEXT => run::<Text<4>, ShapeAlone, 4>(span, next, done, watch),
-        (Kernel::Amplitudes(2), Stretch::Plane) if TEXT => run::<Text<4>, WithPosition, 6>(span, next, done, watch),
-        (Kernel::Amplitudes(3), Stretch::Shape) if TEXT => run::<Text<6>, ShapeAlone, 6>(span, next, done, watch),
-        (Kernel::Amplitudes(3), Stretch::Plane) if TEXT => run::<Text<6>, WithPosition, 8>(span, next, done, watch),
-        (Kernel::Amplitudes(_), Stretch::Shape) if TEXT => run::<Text<8>, ShapeAlone, 8>(span, next, done, watch),
-        (Kernel::Amplitudes(_), Stretch::Plane) if TEXT => run::<Text<8>, WithPosition, 10>(span, next, done, watch),
+        (Kernel::Amplitudes(1), Stretch::Shape) if TEXT => {
+            run::<Text<2>, ShapeAlone, 2>(span, next, done, watch)
+        }
+        (Kernel::Amplitudes(1), Stretch::Plane) if TEXT => {
+            run::<Text<2>, WithPosition, 4>(span, next, done, watch)
+        }
+        (Kernel::Amplitudes(2), Stretch::Shape) if TEXT => {
+            run::<Text<4>, ShapeAlone, 4>(span, next, done, watch)
+        }
+        (Kernel::Amplitudes(2), Stretch::Plane) if TEXT => {
+            run::<Text<4>, WithPosition, 6>(span, next, done, watch)
+        }
+        (Kernel::Amplitudes(3), Stretch::Shape) if TEXT => {
+            run::<Text<6>, ShapeAlone, 6>(span, next, done, watch)
+        }
+        (Kernel::Amplitudes(3), Stretch::Plane) if TEXT => {
+            run::<Text<6>, WithPosition, 8>(span, next, done, watch)
+        }
+        (Kernel::Amplitudes(_), Stretch::Shape) if TEXT => {
+            run::<Text<8>, ShapeAlone, 8>(span, next, done, watch)
+        }
+        (Kernel::Amplitudes(_), Stretch::Plane) if TEXT => {
+            run::<Text<8>, WithPosition, 10>(span, next, done, watch)
+        }
         (Kernel::Amplitudes(_), _) => false,
     }
 }

@@ -41,7 +41,6 @@ fn entries(
         digests.push(digest(cell, options.modes));
     }
     let Units { length, time, .. } = Units::of(sample);
-    let noise = &fitted.model().noise;
     let whole = |number: u64| i64::try_from(number).map_or_else(|_| number.to_string().into(), Value::from);
     let mut all = vec![
         ("files", sample.tracks.files.clone().into()),
@@ -58,10 +57,9 @@ fn entries(
         ("simulations", whole(options.simulations as u64)),
         ("log_likelihood", fitted.model().log_likelihood.into()),
     ];
-    if fitted.has_errors_of_noise() {
-        all.push(("error_of_noise", noise.eta_shape.error.into()));
-        all.push(("error_of_noise_velocity", noise.eta_v.error.into()));
-    }
+    let [velocity, shape] = fitted.errors_of_noise();
+    all.extend(shape.map(|error| ("error_of_noise", error.into())));
+    all.extend(velocity.map(|error| ("error_of_noise_velocity", error.into())));
     all
 }
 

@@ -61,7 +61,7 @@ pub fn read_dataset_by(
     read: &dyn Fn(&mut Manifest, &Path) -> Result<Table, Error>,
 ) -> Result<Dataset, Error> {
     let mut manifest: Manifest = manifest::<Computation, _>(folder)?;
-    let model = manifest.plan.body()?;
+    let model = manifest.plan.body().map_err(|error| Error::unreadable(folder, error))?;
     let path = trajectory_path(folder)?;
     let trajectory = read(&mut manifest, &path)?;
     let columns = columns(model.as_ref()).columns;

@@ -39,7 +39,7 @@ fn a_plane_with_one_motion_has_a_page_without_blanks() {
     folder.write("one/manifest.json", &manifest.replace("\"complete\": true", "\"complete\": false"));
     let refused = folder.run("figure one --out figures").expect(2).stderr;
     assert!(
-        refused.contains("one contains an atlas that is not finished: the same command with --resume"),
+        refused.contains("one contains an atlas that is not finished: the `motiform atlas` that began it goes on with --resume"),
         "{refused}"
     );
 }

@@ -165,7 +165,7 @@ fn a_start_at_a_bifurcation_says_which_one_decides() {
                 z1 = \"mu*z1 - |z1|^2*z1\"\n";
     folder.write("fork.toml", text);
     let refused = folder.run("continue fork.toml --along mu=-1:2").expect(2).stderr;
-    assert!(refused.contains("a start beside it decides: mu = 1"), "{refused}");
+    assert!(refused.contains("a start elsewhere may decide: mu = 1"), "{refused}");
     let found = follow(&folder, "fork.toml --set mu=1 --along mu=-1:2");
     let at = |entry: &Value| entry["mu"].as_f64().is_some_and(|mu| mu.abs() < 1e-8);
     assert!(found["branches"][0]["special"].as_array().expect("a list").iter().any(at), "{found}");

@@ -105,7 +105,6 @@ fn libraries_name_no_option() {
     }
 }
 
-/// A file that no module names is not compiled: its tests do not run, and nothing says so.
 /// A crate whose `src/` has no tests is not compiled for them; a test there would never run.
 #[test]
 fn tests_are_where_they_are_run() {
@@ -114,11 +113,16 @@ fn tests_are_where_they_are_run() {
     for (path, _) in found.iter().filter(|(_, text)| text.contains("#[test]")) {
         let crate_of = path.ancestors().find(|folder| folder.join("src").is_dir()).expect("a crate");
         let manifest = std::fs::read_to_string(crate_of.join("Cargo.toml")).expect("a manifest");
-        let tested = !manifest.contains("[lib]\ntest = false") || !path.starts_with(crate_of.join("src"));
+        let of_library = match manifest.contains("[[bin]]") {
+            true => path.ends_with("src/lib.rs"),
+            false => path.starts_with(crate_of.join("src")),
+        };
+        let tested = !manifest.contains("\ntest = false") || !of_library;
         assert!(tested, "{}: move it to tests/all", path.display());
     }
 }
 
+/// A file that no module names is not compiled: its tests do not run, and nothing says so.
 #[test]
 fn every_source_is_a_module() {
     let mut found = Vec::new();

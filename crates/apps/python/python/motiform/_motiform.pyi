@@ -69,6 +69,7 @@ class Sample:
     def read(
         paths: list[str],
         asked: tuple[float | None, float | None, tuple[str | None, str | None], str | None, list[tuple[str, str]]],
+        in_memory: bool = False,
     ) -> Sample: ...
     @staticmethod
     def given(

@@ -94,6 +94,8 @@ def axis_of(name: str, values: str | npt.ArrayLike) -> Any:
             f'give the list {list(values)}, or the text "{low}:{high}:{count}"'
         )
     array = real(values, f"axis {name}")
+    if np.asarray(values).dtype.kind == "b":
+        raise TypeError(f"axis {name} must hold real numbers, not truth values")
     if array.ndim > 1:
         raise ValueError(f"axis {name} has {array.ndim} dimensions: give one")
     return np.ascontiguousarray(np.atleast_1d(array))

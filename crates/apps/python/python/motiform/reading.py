@@ -54,6 +54,8 @@ def read(path: str | os.PathLike[str], *, why: bool = False) -> Trajectory | Bra
             return atlas_of(_motiform.read_atlas(os.fspath(path)))
         if (path / "lifetimes.json").exists():
             return lifetimes_of(json.loads((path / "lifetimes.json").read_text(encoding="utf-8")))
+        if (path / "orbits.json").exists():
+            raise ValueError(f"{path} contains lifetimes that are not finished: the call of lifetimes that began it goes on with resume=True")
         return Trajectory(_motiform.read_run(os.fspath(path)))
     if path.suffix in (".parquet", ".csv"):
         if (path.parent / "_manifest.json").exists():

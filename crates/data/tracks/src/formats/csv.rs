@@ -116,6 +116,9 @@ impl Table {
 
     /// A time in seconds, or a number. The first one of a column without a unit says whether all are in hours, minutes and seconds.
     fn moment(&mut self, text: &str, place: &Place) -> Result<f64> {
+        if text.trim().is_empty() {
+            return self.number(text, "time", place);
+        }
         let unit = &mut self.unit_of_time;
         let parts = self.parts.get_or_insert_with(|| {
             let clock = parts("time [h:m:s]").filter(|_| unit.is_none() && text.matches(':').count() == 2);

@@ -30,6 +30,12 @@ const SCAN: [&str; 21] = [
     "computed",
 ];
 
+/// Columns of lifetimes.
+const LIVES: [&str; 13] = [
+    "blew_up", "captured", "lasting", "regular", "lost", "delay", "events", "watched", "life", "lower",
+    "upper", "starts", "until",
+];
+
 /// Columns of branches, of sweeps beneath them, and of curves of special points.
 const BRANCHES: [&str; 25] = [
     "branch",
@@ -119,7 +125,7 @@ pub fn meaning(name: &str) -> Option<&'static str> {
         Some("an amplitude")
     } else if is(&["v1", "v2"]) || is_part(name) {
         Some("a coordinate of the body")
-    } else if is(&TRAJECTORY) || is(&SCAN) || is(&BRANCHES) || is(&SPECIAL) {
+    } else if [&TRAJECTORY[..], &SCAN, &LIVES, &BRANCHES, &SPECIAL].into_iter().any(is) {
         Some("a column of result tables")
     } else if is(&SETTINGS) {
         Some("a setting of runs")

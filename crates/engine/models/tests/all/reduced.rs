@@ -68,7 +68,10 @@ fn straight_motions_are_roots_of_a_cubic() {
     };
     // (s + 2)(s + 1)(s - 3) = s^3 - 7 s - 6
     let three = of(0.5, -8.0, 6.0);
-    assert!(three.len() == 3 && three.iter().zip([-2.0, -1.0, 3.0]).all(|(x, y)| (x - y).abs() < 1e-14), "{three:?}");
+    assert!(
+        three.len() == 3 && three.iter().zip([-2.0, -1.0, 3.0]).all(|(x, y)| (x - y).abs() < 1e-14),
+        "{three:?}"
+    );
     // (s - 2)(s^2 + 2 s + 5) = s^3 + s - 10
     let one = of(0.5, 0.0, 10.0);
     assert!(one.len() == 1 && (one[0] - 2.0).abs() < 1e-15, "{one:?}");

@@ -80,8 +80,8 @@ pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Vec<StageJump> {
         .collect()
 }
 
-/// Probability of a mean of so many times its error, or more, of cells that go in independent directions: of F = r^2/2 with 2 and 2 (n - 1)
-/// degrees of freedom.
+/// Probability of a mean of so many times its error, or more, of cells with independent Gaussian displacements: of F = r^2/2 with 2 and
+/// 2 (n - 1) degrees of freedom.
 fn p_value(ratio: f64, cells: usize) -> f64 {
     let freedom = cells as f64 - 1.0;
     libm::pow(1.0 + ratio * ratio / (2.0 * freedom), -freedom)

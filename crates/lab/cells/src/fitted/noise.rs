@@ -6,7 +6,7 @@ use motiform_inference::Estimate;
 use motiform_statistics::{four_digits, to_error, with_error};
 use serde_json::{Value, json};
 
-/// Places in [`Noise::at_bound`].
+/// Places in [`motiform_inference::Noise::at_bound`].
 const FACTOR: usize = 0;
 const VELOCITY: usize = 1;
 const SHAPE: usize = 2;
@@ -47,6 +47,13 @@ impl Fitted {
     pub fn has_errors_of_noise(&self) -> bool {
         let biased = bias(&self.warnings).is_some() || self.regime.as_ref().is_some_and(|found| found.coarse);
         self.model().converged() && self.doubts.is_empty() && !biased
+    }
+
+    /// The errors of the noise of velocity and shape, as far as they hold.
+    pub(crate) fn errors_of_noise(&self) -> [Option<f64>; 2] {
+        let noise = &self.model().noise;
+        [(&noise.eta_v, VELOCITY), (&noise.eta_shape, SHAPE)]
+            .map(|(one, place)| (self.has_errors_of_noise() && !noise.at_bound[place]).then_some(one.error))
     }
 
     /// All of it as JSON; errors that do not hold are null.

@@ -309,8 +309,8 @@ fn cells_that_are_read_twice_have_no_jitter() {
     assert!(field(twice).jitter.is_some_and(|jitter| jitter.is_seen()));
 }
 
-/// Cells that rest between steps of one length, at times of their own: now and then two step alike, which is no jump of the stage (without
-/// a test over all such frames 11 of 40 pairs had one). A jump of two cells is found.
+/// Cells that rest between steps of nearly one length (10 %), at times of their own: now and then two step alike, which is no jump of the
+/// stage (without a test over all such frames 11 of 40 pairs had one). A jump of two cells is found.
 #[test]
 fn steps_that_two_cells_have_in_common_by_chance_are_no_jump() {
     let cell = |seed: u64| -> Vec<Outline> {

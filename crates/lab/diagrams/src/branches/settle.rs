@@ -4,6 +4,7 @@ use super::family::Bodies;
 use motiform_analysis::regime::settle as settled;
 use motiform_analysis::{Attractor, PeriodicOrbit, Regime, RelativeEquilibrium, Verdict};
 use motiform_continuation::Settings;
+use motiform_dynamics::digits::given;
 use motiform_dynamics::{Equivariant, StopOnly, Watch};
 use motiform_study::branches::Along;
 use motiform_study::{BranchPlan, Error};
@@ -37,13 +38,14 @@ pub fn settle(plan: &BranchPlan, watch: &dyn Watch) -> Result<Option<(Start, Ver
 }
 
 /// Refuses a motion that is not the one asked for, or is neither steady nor repeats. One that is undetermined may be at its bifurcation:
-/// a start farther from it decides, and its branch passes here.
+/// a start farther from it may decide, and its branch passes here.
 fn check(plan: &BranchPlan, verdict: &Verdict) -> Result<(), Error> {
     if verdict.regime == Regime::Undetermined {
         let (Along { name, from, to }, here) = (&plan.computation.along, plan.start_value());
         let there = 0.5 * (here + if here - from > to - here { from } else { to });
         let problem = format!(
-            "so that it is not known what to follow; if that is a bifurcation, a start beside it decides: {name} = {there}"
+            "so that it is not known what to follow; if that is a bifurcation, a start elsewhere may decide: {name} = {}",
+            given(there)
         );
         return Err(refused(verdict, &problem));
     }

@@ -67,7 +67,7 @@ pub struct LifeAt {
 /// time; `None` for their defaults).
 ///
 /// # Errors
-/// Times that are none; a range over which the model has no size.
+/// Times that are not positive; a range over which the model has no size.
 pub fn ask(study: &mut Study, axis: Axis, samples: u64, times: [Option<f64>; 2]) -> Result<(), Error> {
     for (key, value) in ["until", "transient"].into_iter().zip(times) {
         let is_one = value.is_none_or(|value| value > 0.0 || key == "transient" && value == 0.0);

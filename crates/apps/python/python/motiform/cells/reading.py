@@ -66,14 +66,9 @@ def read(
     if isinstance(path, pd.DataFrame):
         with TemporaryDirectory() as place:
             file = os.path.join(place, "table.csv")
-            path.to_csv(file, index=False)
-            return read(file, interval=interval, pixel_size=pixel_size, time_unit=time_unit, length_unit=length_unit, format=format, columns=columns)
-    known = ("cell", "frame", "i", "x", "y", "wkt")
-    named = dict(columns or {})
-    if unknown := [name for name in named if name not in known]:
-        raise ValueError(f"columns has no {unknown[0]!r}: the columns are {', '.join(known)}")
-    asked = (pixel_size, interval, (length_unit, time_unit), format, list(named.items()))
-    return Cells(_motiform.Sample.read(paths_of(path), asked))
+            path.to_csv(file, index=any(name is not None for name in path.index.names))
+            return _in_memory(file, (pixel_size, interval, (length_unit, time_unit), format, _named(columns)))
+    return Cells(_motiform.Sample.read(paths_of(path), (pixel_size, interval, (length_unit, time_unit), format, _named(columns))))
 
 
 def read_masks(
@@ -95,7 +90,7 @@ def read_masks(
             first, *others = _images(path)
             file = os.path.join(place, "masks.tif")
             first.save(file, save_all=True, append_images=others)
-            return read_masks(file, interval=interval, pixel_size=pixel_size, time_unit=time_unit, length_unit=length_unit)
+            return _in_memory(file, (pixel_size, interval, (length_unit, time_unit), "masks", []))
     return read(
         path,
         interval=interval,
@@ -104,6 +99,23 @@ def read_masks(
         length_unit=length_unit,
         format="masks",
     )
+
+
+def _named(columns: Mapping[str, str] | None) -> list[tuple[str, str]]:
+    """Other names of columns."""
+    known = ("cell", "frame", "i", "x", "y", "wkt")
+    named = dict(columns or {})
+    if unknown := [name for name in named if name not in known]:
+        raise ValueError(f"columns has no {unknown[0]!r}: the columns are {', '.join(known)}")
+    return list(named.items())
+
+
+def _in_memory(file: str, asked: Any) -> Cells:
+    """Cells of a file that stands for data in memory: neither results nor errors name it."""
+    try:
+        return Cells(_motiform.Sample.read([file], asked, True))
+    except ValueError as error:
+        raise ValueError(str(error).replace(file, "the data")) from None
 
 
 def _images(labels: npt.NDArray[Any]) -> list[Image.Image]:
