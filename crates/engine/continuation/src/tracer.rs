@@ -1,7 +1,7 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
 use super::between::{Step, between};
-use super::correct::{correct, directions, distance, normal, product, scaled};
+use super::correct::{TIGHT, correct, directions, distance, normal, product, scaled};
 use super::families::border_at_start;
 use super::levels::{unstable, zeros};
 use super::locate::{Changes, locate};
@@ -233,7 +233,13 @@ impl<'f, P: Problem> Tracer<'f, P> {
         }
         self.check(&new)?;
         let (new, length, mut changes) = self.examine(new, length, &mut last)?;
-        changes.found.retain(|(at, special)| !self.has_touched(at, *special, length));
+        let (low, high) = self.settings.range;
+        let beyond = self.problem.accuracy().max(TIGHT) * (high - low);
+        changes.found.retain(|(at, special)| {
+            (low - beyond..=high + beyond).contains(&at.parameter())
+                && !self.has_touched(at, *special, length)
+                && !self.is_repeated(at, *special)
+        });
         if let Some(again) = changes.found.iter().position(|(at, special)| self.has_passed(at, *special)) {
             changes.found.truncate(again);
             self.hand_out_special(changes.found, (&new, length));
@@ -294,6 +300,17 @@ impl<'f, P: Problem> Tracer<'f, P> {
                 && x.len() == at.x.len()
                 && distance(&weights, x, &at.x) < AGAIN
                 && product(&weights, tangent, &at.tangent) > 0.0
+        })
+    }
+
+    /// Returns `true` for the special point at which the last step ended.
+    fn is_repeated(&self, at: &Place<P::Local>, special: Special) -> bool {
+        let (weights, same) = (self.problem.weights(&at.x), self.problem.accuracy());
+        self.passed.last().is_some_and(|(x, _, name, count)| {
+            *name == special.name()
+                && self.count < count + 2
+                && x.len() == at.x.len()
+                && distance(&weights, x, &at.x) < same
         })
     }
 
