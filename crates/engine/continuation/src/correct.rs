@@ -3,7 +3,6 @@
 use super::elimination::newton_step;
 use super::point::Obstruction;
 use super::problem::{Equations, Failure, Linear};
-use motiform_analysis::linear::add;
 use motiform_analysis::singular::svd;
 use motiform_dynamics::Watch;
 
@@ -72,33 +71,19 @@ pub(super) fn correct<P: Equations>(
 
 const SINGULAR: Failure = Failure::Obstructed(Obstruction::Singular);
 
-/// Directions with the part of the equations that sees them to first order (a singular value), smallest first. A parameter is seen no more
-/// than all else is: over a range so wide that it changes the equations by far more, other parts would seem to vanish beside it.
+/// Directions with the part of the equations that sees them to first order (a singular value), smallest first.
 pub(super) fn seen(linear: &Linear, weights: &[f64]) -> Vec<(f64, Vec<f64>)> {
-    let (rows, dim) = linear.matrix.shape();
-    let mut units: Vec<f64> = weights.iter().map(|weight| 1.0 / weight.sqrt()).collect();
-    let norm = |j: usize, unit: f64| linear.matrix.column(j).norm() * unit;
-    let largest = (0..rows).map(|j| norm(j, units[j])).fold(0.0, f64::max);
-    let mut is_balanced = true;
-    for j in rows..dim {
-        let part = largest / norm(j, units[j]);
-        if part < 1.0 {
-            (units[j], is_balanced) = (part * units[j], false);
-        }
-    }
+    let dim = linear.matrix.ncols();
     let mut square = linear.matrix.clone().resize_vertically(dim, 0.0);
-    units.iter().enumerate().for_each(|(j, unit)| square.column_mut(j).scale_mut(*unit));
+    for (j, weight) in weights.iter().enumerate() {
+        square.column_mut(j).scale_mut(1.0 / weight.sqrt());
+    }
     let Some(svd) = svd(square) else { return Vec::new() };
-    let Some(vectors) = svd.v_t else { return Vec::new() };
-    let unscaled = |i: usize| vectors.row(i).iter().zip(&units).map(|(v, unit)| v * unit).collect();
+    let Some(rows) = svd.v_t else { return Vec::new() };
+    let unscaled = |i: usize| rows.row(i).iter().zip(weights).map(|(v, w)| v / w.sqrt()).collect();
     let mut all: Vec<(f64, Vec<f64>)> = (0..dim).map(|i| (svd.singular_values[i], unscaled(i))).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    if is_balanced {
-        return all;
-    }
-    let (sizes, vectors): (Vec<f64>, Vec<Vec<f64>>) = all.into_iter().unzip();
-    orthonormal(vectors.into_iter(), &[], weights)
-        .map_or_else(Vec::new, |vectors| sizes.into_iter().zip(vectors).collect())
+    all
 }
 
 /// Directions, those first that the equations see least: one of them not at all where a branch is alone.
@@ -149,23 +134,6 @@ pub(super) fn scaled(mut direction: Vec<f64>, weights: &[f64]) -> Option<Vec<f64
     let length = product(weights, &direction, &direction).sqrt();
     direction.iter_mut().for_each(|x| *x /= length);
     direction.iter().all(|x| x.is_finite()).then_some(direction)
-}
-
-/// The vectors made normal to `fixed`, which are orthonormal, and to each other, with length 1.
-pub(super) fn orthonormal(
-    vectors: impl Iterator<Item = Vec<f64>>,
-    fixed: &[Vec<f64>],
-    weights: &[f64],
-) -> Option<Vec<Vec<f64>>> {
-    let mut out: Vec<Vec<f64>> = Vec::new();
-    for mut vector in vectors {
-        for other in fixed.iter().chain(&out) {
-            let part = product(weights, &vector, other);
-            add(&mut vector, -part, other);
-        }
-        out.push(scaled(vector, weights)?);
-    }
-    Some(out)
 }
 
 /// `weights_i direction_i`: the row whose plane is normal to a direction.

@@ -30,8 +30,8 @@ const NEARLY: f64 = 1e-3;
 /// scale.
 const NOTHING: f64 = 1e-12;
 
-/// At a crossing the second part is so many times as large on both sides, if the branches do not touch; at a fold it changes by less than
-/// this part of itself.
+/// Beside a crossing where branches do not touch the second part is so many times as large on both sides; beside a fold it changes by less
+/// than this part of itself.
 const RISES: f64 = 2.0;
 const STEADY: f64 = 0.01;
 

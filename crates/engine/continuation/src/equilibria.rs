@@ -109,7 +109,7 @@ impl Equations for Equilibria<'_> {
     }
 
     fn weights(&self, x: &[f64]) -> Vec<f64> {
-        let rate = self.vicinity.units.rate.max(GROWN * x[self.dim].abs());
+        let rate = self.vicinity.units.rate;
         let mut weights: Vec<f64> = self.sizes(x).iter().map(|size| 1.0 / (size * size)).collect();
         weights.push(1.0 / (rate * rate));
         weights.extend(self.widths.iter().map(|width| 1.0 / (width * width)));

@@ -1,6 +1,6 @@
 //! Families of solutions with one value of the parameter, along which a branch does not move.
 
-use super::correct::{Corrected, TIGHT, correct, normal, orthonormal, product, scaled, seen, unseen};
+use super::correct::{Corrected, TIGHT, correct, normal, product, scaled, seen, unseen};
 use super::levels::{CLEAR, zeros};
 use super::problem::{Border, Problem};
 use super::tracer::Tracer;
@@ -43,6 +43,23 @@ impl Directions {
         let branch = orthonormal(std::iter::once(steepest.clone()), &family, weights)?.pop()?;
         Some(Self { branch, family })
     }
+}
+
+/// The vectors made normal to `fixed`, which are orthonormal, and to each other, with length 1.
+fn orthonormal(
+    vectors: impl Iterator<Item = Vec<f64>>,
+    fixed: &[Vec<f64>],
+    weights: &[f64],
+) -> Option<Vec<Vec<f64>>> {
+    let mut out: Vec<Vec<f64>> = Vec::new();
+    for mut vector in vectors {
+        for other in fixed.iter().chain(&out) {
+            let part = product(weights, &vector, other);
+            add(&mut vector, -part, other);
+        }
+        out.push(scaled(vector, weights)?);
+    }
+    Some(out)
 }
 
 /// The borders of the equations at `x` that hold these directions of a family: the rows that fix them, and the combinations of equations

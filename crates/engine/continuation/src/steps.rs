@@ -19,12 +19,9 @@ const CORRECTION: f64 = 1e-3;
 /// Part of the largest of some levels by which the next one may differ from what they let expect, however small it is.
 const EXPECTED: f64 = 0.1;
 
-/// Where all growths are below this part of the rate of the equations the motion is far from where their units were taken, and what happens
-/// there is shorter than a step.
+/// Part of the largest level below which a growth is as good as 0. Where all levels are below this part of the rate of the equations the
+/// motion is far from where their units were taken, and what happens there is shorter than a step.
 const SLOW: f64 = 1e-5;
-
-/// Largest part of the levels at the last places that the error of a growth is.
-const UNCLEAR: f64 = 1e-3;
 
 /// Part of the size of levels below which a real one says that another branch may be near.
 const NEAR: f64 = 0.1;
@@ -113,46 +110,27 @@ impl<P: Problem> Tracer<'_, P> {
     }
 
     /// Returns `true` if the growths at `new` are about those that the last two places let expect, or so large that their signs are not in
-    /// doubt; elsewhere if those in the middle are about those of a parabola. A step is short against the distances over which the
+    /// doubt; elsewhere if those in the middle are about those of a parabola. Then a step is short against the distances over which the
     /// equations change, whatever the width of the range. (Of equilibria.)
     fn is_expected(&self, new: &Place<P::Local>, length: f64, watch: &dyn Watch) -> bool {
-        if self.problem.time().is_some() {
+        let Some(before) = self.before.as_ref().filter(|_| self.problem.time().is_none()) else {
             return true;
-        }
-        let (old, new, half) = ((0.0, &self.place.levels), (length, &new.levels), 0.5 * length);
-        let middle = || self.solve(half, watch).map(|(middle, _)| middle.levels);
-        let Some(before) = &self.before else {
-            return middle().is_ok_and(|middle| self.follows(&[old, (half, &middle)], new));
         };
-        let before = (-before.length, &before.levels);
-        let levels = [before.1, old.1, new.1].into_iter().flatten().flatten();
-        let largest = levels.fold(0.0, |most, level| level.growth.abs().max(most));
-        self.follows(&[before, old], new)
+        let [before, old, new] =
+            [(-before.length, &before.levels), (0.0, &self.place.levels), (length, &new.levels)];
+        let (half, largest) = (0.5 * length, self.largest());
+        let unclear = self.problem.unclear(new.1, self.settings.tolerance).max(SLOW * largest);
+        let middle = || self.solve(half, watch).map(|(middle, _)| middle.levels);
+        follows(&[before, old], new, unclear)
             || largest > SLOW * self.problem.rate()
-                && middle().is_ok_and(|middle| self.follows(&[before, old, new], (half, &middle)))
+                && middle().is_ok_and(|middle| follows(&[before, old, new], (half, &middle), unclear))
     }
 
-    /// Returns `true` if growths are about those of the polynomials through the others, each at its length; those that pass each other
-    /// change their ranks.
-    fn follows(&self, others: &[(f64, &Vec<Vec<Level>>)], (s, levels): (f64, &Vec<Vec<Level>>)) -> bool {
-        let unclear = self.problem.unclear(levels, self.settings.tolerance);
-        levels.iter().enumerate().all(|(class, levels)| {
-            if others.iter().any(|(_, other)| other.get(class).map_or(0, Vec::len) != levels.len()) {
-                return true;
-            }
-            let growth = |rank: usize, levels: &[Vec<Level>]| levels[class][rank].growth;
-            let part = |t: f64| {
-                others.iter().filter(|one| one.0 != t).map(|one| (s - one.0) / (t - one.0)).product::<f64>()
-            };
-            let at = |rank: usize| others.iter().map(|(t, other)| part(*t) * growth(rank, other)).sum();
-            let largest =
-                |rank: usize| others.iter().map(|(_, other)| growth(rank, other).abs()).fold(0.0, f64::max);
-            let mut expected: Vec<f64> = (0..levels.len()).map(at).collect();
-            expected.sort_by(|a, b| b.total_cmp(a));
-            levels.iter().zip(expected).enumerate().all(|(rank, (level, expected))| {
-                (expected - level.growth).abs() <= level.growth.abs().max(EXPECTED * largest(rank)) + unclear
-            })
-        })
+    /// The largest level at the last two places.
+    fn largest(&self) -> f64 {
+        let before = self.before.iter().flat_map(|before| &before.levels);
+        let levels = before.chain(&self.place.levels).flatten();
+        levels.fold(0.0, |most, level| level.growth.hypot(level.angle).max(most))
     }
 
     /// Gives growths within their error the signs that they have at the present place: they change where they are clear again. (Towards a
@@ -160,11 +138,9 @@ impl<P: Problem> Tracer<'_, P> {
     fn keep_unclear_signs(&self, new: &mut Place<P::Local>) {
         // those of orbits are levels of the last but one solution of Newton's method
         let noise = self.problem.unclear(&new.levels, self.settings.tolerance);
-        // the rate of the equations may have been far larger where the branch began
-        let all = [Some(&self.place.levels), self.before.as_ref().map(|before| &before.levels)];
-        let levels = all.into_iter().flatten().flatten().flatten();
-        let largest = levels.fold(0.0, |most: f64, level| level.growth.hypot(level.angle).max(most));
-        let noise = noise.min(UNCLEAR * largest);
+        // the rate of the equations may have been far larger where a branch of equilibria began
+        let known = if self.problem.time().is_some() { f64::INFINITY } else { SLOW * self.largest() };
+        let noise = noise.min(known);
         for (levels, old) in new.levels.iter_mut().zip(&self.place.levels) {
             if levels.len() == old.len() {
                 let unclear = levels.iter_mut().zip(old).filter(|(level, _)| level.growth.abs() <= noise);
@@ -286,4 +262,27 @@ impl<P: Problem> Tracer<'_, P> {
         self.keep_unclear_signs(&mut new);
         Ok(new)
     }
+}
+
+/// Growths at a length along the branch, by class and rank.
+type Course<'l> = (f64, &'l Vec<Vec<Level>>);
+
+/// Returns `true` if growths are about those of the polynomials through the others; those that pass each other change their ranks.
+fn follows(others: &[Course<'_>], (s, levels): Course<'_>, unclear: f64) -> bool {
+    let part = |t: f64| -> f64 {
+        others.iter().filter(|one| one.0 != t).map(|one| (s - one.0) / (t - one.0)).product()
+    };
+    levels.iter().enumerate().all(|(class, levels)| {
+        if others.iter().any(|(_, other)| other.get(class).map_or(0, Vec::len) != levels.len()) {
+            return true;
+        }
+        let along = |rank: usize| others.iter().map(move |(t, other)| (*t, other[class][rank].growth));
+        let mut expected: Vec<f64> =
+            (0..levels.len()).map(|rank| along(rank).map(|(t, growth)| part(t) * growth).sum()).collect();
+        expected.sort_by(|a, b| b.total_cmp(a));
+        levels.iter().zip(expected).enumerate().all(|(rank, (level, expected))| {
+            let largest = along(rank).fold(0.0, |most: f64, (_, growth)| growth.abs().max(most));
+            (expected - level.growth).abs() <= level.growth.abs().max(EXPECTED * largest) + unclear
+        })
+    })
 }

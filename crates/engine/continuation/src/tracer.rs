@@ -238,7 +238,6 @@ impl<'f, P: Problem> Tracer<'f, P> {
         changes.found.retain(|(at, special)| {
             (low - beyond..=high + beyond).contains(&at.parameter())
                 && !self.has_touched(at, *special, length)
-                && !self.is_repeated(at, *special)
         });
         if let Some(again) = changes.found.iter().position(|(at, special)| self.has_passed(at, *special)) {
             changes.found.truncate(again);
@@ -300,17 +299,6 @@ impl<'f, P: Problem> Tracer<'f, P> {
                 && x.len() == at.x.len()
                 && distance(&weights, x, &at.x) < AGAIN
                 && product(&weights, tangent, &at.tangent) > 0.0
-        })
-    }
-
-    /// Returns `true` for the special point at which the last step ended.
-    fn is_repeated(&self, at: &Place<P::Local>, special: Special) -> bool {
-        let (weights, same) = (self.problem.weights(&at.x), self.problem.accuracy());
-        self.passed.last().is_some_and(|(x, _, name, count)| {
-            *name == special.name()
-                && self.count < count + 2
-                && x.len() == at.x.len()
-                && distance(&weights, x, &at.x) < same
         })
     }
 
