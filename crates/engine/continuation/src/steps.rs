@@ -279,8 +279,8 @@ fn follows(others: &[Course<'_>], (s, levels): Course<'_>, unclear: f64) -> bool
         let along = |rank: usize| others.iter().map(move |(t, other)| (*t, other[class][rank].growth));
         let mut expected: Vec<f64> =
             (0..levels.len()).map(|rank| along(rank).map(|(t, growth)| part(t) * growth).sum()).collect();
-        expected.sort_by(|a, b| b.total_cmp(a));
-        levels.iter().zip(expected).enumerate().all(|(rank, (level, expected))| {
+        ascending(&mut expected);
+        levels.iter().zip(expected.iter().rev()).enumerate().all(|(rank, (level, expected))| {
             let largest = along(rank).fold(0.0, |most: f64, (_, growth)| growth.abs().max(most));
             (expected - level.growth).abs() <= level.growth.abs().max(EXPECTED * largest) + unclear
         })
