@@ -84,15 +84,19 @@ impl<P: Problem> Tracer<'_, P> {
         self.keep_unclear_signs(&mut new);
         let weights = self.problem.weights(&self.place.x);
         let turned = product(&weights, &self.place.tangent, &new.tangent);
-        let is_short = length <= FINE * self.settings.smallest_step;
         if turned >= STRAIGHT
-            && (is_short
+            && (self.is_fine(length)
                 || self.is_expected(&new, length, watch)
                     && (!self.is_near_crossing(&new) || self.leads_back(&new, length, watch)))
         {
             return Ok((new, first));
         }
         Err(Failure::Obstructed(Obstruction::Newton))
+    }
+
+    /// Returns `true` for a step so short that it is taken as it is.
+    pub(super) fn is_fine(&self, length: f64) -> bool {
+        length.abs() <= FINE * self.settings.smallest_step
     }
 
     /// The solution expected after `length`, and the length of the first correction.
@@ -112,12 +116,16 @@ impl<P: Problem> Tracer<'_, P> {
     /// Returns `true` if the growths at `new` are about those that the last two places let expect, or so large that their signs are not in
     /// doubt; elsewhere if those in the middle are about those of a parabola. Then a step is short against the distances over which the
     /// equations change, whatever the width of the range. (Of equilibria.)
-    fn is_expected(&self, new: &Place<P::Local>, length: f64, watch: &dyn Watch) -> bool {
+    pub(super) fn is_expected(&self, new: &Place<P::Local>, length: f64, watch: &dyn Watch) -> bool {
         let Some(before) = self.before.as_ref().filter(|_| self.problem.time().is_none()) else {
             return true;
         };
         let [before, old, new] =
             [(-before.length, &before.levels), (0.0, &self.place.levels), (length, &new.levels)];
+        let alike = |a: &[Vec<Level>], b: &[Vec<Level>]| a.iter().map(Vec::len).eq(b.iter().map(Vec::len));
+        if alike(before.1, old.1) && !alike(old.1, new.1) {
+            return false; // a motion of another symmetry
+        }
         let (half, largest) = (0.5 * length, self.largest());
         let unclear = self.problem.unclear(new.1, self.settings.tolerance).max(SLOW * largest);
         let middle = || self.solve(half, watch).map(|(middle, _)| middle.levels);

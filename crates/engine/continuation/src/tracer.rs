@@ -11,6 +11,7 @@ use super::point::{End, Motion, Obstruction, Point};
 use super::problem::{Failure, Problem};
 use super::settings::Settings;
 use super::special::Special;
+use super::steps::SHORTER;
 use motiform_dynamics::Watch;
 use std::collections::VecDeque;
 
@@ -227,9 +228,15 @@ impl<'f, P: Problem> Tracer<'f, P> {
         self.refine();
         let (mut new, mut length) = self.reach()?;
         let mut last = None;
-        if let Some((nearer, end)) = self.limit(&new)? {
+        while let Some((nearer, end)) = self.limit(&new)? {
             length = nearer.arclength - self.place.arclength;
-            (new, last) = (nearer, Some(end));
+            if self.is_fine(length) || self.is_expected(&nearer, length, self.watch) {
+                (new, last) = (nearer, Some(end));
+                break;
+            }
+            // what is found at the edge is of another branch
+            self.step = SHORTER * length.abs();
+            (new, length) = self.reach()?;
         }
         self.check(&new)?;
         let (new, length, mut changes) = self.examine(new, length, &mut last)?;
