@@ -30,11 +30,29 @@ const NEARLY: f64 = 1e-3;
 /// scale.
 const NOTHING: f64 = 1e-12;
 
-/// Returns `true` if the equations leave one direction only, and clearly so: no other branch crosses here.
-pub(super) fn is_alone<P: Problem>(problem: &P, at: &Place<P::Local>) -> bool {
+/// Beside a crossing where branches do not touch the second part is so many times as large on both sides; beside a fold it changes by less
+/// than this part of itself.
+const RISES: f64 = 2.0;
+const STEADY: f64 = 0.01;
+
+/// Returns `true` if the equations leave one direction only, and clearly so: no other branch crosses here. Over a wide range the next part
+/// is no scale: a small second part is judged by itself, by its course along the branch.
+pub(super) fn is_alone<P: Problem>(step: &Step<'_, P>, at: &Place<P::Local>) -> bool {
+    let problem = step.problem;
     let all = seen(problem.linear(&at.local), &problem.weights(&at.x));
     let largest = all.last().map_or(0.0, |part| part.0);
-    second(problem, at).is_some_and(|(second, next)| second > NEARLY * next && second > NOTHING * largest)
+    let Some((size, next)) = second(problem, at).filter(|parts| parts.0 > NOTHING * largest) else {
+        return false;
+    };
+    let s = at.arclength - step.old.arclength;
+    let beside =
+        |side: f64| Some(second(problem, &between(step, s + side * BESIDE * step.length).ok()?)?.0 / size);
+    size > SUSPECT * next
+        || match (beside(-1.0), beside(1.0)) {
+            (Some(low), Some(high)) if size > NEARLY * next => low.min(high) < RISES,
+            (Some(low), Some(high)) => (low - 1.0).abs().max((high - 1.0).abs()) < STEADY,
+            _ => size > NEARLY * next,
+        }
 }
 
 /// The same where the branch seems to turn back, or a level that seems to be that of a branch point vanishes: tests may be 0 within their

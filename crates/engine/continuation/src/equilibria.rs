@@ -11,7 +11,6 @@ use super::oscillation::Oscillation;
 use super::point::Motion;
 use super::problem::{Border, Equations, Failure, Linear, Problem};
 use super::special::{Broken, Hopf, Special};
-use super::tracer::TOLERANCE;
 use super::vicinity::Vicinity;
 use motiform_analysis::equilibrium::Units;
 use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
@@ -30,10 +29,10 @@ const GROWN: f64 = 0.25;
 /// A shape that vanishes at a rate of turning above this part of the rate of the equations is a wave.
 const TURNS: f64 = 1e-4;
 
-/// Distances at which members of a family with one value of the parameter are looked for, in sizes of the shape, and the part of the range
-/// within which it is one value.
+/// Distances at which members of a family with one value of the parameter are looked for, in sizes of the shape, and the residual of the
+/// equations with that value, in errors of solutions, below which they are members.
 const FAMILY: [f64; 2] = [0.05, 0.1];
-const SAME_PARAMETER: f64 = 1e-7;
+const SOLVED: f64 = 10.0;
 
 /// `f(u, p) - omega G u = 0` and `Gu . du = 0`; unknowns `(u, omega, p)`. Without a neutral direction (a circle, a system without
 /// symmetry) omega means nothing and is held instead.
@@ -347,8 +346,10 @@ impl Equilibria<'_> {
         let longer = if self.vicinity.is_offset() { longer / GROWN } else { longer };
         FAMILY.iter().all(|distance| {
             let guess = x.iter().zip(&direction).map(|(x, d)| x + distance * longer * d).collect();
-            let found = correct(&free, guess, &row, TOLERANCE, &());
-            found.is_ok_and(|found| (found.x[last] - x[last]).abs() < SAME_PARAMETER * self.widths[0])
+            let Ok(mut found) = correct(&free, guess, &row, TIGHT, &()) else { return false };
+            found.x[last] = x[last];
+            let residual = free.local(&found.x, &()).map(|local| norm(&local.linear.residual));
+            residual.is_ok_and(|residual| residual < SOLVED * self.accuracy())
         })
     }
 

@@ -54,7 +54,7 @@ pub(super) fn locate<P: Problem>(step: &Step<'_, P>) -> Result<Changes<P::Local>
         }
     }
     without_folds(step.problem, &mut changes.found);
-    name_folds(step.problem, &mut changes.found);
+    name_folds(step, &mut changes.found);
     // beside a special point a growth may come to 0 because of it
     if changes.found.is_empty() {
         changes.found = touches;
@@ -90,7 +90,7 @@ fn add<P: Problem>(
     if family && special == Special::Fold {
         return Ok(());
     }
-    let crosses = special == Special::BranchPoint && !is_alone(problem, &at);
+    let crosses = special == Special::BranchPoint && !is_alone(step, &at);
     let better = if crosses { solved(step, &at) } else { None };
     let blur = match &better {
         _ if !crosses || problem.time().is_some() => 0.0,
@@ -189,9 +189,9 @@ fn without_folds<P: Problem>(problem: &P, found: &mut Vec<(Place<P::Local>, Spec
 /// Where a level vanishes and the equations leave one direction only, no branches cross: that direction leaves the parameter as it is, and
 /// the branch turns back. (Along a canard the slope is smaller than its error over most of the branch: there the level shows the fold, and
 /// the sign of the slope may not.)
-fn name_folds<P: Problem>(problem: &P, found: &mut [(Place<P::Local>, Special)]) {
+fn name_folds<P: Problem>(step: &Step<'_, P>, found: &mut [(Place<P::Local>, Special)]) {
     for (at, special) in found.iter_mut().filter(|one| one.1 == Special::BranchPoint) {
-        if is_alone(problem, at) {
+        if is_alone(step, at) {
             *special = Special::Fold;
         }
     }

@@ -16,6 +16,13 @@ use motiform_dynamics::sample::ascending;
 /// the step.
 const CORRECTION: f64 = 1e-3;
 
+/// Part of the largest of some levels by which the next one may differ from what they let expect, however small it is.
+const EXPECTED: f64 = 0.1;
+
+/// Part of the largest level below which a growth is as good as 0. Where all levels are below this part of the rate of the equations the
+/// motion is far from where their units were taken, and what happens there is shorter than a step.
+const SLOW: f64 = 1e-5;
+
 /// Part of the size of levels below which a real one says that another branch may be near.
 const NEAR: f64 = 0.1;
 
@@ -73,6 +80,27 @@ impl<P: Problem> Tracer<'_, P> {
     }
 
     pub(super) fn attempt(&self, length: f64, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), Failure> {
+        let (mut new, first) = self.solve(length, watch)?;
+        self.keep_unclear_signs(&mut new);
+        let weights = self.problem.weights(&self.place.x);
+        let turned = product(&weights, &self.place.tangent, &new.tangent);
+        if turned >= STRAIGHT
+            && (self.is_fine(length)
+                || self.is_expected(&new, length, watch)
+                    && (!self.is_near_crossing(&new) || self.leads_back(&new, length, watch)))
+        {
+            return Ok((new, first));
+        }
+        Err(Failure::Obstructed(Obstruction::Newton))
+    }
+
+    /// Returns `true` for a step so short that it is taken as it is.
+    pub(super) fn is_fine(&self, length: f64) -> bool {
+        length.abs() <= FINE * self.settings.smallest_step
+    }
+
+    /// The solution expected after `length`, and the length of the first correction.
+    fn solve(&self, length: f64, watch: &dyn Watch) -> Result<(Place<P::Local>, f64), Failure> {
         let old = &self.place;
         let weights = self.problem.weights(&old.x);
         let row = normal(&old.tangent, &weights);
@@ -82,18 +110,35 @@ impl<P: Problem> Tracer<'_, P> {
         if first > ASTRAY * length || !holds(&self.problem, &found, self.settings.tolerance) {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
-        let mut new = place(&self.problem, found, &row, old.arclength + length)?;
-        self.keep_unclear_signs(&mut new);
-        if product(&weights, &old.tangent, &new.tangent) < STRAIGHT {
-            return Err(Failure::Obstructed(Obstruction::Newton));
+        Ok((place(&self.problem, found, &row, old.arclength + length)?, first))
+    }
+
+    /// Returns `true` if the growths at `new` are about those that the last two places let expect, or so large that their signs are not in
+    /// doubt; elsewhere if those in the middle are about those of a parabola. Then a step is short against the distances over which the
+    /// equations change, whatever the width of the range. (Of equilibria.)
+    pub(super) fn is_expected(&self, new: &Place<P::Local>, length: f64, watch: &dyn Watch) -> bool {
+        let Some(before) = self.before.as_ref().filter(|_| self.problem.time().is_none()) else {
+            return true;
+        };
+        let [before, old, new] =
+            [(-before.length, &before.levels), (0.0, &self.place.levels), (length, &new.levels)];
+        let alike = |a: &[Vec<Level>], b: &[Vec<Level>]| a.iter().map(Vec::len).eq(b.iter().map(Vec::len));
+        if alike(before.1, old.1) && !alike(old.1, new.1) {
+            return false; // a motion of another symmetry
         }
-        if self.is_near_crossing(&new)
-            && length > FINE * self.settings.smallest_step
-            && !self.leads_back(&new, length, watch)
-        {
-            return Err(Failure::Obstructed(Obstruction::Newton));
-        }
-        Ok((new, first))
+        let (half, largest) = (0.5 * length, self.largest());
+        let unclear = self.problem.unclear(new.1, self.settings.tolerance).max(SLOW * largest);
+        let middle = || self.solve(half, watch).map(|(middle, _)| middle.levels);
+        follows(&[before, old], new, unclear)
+            || largest > SLOW * self.problem.rate()
+                && middle().is_ok_and(|middle| follows(&[before, old, new], (half, &middle), unclear))
+    }
+
+    /// The largest level at the last two places.
+    fn largest(&self) -> f64 {
+        let before = self.before.iter().flat_map(|before| &before.levels);
+        let levels = before.chain(&self.place.levels).flatten();
+        levels.fold(0.0, |most, level| level.growth.hypot(level.angle).max(most))
     }
 
     /// Gives growths within their error the signs that they have at the present place: they change where they are clear again. (Towards a
@@ -101,6 +146,9 @@ impl<P: Problem> Tracer<'_, P> {
     fn keep_unclear_signs(&self, new: &mut Place<P::Local>) {
         // those of orbits are levels of the last but one solution of Newton's method
         let noise = self.problem.unclear(&new.levels, self.settings.tolerance);
+        // the rate of the equations may have been far larger where a branch of equilibria began
+        let known = if self.problem.time().is_some() { f64::INFINITY } else { SLOW * self.largest() };
+        let noise = noise.min(known);
         for (levels, old) in new.levels.iter_mut().zip(&self.place.levels) {
             if levels.len() == old.len() {
                 let unclear = levels.iter_mut().zip(old).filter(|(level, _)| level.growth.abs() <= noise);
@@ -222,4 +270,27 @@ impl<P: Problem> Tracer<'_, P> {
         self.keep_unclear_signs(&mut new);
         Ok(new)
     }
+}
+
+/// Growths at a length along the branch, by class and rank.
+type Course<'l> = (f64, &'l Vec<Vec<Level>>);
+
+/// Returns `true` if growths are about those of the polynomials through the others; those that pass each other change their ranks.
+fn follows(others: &[Course<'_>], (s, levels): Course<'_>, unclear: f64) -> bool {
+    let part = |t: f64| -> f64 {
+        others.iter().filter(|one| one.0 != t).map(|one| (s - one.0) / (t - one.0)).product()
+    };
+    levels.iter().enumerate().all(|(class, levels)| {
+        if others.iter().any(|(_, other)| other.get(class).map_or(0, Vec::len) != levels.len()) {
+            return true;
+        }
+        let along = |rank: usize| others.iter().map(move |(t, other)| (*t, other[class][rank].growth));
+        let mut expected: Vec<f64> =
+            (0..levels.len()).map(|rank| along(rank).map(|(t, growth)| part(t) * growth).sum()).collect();
+        ascending(&mut expected);
+        levels.iter().zip(expected.iter().rev()).enumerate().all(|(rank, (level, expected))| {
+            let largest = along(rank).fold(0.0, |most: f64, (_, growth)| growth.abs().max(most));
+            (expected - level.growth).abs() <= level.growth.abs().max(EXPECTED * largest) + unclear
+        })
+    })
 }

@@ -1,7 +1,7 @@
 //! Pseudo-arclength continuation with step control, over any equations.
 
 use super::between::{Step, between};
-use super::correct::{correct, directions, distance, normal, product, scaled};
+use super::correct::{TIGHT, correct, directions, distance, normal, product, scaled};
 use super::families::border_at_start;
 use super::levels::{unstable, zeros};
 use super::locate::{Changes, locate};
@@ -11,6 +11,7 @@ use super::point::{End, Motion, Obstruction, Point};
 use super::problem::{Failure, Problem};
 use super::settings::Settings;
 use super::special::Special;
+use super::steps::SHORTER;
 use motiform_dynamics::Watch;
 use std::collections::VecDeque;
 
@@ -227,13 +228,24 @@ impl<'f, P: Problem> Tracer<'f, P> {
         self.refine();
         let (mut new, mut length) = self.reach()?;
         let mut last = None;
-        if let Some((nearer, end)) = self.limit(&new)? {
+        while let Some((nearer, end)) = self.limit(&new)? {
             length = nearer.arclength - self.place.arclength;
-            (new, last) = (nearer, Some(end));
+            if self.is_fine(length) || self.is_expected(&nearer, length, self.watch) {
+                (new, last) = (nearer, Some(end));
+                break;
+            }
+            // what is found at the edge is of another branch
+            self.step = SHORTER * length.abs();
+            (new, length) = self.reach()?;
         }
         self.check(&new)?;
         let (new, length, mut changes) = self.examine(new, length, &mut last)?;
-        changes.found.retain(|(at, special)| !self.has_touched(at, *special, length));
+        let (low, high) = self.settings.range;
+        let beyond = self.problem.accuracy().max(TIGHT) * (high - low);
+        changes.found.retain(|(at, special)| {
+            (low - beyond..=high + beyond).contains(&at.parameter())
+                && !self.has_touched(at, *special, length)
+        });
         if let Some(again) = changes.found.iter().position(|(at, special)| self.has_passed(at, *special)) {
             changes.found.truncate(again);
             self.hand_out_special(changes.found, (&new, length));

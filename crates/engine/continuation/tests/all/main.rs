@@ -19,6 +19,7 @@ mod offsets;
 mod orbits;
 mod path;
 mod random_texts;
+mod ranges;
 #[path = "../../../../samples.rs"]
 mod samples;
 mod shrinking;

@@ -1,0 +1,95 @@
+//! Branches over ranges of any width, from starts anywhere on them: the same special points where the ranges overlap, and none outside.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use motiform_analysis::{Error, RelativeEquilibrium, Result};
+use motiform_continuation::{Branch, Family, Point, Settings};
+use motiform_dynamics::Equivariant;
+use motiform_models::amplitudes::{Definition, ParameterDefinition, info};
+
+/// The bodies of an equation for one amplitude.
+fn family(symmetry: &str, equation: &str) -> impl Fn(f64) -> Result<Box<dyn Equivariant>> + Sync + use<> {
+    let model = info(&Definition {
+        modes: vec![1],
+        velocity: None,
+        symmetry: Some(symmetry.to_owned()),
+        parameters: vec![ParameterDefinition::new("p", 0.0)],
+        equations: vec![equation.to_owned()],
+        noise: std::collections::BTreeMap::new(),
+    })
+    .expect("a model");
+    move |p| {
+        let none = |error: motiform_models::Error| Error::NoBody { value: p, why: error.to_string() };
+        let body: Box<dyn Equivariant> = model.build(&[p]).map_err(none)?;
+        Ok(body)
+    }
+}
+
+/// The points on both sides of the equilibrium near `x`.
+fn points(family: &dyn Family, (p, x): (f64, f64), settings: &Settings) -> Vec<Point> {
+    let start = RelativeEquilibrium::find(family.at(p).unwrap().as_ref(), &[x, 0.0]).unwrap();
+    let leg = |settings| Branch::of_equilibria(family, p, &start, &settings, &()).unwrap();
+    [settings.reversed(), *settings].into_iter().flat_map(leg).collect()
+}
+
+/// The special points by their parameter.
+fn special(points: &[Point]) -> Vec<(f64, &'static str)> {
+    let mut found: Vec<_> = points.iter().filter_map(|at| Some((at.parameter, at.special?.name()))).collect();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found
+}
+
+/// `|z|^2 = 1 + p` crosses `|z| = 1` at p = 0, and is unstable below. Over a wide range steps led from one to the other, past the crossing;
+/// to the pitchfork at p = -1, outside of the range; or the growth beyond was taken for 0.
+#[test]
+fn a_crossing_is_found_over_ranges_of_any_width_from_any_start() {
+    for scale in [1e-3, 1.0, 1e3] {
+        let family = family("rotation", &format!("{scale}*(i*0.5*|z1|^2 + (|z1|^2-1)*(1+p-|z1|^2))*z1"));
+        for (high, p) in
+            [(1.0, 0.25), (1e2, 1.0), (1e2, 1e2), (1e4, 0.25), (1e4, 1e4), (1e5, 1e5), (9e5, 9e5)]
+        {
+            let found = points(&family, (p, (1.0 + p).sqrt()), &Settings::over(-0.5, high));
+            let case = format!("x{scale}, {p} to {high}: {:?}", special(&found));
+            assert!(matches!(special(&found)[..], [(at, "branch-point")] if at.abs() < 1e-9), "{case}");
+            let right = |at: &Point| at.special.is_some() || (at.parameter < 0.0) == (at.unstable > 0);
+            assert!(found.iter().all(right), "{case}");
+            assert!(
+                found.iter().any(|at| at.parameter == -0.5) && found.iter().any(|at| at.parameter == high),
+                "{case}"
+            );
+        }
+    }
+}
+
+/// The last step ends at the edge of the range, where the rest and the motion with `|z| = 1` are solutions, too.
+#[test]
+fn the_end_at_the_edge_of_a_wide_range_is_on_the_branch() {
+    let family = family("rotation", "(i*0.5*|z1|^2 + (|z1|^2-1)*(1+p-|z1|^2))*z1");
+    let low = -0.9_f64;
+    for high in [1e3, 3e3, 1e4] {
+        let found = points(&family, (high, f64::sqrt(1.0 + high)), &Settings::over(low, high));
+        let end = found.iter().find(|at| at.parameter == low).map(|at| at.motion.shape());
+        let size = end.map(|shape| f64::hypot(shape[0], shape[1]));
+        let special = special(&found);
+        assert!(size.is_some_and(|size| (size - f64::sqrt(1.0 + low)).abs() < 1e-6), "{high}: {size:?}");
+        assert!(matches!(special[..], [(at, "branch-point")] if at.abs() < 1e-9), "{high}: {special:?}");
+    }
+}
+
+/// Beside a parameter whose range is far wider than what matters, all else seemed to vanish: folds were called branch points or
+/// continua, or listed twice.
+#[test]
+fn folds_have_their_name_over_ranges_of_any_width() {
+    // p + a x - x^3 = 0: folds at p = +-2 (a/3)^(3/2)
+    for a in [0.1, 0.01] {
+        let family = family("none", &format!("p + {a}*re(z1) - re(z1)^3 - i*im(z1)"));
+        let fold = 2.0 * f64::powf(a / 3.0, 1.5);
+        for high in [1.0, 1e4, 1e5, 9e5] {
+            let settings = Settings { most_points: 1500, ..Settings::over(-high, high) };
+            let found = special(&points(&family, (-0.01, -0.4), &settings));
+            let [(low, first), (high, second)] = found[..] else { unreachable!("{a} {high}: {found:?}") };
+            assert_eq!((first, second), ("fold", "fold"), "{a} {high}");
+            assert!((low + fold).abs() < 1e-9 && (high - fold).abs() < 1e-9, "{a} {high}: {found:?}");
+        }
+    }
+}
