@@ -131,5 +131,5 @@ def test_wishes_that_are_none_are_refused_before_the_run() -> None:
     ):
         with pytest.raises(ValueError, match="on_end = 'stop': give 'warn'"):
             call()
-    with pytest.raises(ValueError, match="starts = -1: give at least 1"):
+    with pytest.raises(ValueError, match="starts = -1: give a whole number above 0"):
         body.equilibria(starts=-1)

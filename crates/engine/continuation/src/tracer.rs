@@ -226,26 +226,16 @@ impl<'f, P: Problem> Tracer<'f, P> {
             return Err(End::Stopped);
         }
         self.refine();
-        let (mut new, mut length) = self.reach()?;
-        let mut last = None;
-        while let Some((nearer, end)) = self.limit(&new)? {
-            length = nearer.arclength - self.place.arclength;
-            if self.is_fine(length) || self.is_expected(&nearer, length, self.watch) {
-                (new, last) = (nearer, Some(end));
-                break;
+        let ((new, length, mut changes), last) = loop {
+            let (new, length, mut last) = self.reach_within()?;
+            self.check(&new)?;
+            let examined = self.examine(new, length, &mut last)?;
+            if self.is_fine(examined.1) || examined.2.found.iter().all(|(at, _)| self.is_within(at)) {
+                break (examined, last);
             }
-            // what is found at the edge is of another branch
-            self.step = SHORTER * length.abs();
-            (new, length) = self.reach()?;
-        }
-        self.check(&new)?;
-        let (new, length, mut changes) = self.examine(new, length, &mut last)?;
-        let (low, high) = self.settings.range;
-        let beyond = self.problem.accuracy().max(TIGHT) * (high - low);
-        changes.found.retain(|(at, special)| {
-            (low - beyond..=high + beyond).contains(&at.parameter())
-                && !self.has_touched(at, *special, length)
-        });
+            self.step = SHORTER * examined.1.abs(); // the branch leaves the range on the way
+        };
+        changes.found.retain(|(at, special)| self.is_within(at) && !self.has_touched(at, *special, length));
         if let Some(again) = changes.found.iter().position(|(at, special)| self.has_passed(at, *special)) {
             changes.found.truncate(again);
             self.hand_out_special(changes.found, (&new, length));
@@ -266,6 +256,28 @@ impl<'f, P: Problem> Tracer<'f, P> {
         self.before = Some(Before { x: old.x, tangent: old.tangent, levels: old.levels, length });
         self.follow_family();
         last.map_or_else(|| self.ends(), Err)
+    }
+
+    /// The next place of the branch, the length of the step, and why the branch ends there, where it does.
+    fn reach_within(&mut self) -> Result<(Place<P::Local>, f64, Option<End>), End> {
+        let (mut new, mut length) = self.reach()?;
+        while let Some((nearer, end)) = self.limit(&new)? {
+            length = nearer.arclength - self.place.arclength;
+            if self.is_fine(length) || self.is_expected(&nearer, length, self.watch) {
+                return Ok((nearer, length, Some(end)));
+            }
+            // what is found at the edge is of another branch
+            self.step = SHORTER * length.abs();
+            (new, length) = self.reach()?;
+        }
+        Ok((new, length, None))
+    }
+
+    /// Returns `true` if the parameter is within the range, or beyond it by no more than its error.
+    fn is_within(&self, at: &Place<P::Local>) -> bool {
+        let (low, high) = self.settings.range;
+        let beyond = self.problem.accuracy().max(TIGHT) * (high - low);
+        (low - beyond..=high + beyond).contains(&at.parameter())
     }
 
     /// The changes on the way to `new`. Where a change cannot be located, shorter steps are tried: a step over a gap between two branches

@@ -89,7 +89,7 @@ def scan(
     More: docs/python.md, docs/clusters.md.
     """
     known_whole(samples=samples, seed=seed, threads=threads)
-    if not isinstance(model, Model) or not isinstance(axes, Mapping | None):
+    if not hasattr(model, "_study") or not isinstance(axes, Mapping | None):
         raise TypeError(f"scan({reprlib.repr(model)}, {reprlib.repr(axes)}): give a body, and a mapping from parameters to values")
     made = None if axes is None else [(name, axis_of(name, values)) for name, values in axes.items()]
     study = model._study if random is None else model._study.with_(None, None, {"random": random})

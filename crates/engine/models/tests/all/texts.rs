@@ -4,12 +4,17 @@
 
 use crate::amplitudes::definition;
 use motiform_dynamics::{Dual, VectorField};
-use motiform_models::amplitudes::{Amplitudes, DefinitionError, Equations, Formula, info};
+use motiform_models::amplitudes::{Amplitudes, Definition, DefinitionError, Equations, Formula, info};
 
-/// The equation of `z1`, beside two that have every symmetry.
+/// The equation of `z1`, beside two that have every symmetry; this one need not have any.
 fn read(text: &str) -> Result<Equations, DefinitionError> {
+    with_symmetry(text, Some("none"))
+}
+
+fn with_symmetry(text: &str, symmetry: Option<&str>) -> Result<Equations, DefinitionError> {
     let parameters = [("gamma", 2.0), ("a1", -1.0), ("omega", 0.5)];
-    Equations::new(&definition(&[1, 2, 3], &[text, "-z2", "-z3"], &parameters))
+    let symmetry = symmetry.map(str::to_owned);
+    Equations::new(&Definition { symmetry, ..definition(&[1, 2, 3], &[text, "-z2", "-z3"], &parameters) })
 }
 
 /// The terms with their values at gamma = 2, a1 = -1, omega = .5.
@@ -85,7 +90,7 @@ fn coefficients_that_are_real_however_they_are_written_keep_the_mirror() {
         ("exp(i*omega)*z1", [libm::cos(0.5), libm::sin(0.5)], false),
     ] {
         assert_eq!(terms(text), [("z1".to_owned(), value)], "{text}");
-        assert_eq!(read(text).unwrap().symmetry().mirror, mirror, "{text}");
+        assert_eq!(with_symmetry(text, None).unwrap().symmetry().mirror, mirror, "{text}");
     }
     let refused = read("sqrt(omega + i*omega)*z1").unwrap_err();
     assert!(refused.problem.contains("real number"), "{refused}");
