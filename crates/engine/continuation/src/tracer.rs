@@ -27,6 +27,9 @@ const AGAIN: f64 = 1e-7;
 /// Part of a step within which a level that touches 0 does so because of a special point.
 const NEXT_TO: f64 = 0.1;
 
+/// The next place of a branch, the length of the step to it, and why the branch ends there, where it does.
+type Reached<L> = (Place<L>, f64, Option<End>);
+
 /// Where a step leads, its length, and what changes on it.
 type Examined<L> = (Place<L>, f64, Changes<L>);
 
@@ -259,7 +262,7 @@ impl<'f, P: Problem> Tracer<'f, P> {
     }
 
     /// The next place of the branch, the length of the step, and why the branch ends there, where it does.
-    fn reach_within(&mut self) -> Result<(Place<P::Local>, f64, Option<End>), End> {
+    fn reach_within(&mut self) -> Result<Reached<P::Local>, End> {
         let (mut new, mut length) = self.reach()?;
         while let Some((nearer, end)) = self.limit(&new)? {
             length = nearer.arclength - self.place.arclength;

@@ -144,20 +144,22 @@ fn nothing_wrong_is_said_of_a_sample() {
     }
 }
 
-/// Circling cells of a mirror-symmetric law whose drive comes and goes are not handed, whatever the likelihood says of some of them.
+/// Circling cells of a mirror-symmetric law whose drive comes and goes are not handed, whatever the likelihood says of them; of some
+/// nothing else casts doubt upon it than innovations that are not white.
 #[test]
 fn a_drive_that_comes_and_goes_is_no_handedness() {
     let options = FitOptions { drift: false, simulations: 0, draws: 4, ..FitOptions::default() };
     let law = &laws()[1].1;
-    let mut handed = 0;
-    for seed in 0..draws(5, 20) {
-        let record = Change::Rhythm(0.15).record(law, law, SAMPLING, 7400 + seed).expect("in bounds");
+    let mut alone = 0;
+    for seed in 7413..7413 + draws(3, 20) {
+        let record = Change::Rhythm(0.15).record(law, law, SAMPLING, seed).expect("in bounds");
         let fit = cells(vec![record], &options, 1).remove(0).fitted.expect("a fit");
         println!("{seed}: {:?}, {:?}", fit.handedness.symmetry, fit.doubts);
-        handed += u32::from(fit.handedness.symmetry == Symmetry::Handed);
+        let by_likelihood = fit.handedness.symmetry == Symmetry::Handed;
+        alone += u32::from(by_likelihood && fit.doubts.len() == 1 && fit.doubts[0].contains("not white"));
         assert_ne!(fit.symmetry(), Symmetry::Handed, "{seed}");
     }
-    assert!(handed > 0, "none that tests it");
+    assert!(alone > 0, "none that tests it");
 }
 
 /// A quasi-periodic cell of less than two periods, whose fitted equations end in a circle after the record: no circle. A cell that
