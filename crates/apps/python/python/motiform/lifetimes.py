@@ -28,8 +28,8 @@ class Lifetimes:
     """The parameter."""
     values: pd.DataFrame
     """A row for each of its values: the ``starts``, those that ``blew_up``, were ``captured``, were ``lasting``, moved ``regular``, or were ``lost``; the
-    ``delay`` after which a life counts, the time ``until`` which they are followed, ``events`` (ends of lives), the time ``watched``, and the mean ``life`` with its exact 95 % limits (NaN
-    and infinity without events). Times are model times."""
+    ``delay`` after which a life counts, the time ``until`` which they are followed, ``events`` (ends of lives; ``early`` ones, before the delay,
+    do not count), the time ``watched``, and the mean ``life`` with its exact 95 % limits (NaN and infinity without events). Times are model times."""
     law: str
     """``power-law`` (a crisis), ``exponential`` (none), ``cannot-be-told-apart``, ``neither``, ``not-exponential`` or ``too-few``."""
     sentence: str

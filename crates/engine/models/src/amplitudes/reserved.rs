@@ -31,9 +31,9 @@ const SCAN: [&str; 21] = [
 ];
 
 /// Columns of lifetimes.
-const LIVES: [&str; 13] = [
-    "blew_up", "captured", "lasting", "regular", "lost", "delay", "events", "watched", "life", "lower",
-    "upper", "starts", "until",
+const LIVES: [&str; 14] = [
+    "blew_up", "captured", "lasting", "regular", "lost", "delay", "events", "watched", "early", "life",
+    "lower", "upper", "starts", "until",
 ];
 
 /// Columns of branches, of sweeps beneath them, and of curves of special points.

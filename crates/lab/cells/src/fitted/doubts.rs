@@ -4,7 +4,7 @@ use crate::regime::FittedRegime;
 use motiform_inference::{COLOURED, HANDED_RATE, Handedness, PValue, Symmetry, Warning};
 
 /// Least p-value of white innovations, of any channel, of a handed cell: that of white noise is lower in 10 to 20 of 1000 records of 120
-/// to 300 frames and six channels (the test is one of many frames).
+/// to 300 frames and six channels (the test is one of many frames). Below [`COLOURED`] it is a warning, handed or not.
 const WHITE: f64 = 1e-3;
 
 /// Serious warnings, and what speaks against the test of handedness; `beside`: its p-values beside a velocity of the stage, in
@@ -33,7 +33,7 @@ pub(super) fn doubts(
             PValue(handedness.p_value)
         ));
     }
-    if let Some(p) = white.filter(|p| handed && *p < WHITE) {
+    if let Some(p) = white.filter(|p| handed && (COLOURED..WHITE).contains(p)) {
         doubts.push(format!(
             "whether the cell is handed is not decided: innovations of the handed law are not white ({}), and what it leaves out, as a \
              drive that comes and goes, may look like a handedness",

@@ -49,19 +49,23 @@ impl Fitted {
         self.model().converged() && self.doubts.is_empty() && !biased
     }
 
+    /// An error of the noise of this place, as far as it holds: not at a bound of the search.
+    fn held(&self, error: f64, place: usize) -> Option<f64> {
+        (self.has_errors_of_noise() && !self.model().noise.at_bound[place]).then_some(error)
+    }
+
     /// The errors of the noise of velocity and shape, as far as they hold.
     pub(crate) fn errors_of_noise(&self) -> [Option<f64>; 2] {
         let noise = &self.model().noise;
-        [(&noise.eta_v, VELOCITY), (&noise.eta_shape, SHAPE)]
-            .map(|(one, place)| (self.has_errors_of_noise() && !noise.at_bound[place]).then_some(one.error))
+        [self.held(noise.eta_v.error, VELOCITY), self.held(noise.eta_shape.error, SHAPE)]
     }
 
     /// All of it as JSON; errors that do not hold are null.
     pub(crate) fn noise_json(&self) -> Value {
         let noise = &self.model().noise;
-        let number = |Estimate { value, error, robust, .. }: &Estimate, place: usize| {
-            let known = |error: f64| (self.has_errors_of_noise() && !noise.at_bound[place]).then_some(error);
-            json!({ "value": value, "error": known(*error), "robust_error": known(*robust) })
+        let number = |one: &Estimate, place: usize| {
+            let [error, robust] = [one.error, one.robust].map(|error| self.held(error, place));
+            json!({ "value": one.value, "error": error, "robust_error": robust })
         };
         json!({
             "measurement_factor": number(&noise.s, FACTOR),
