@@ -20,6 +20,8 @@ mod tools;
 #[cfg(test)]
 mod vocabulary;
 
+use crate::commands;
+use crate::output::End;
 pub(crate) use atlas::AtlasOptions;
 pub(crate) use cells::{CellsOptions, FitCellsOptions, ObserveOptions};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -54,79 +56,96 @@ pub(crate) struct Arguments {
     pub(crate) command: Command,
 }
 
-#[derive(Subcommand)]
-pub(crate) enum Command {
+/// The commands: help, name, options, and the module of `commands` that carries it out, if the program is built with this feature.
+macro_rules! commands {
+    ($($(#[$help:meta])* $name:ident($options:ty) => $module:ident $(if $feature:literal)?,)*) => {
+        #[derive(Subcommand)]
+        pub(crate) enum Command {
+            $($(#[$help])* $(#[cfg(feature = $feature)])? $name($options),)*
+        }
+
+        impl Command {
+            /// Carries it out.
+            pub(crate) fn run(self) -> anyhow::Result<End> {
+                match self {
+                    $($(#[cfg(feature = $feature)])? Self::$name(options) => commands::$module::run(&options),)*
+                }
+            }
+        }
+    };
+}
+
+commands! {
     /// List the models, or one model's equations, parameters and presets
     #[command(after_help = "More: docs/equations.md; units: docs/units.md.")]
-    Models(ModelsOptions),
+    Models(ModelsOptions) => models,
     /// Simulate one body: write its path, shape and figures
     #[command(after_help = SIMULATE_HELP)]
-    Simulate(Box<SimulateOptions>),
+    Simulate(Box<SimulateOptions>) => simulate,
     /// Compute a phase diagram over one or two parameters, or a map of basins over coordinates of the start, on all cores
     #[command(after_help = SCAN_HELP)]
-    Scan(Box<ScanOptions>),
+    Scan(Box<ScanOptions>) => scan,
     /// Merge the folders of a scan that was computed in shards
     #[command(
         after_help = "Example: motiform merge shard1 shard2 shard3 --out whole\n\nMore: docs/clusters.md."
     )]
-    Merge(MergeOptions),
+    Merge(MergeOptions) => merge,
     /// Classify a motion: its regime, the evidence for it, and how certain it is
     #[command(after_help = CLASSIFY_HELP)]
-    Classify(Box<ClassifyOptions>),
+    Classify(Box<ClassifyOptions>) => classify,
     /// Compute Lyapunov exponents with errors: do neighbouring orbits separate?
     #[command(after_help = LYAPUNOV_HELP)]
-    Lyapunov(Box<LyapunovOptions>),
+    Lyapunov(Box<LyapunovOptions>) => lyapunov,
     /// Follow a motion along a parameter, stable or not: where it is born, changes and ends
     #[command(after_help = CONTINUE_HELP)]
-    Continue(Box<ContinueOptions>),
+    Continue(Box<ContinueOptions>) => continuation,
     /// Map a plane of two parameters: which motions happen where, and by which bifurcation each begins or ends
     #[command(after_help = ATLAS_HELP)]
-    Atlas(Box<AtlasOptions>),
+    Atlas(Box<AtlasOptions>) => atlas,
     /// Find the steady motions at one point, stable or not: at rest, straight, circular
     #[command(after_help = EQUILIBRIA_HELP)]
-    Equilibria(Box<EquilibriaOptions>),
+    Equilibria(Box<EquilibriaOptions>) => equilibria,
     /// Find where a motion crosses a surface: one coordinate at a fixed value
     #[command(after_help = SECTION_HELP)]
-    Section(Box<SectionOptions>),
+    Section(Box<SectionOptions>) => section,
     /// Measure how long transient chaos lives along a parameter, and by which law: is there a crisis?
     #[command(after_help = lifetimes::LIFETIMES_HELP)]
-    Lifetimes(Box<LifetimesOptions>),
+    Lifetimes(Box<LifetimesOptions>) => lifetimes,
     /// Measure many bodies: mean-square displacement, diffusion, correlations, distributions, first-passage times, spectra
     #[command(after_help = statistics::STATISTICS_HELP)]
-    Statistics(Box<StatisticsOptions>),
+    Statistics(Box<StatisticsOptions>) => statistics,
     /// Say how tracked cells move: read outlines, compute modes and their quality, name the motion or what is missing
     #[command(after_help = cells::OBSERVE_HELP)]
-    Observe(Box<ObserveOptions>),
+    Observe(Box<ObserveOptions>) => observe,
     /// Fit the symmetric equations that describe tracked cells, with errors, regime and place on the paper's planes
     #[command(after_help = cells::FIT_HELP)]
-    Fit(Box<FitCellsOptions>),
+    Fit(Box<FitCellsOptions>) => fit,
     /// Reproduce the paper: every figure, every claim, one HTML report
     #[command(after_help = REPRODUCE_HELP)]
-    Reproduce(ReproduceOptions),
+    Reproduce(ReproduceOptions) => reproduce,
     /// Explore the models in a browser: a map of motions, and a body that moves at the chosen parameters
-    #[cfg(feature = "explorer")]
     #[command(after_help = EXPLORE_HELP)]
-    Explore(ExploreOptions),
+    Explore(ExploreOptions) => explore if "explorer",
     /// Write a commented study, or a model of your own, to start from
     #[command(after_help = NEW_HELP)]
-    New(NewOptions),
+    New(NewOptions) => new,
     /// Say what this machine has (vector instructions, ffmpeg, browser, Python), and time it: about a second
     #[command(after_help = "More: docs/recipes.md.")]
-    Doctor(DoctorOptions),
+    Doctor(DoctorOptions) => doctor,
     /// Check a study file and print the resulting plan, without computing
     #[command(after_help = "More: docs/recipes.md, 'Study files'.")]
-    Check(CheckOptions),
+    Check(CheckOptions) => check,
     /// Check a result: digests of its files, the hash of its plan, and a sample of rows computed again and compared bit by bit
     #[command(after_help = VERIFY_HELP)]
-    Verify(VerifyOptions),
+    Verify(VerifyOptions) => verify,
     /// Redraw the figures of a result, without computing it again
     #[command(after_help = FIGURE_HELP)]
-    Figure(FigureOptions),
+    Figure(FigureOptions) => figure,
     /// Print shell completions
     #[command(
         after_help = "Example: motiform completions bash > ~/.local/share/bash-completion/completions/motiform\n\nMore: docs/recipes.md."
     )]
-    Completions(CompletionsOptions),
+    Completions(CompletionsOptions) => completions,
 }
 
 #[derive(Args)]

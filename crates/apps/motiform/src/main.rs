@@ -20,7 +20,7 @@ fn main() -> ExitCode {
     if let Err(error) = output::check() {
         return output::report(&error);
     }
-    match commands::run(Arguments::parse().command) {
+    match Arguments::parse().command.run() {
         Ok(end) => end.into(),
         Err(error) => output::report(&error),
     }

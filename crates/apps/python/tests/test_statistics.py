@@ -78,9 +78,9 @@ def test_an_interruption_keeps_what_is_finished() -> None:
 
     body = motiform.Tensor(gamma=1.0, kappa2=2.0, kappa3=2.0)
     with pytest.raises(motiform.Interrupted) as stopped:
-        body.statistics(5000, t_end=400.0, noise=0.1, threads=2, progress=stop)
+        body.statistics(1000, t_end=400.0, noise=0.1, threads=2, progress=stop)
     part = stopped.value.result
-    assert isinstance(part, motiform.Statistics) and not part.complete and 0 < part.bodies < 5000
+    assert isinstance(part, motiform.Statistics) and not part.complete and 0 < part.bodies < 1000
 
 
 def test_datasets_of_the_command_line_are_bodies(tmp_path: Path, binary: Path) -> None:

@@ -5,6 +5,7 @@ use crate::fit::{reached, refit};
 use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation, whiteness};
 use motiform_dynamics::Watch;
 use motiform_dynamics::distributions::{NORMAL_95, chi_square_tail};
+use motiform_dynamics::sample::sort_by_number;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -131,7 +132,7 @@ fn compare(fit: &Fit, handed: Fit, degrees: usize) -> Handedness {
     let certainty = |c: &Coefficient| c.estimate.value.abs() / c.estimate.error.max(f64::MIN_POSITIVE);
     let mut parts: Vec<Coefficient> =
         handed.coefficients.iter().filter(|c| c.imaginary && certainty(c) > 3.0).cloned().collect();
-    parts.sort_by(|a, b| certainty(b).total_cmp(&certainty(a)));
+    sort_by_number(&mut parts, |a| -certainty(a));
     let excluded = excluded(&handed);
     let robust_p_value = chi_square_tail(wald(&handed), degrees as f64);
     let symmetry = match identifiability(&handed).identifiable && fit.converged() {

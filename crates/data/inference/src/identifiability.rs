@@ -9,6 +9,7 @@ use crate::Fit;
 use crate::filter::NOISES;
 use crate::names::paper;
 use motiform_dynamics::digits::with_error;
+use motiform_dynamics::sample::sort_by_number;
 use nalgebra::{DMatrix, SymmetricEigen};
 use serde::{Deserialize, Serialize};
 
@@ -142,7 +143,7 @@ fn equation(fit: &Fit, covariance: &DMatrix<f64>, n: usize, own: &[usize]) -> Eq
     let block = DMatrix::from_fn(size, size, |i, j| covariance[(own[i], own[j])]);
     let eigen = SymmetricEigen::new(block);
     let mut order: Vec<usize> = (0..size).collect();
-    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+    sort_by_number(&mut order, |&a| eigen.eigenvalues[a]);
     let combination = |&k: &usize| {
         let factors: Vec<f64> = eigen.eigenvectors.column(k).iter().copied().collect();
         combine(fit, own, factors, eigen.eigenvalues[k].max(0.0).sqrt())

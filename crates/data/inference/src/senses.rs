@@ -10,6 +10,7 @@ use crate::{
 use crate::{fit::refit, observation};
 use motiform_dynamics::Watch;
 use motiform_dynamics::distributions::chi_square_tail;
+use motiform_dynamics::sample::sort_by_number;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -78,7 +79,7 @@ pub fn senses(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Senses> 
             found.push((HandedCell { cell, p_value: p * count, opposite: false }, test));
         }
     }
-    found.sort_by(|a, b| a.0.p_value.total_cmp(&b.0.p_value));
+    sort_by_number(&mut found, |a| a.0.p_value);
     let first = found.first().and_then(|one| parts(&one.1));
     let turned = |test: &Handedness| {
         let [(first, weight), (own, _)] = [first.clone()?, parts(test)?];

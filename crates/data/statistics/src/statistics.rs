@@ -13,6 +13,7 @@ use crate::{
     local_exponent, mean_square, persistent_walk, power_spectrum, radii, residence, turning_angles,
 };
 use motiform_dynamics::Watch;
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::sample::mean;
 
 /// Steps of the work beside the correlation of each quantity: memory, diffusion, the rest.
@@ -169,7 +170,7 @@ fn discs(settings: &Settings, displacement: &MeanSquare) -> Result<Vec<f64>> {
         return Ok(radii(displacement));
     }
     let mut given = settings.radii.clone();
-    given.sort_unstable_by(f64::total_cmp);
+    ascending(&mut given);
     match given.iter().find(|radius| !(**radius > 0.0 && radius.is_finite())) {
         Some(&value) => Err(crate::Error::Setting { key: "disc", value, remedy: "give a radius above 0" }),
         None => Ok(given),

@@ -2,6 +2,7 @@
 
 use crate::geometry::area;
 use crate::{Cell, Note, Outline};
+use motiform_dynamics::sample::ascending;
 use std::collections::{BTreeMap, HashMap};
 
 /// A frame is far where its distance to the next exceeds this many times the span of all others.
@@ -95,7 +96,7 @@ const LARGE: f64 = 1000.0;
 pub(crate) fn large(cells: &[Cell], unit: &str) -> Option<Note> {
     let mut areas: Vec<f64> =
         cells.iter().flat_map(|cell| &cell.frames).map(|outline| area(&outline.points).abs()).collect();
-    areas.sort_unstable_by(f64::total_cmp);
+    ascending(&mut areas);
     let area = *areas.get(areas.len() / 2)?;
     (unit == "um" && area > LARGE && area <= AREAS[1]).then_some(Note::LargeArea { area })
 }
@@ -103,7 +104,7 @@ pub(crate) fn large(cells: &[Cell], unit: &str) -> Option<Note> {
 /// Cells whose median area is not that of a cell, in micrometres.
 pub(crate) fn implausible(cell: &Cell, unit: &str) -> Option<Note> {
     let mut areas: Vec<f64> = cell.frames.iter().map(|outline| area(&outline.points).abs()).collect();
-    areas.sort_unstable_by(f64::total_cmp);
+    ascending(&mut areas);
     let area = *areas.get(areas.len() / 2)?;
     let strange = unit == "um" && !cell.has_positions_alone() && !(AREAS[0]..=AREAS[1]).contains(&area);
     strange.then(|| Note::ImplausibleArea { cell: cell.name.clone(), area, unit: unit.to_owned() })

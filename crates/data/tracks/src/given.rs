@@ -5,6 +5,7 @@ use crate::numbering::{median_difference, numbers};
 use crate::read::sound;
 use crate::resolve::{Resolved, resolve};
 use crate::{Cell, Note, Result, Tracks};
+use motiform_dynamics::sample::sort_by_number;
 use std::path::Path;
 
 /// The units and the orientation of outlines in memory.
@@ -53,7 +54,7 @@ pub fn given(mut cells: Vec<Cell>, about: Given) -> Result<Tracks> {
 
 /// Numbers of frames from their times; in order where these are not multiples of one interval.
 fn number(cell: &mut Cell) -> Option<Note> {
-    cell.frames.sort_by(|a, b| a.t.total_cmp(&b.t));
+    sort_by_number(&mut cell.frames, |a| a.t);
     let times: Vec<f64> = cell.frames.iter().map(|outline| outline.t).collect();
     let found = numbers(&times, median_difference(&times));
     let note = found.is_none().then(|| Note::UnevenTimes { cell: cell.name.clone() });

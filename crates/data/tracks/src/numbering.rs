@@ -1,5 +1,7 @@
 //! Times -> numbers of frames.
 
+use motiform_dynamics::sample::ascending;
+
 /// Deviation from a multiple of the interval, in intervals, from which times count as uneven: files round times.
 const UNEVEN: f64 = 0.1;
 
@@ -9,7 +11,7 @@ const FAR: f64 = 1e9;
 /// The median of the differences of times.
 pub(crate) fn median_difference(times: &[f64]) -> Option<f64> {
     let mut differences: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    differences.sort_unstable_by(f64::total_cmp);
+    ascending(&mut differences);
     differences.get(differences.len() / 2).copied().filter(|d| d.is_finite() && *d > 0.0)
 }
 

@@ -1,6 +1,6 @@
 //! Escape times over many initial states: how many stay how long, and at what rate the last ones leave.
 
-use crate::{Error, Estimate, Result, checks};
+use crate::{Error, Estimate, Result, checks, sort_by_number};
 use motiform_dynamics::distributions::NORMAL_95;
 
 /// Fewest escapes that give a rate: below, the normal interval of the estimate is no guide.
@@ -166,6 +166,6 @@ fn sorted(stays: &[Stay]) -> Result<Vec<Stay>> {
         checks::argument("escape time", stay.time, stay.time >= 0.0, "of at least 0")?;
     }
     let mut sorted = stays.to_vec();
-    sorted.sort_by(|a, b| a.time.total_cmp(&b.time));
+    sort_by_number(&mut sorted, |a| a.time);
     Ok(sorted)
 }

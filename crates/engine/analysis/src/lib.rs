@@ -50,6 +50,7 @@ pub use lifetime::{
     compare_life_laws, mean_life, memory,
 };
 pub use lyapunov::{Lyapunov, LyapunovSettings, SoFar, lyapunov, lyapunov_followed};
+pub(crate) use motiform_dynamics::sample::{ascending, sort_by_number};
 pub use periodic::PeriodicOrbit;
 pub use product::logarithms_of_product;
 pub use regime::{Attractor, Course, Form, Regime, Settings, Spread, Verdict, classify};

@@ -108,8 +108,14 @@ fn largest(svd: &SVD<f64, Dyn, Dyn>) -> f64 {
 /// The order of eigenvalues: largest real part first, then largest modulus of the imaginary part, so that conjugates stay together where
 /// several real parts are the same.
 #[must_use]
-pub fn leading_first(a: &ComplexPair, b: &ComplexPair) -> std::cmp::Ordering {
+pub(crate) fn leading_first(a: &ComplexPair, b: &ComplexPair) -> std::cmp::Ordering {
     b.0.total_cmp(&a.0).then(b.1.abs().total_cmp(&a.1.abs())).then(b.1.total_cmp(&a.1))
+}
+
+/// Sorts eigenvalues, [`leading_first`].
+#[inline(never)]
+pub fn sort_leading(values: &mut [ComplexPair]) {
+    values.sort_unstable_by(leading_first);
 }
 
 /// The eigenvalues of a matrix given by its columns, [`leading_first`]. `None` where a number is not finite or the iteration does not end.
@@ -124,7 +130,7 @@ pub fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
     }
     let schur = nalgebra::linalg::Schur::try_new(matrix, f64::EPSILON, 100 * dim.max(10))?;
     let mut values: Vec<ComplexPair> = schur.complex_eigenvalues().iter().map(|z| (z.re, z.im)).collect();
-    values.sort_by(leading_first);
+    sort_leading(&mut values);
     Some(values)
 }
 

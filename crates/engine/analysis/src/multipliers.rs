@@ -4,12 +4,13 @@ use crate::graded::refined;
 use crate::linear::{ComplexPair, eigenvalues};
 use crate::lyapunov::SplitMix;
 use crate::product::logarithms_of_product;
+use motiform_dynamics::sample::sort_by_number;
 use nalgebra::DMatrix;
 
 /// The eigenvalues of a reduced map, largest modulus first.
 pub(crate) fn multipliers(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
     let mut values = eigenvalues(columns)?;
-    values.sort_by(|a, b| libm::hypot(b.0, b.1).total_cmp(&libm::hypot(a.0, a.1)));
+    sort_by_number(&mut values, |a| -libm::hypot(a.0, a.1));
     Some(values)
 }
 

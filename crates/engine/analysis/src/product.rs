@@ -45,7 +45,7 @@ pub fn logarithms_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)>
         values.extend(multipliers(&columns)?.into_iter().map(logarithm));
         from = end;
     }
-    values.sort_by(crate::linear::leading_first);
+    crate::linear::sort_leading(&mut values);
     Some(values)
 }
 

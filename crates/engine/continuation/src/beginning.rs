@@ -9,6 +9,7 @@ use super::special::{Broken, Special};
 use super::tracer::{TOLERANCE, Tracer};
 use motiform_analysis::{Error, Result};
 use motiform_dynamics::Watch;
+use motiform_dynamics::sample::sort_by_number;
 
 /// Distances from the special point at which the new branch is looked for, in the units of [`Settings`].
 const DISTANCES: [f64; 8] = [0.005, 0.02, 0.05, 0.1, 0.001, 0.0002, 0.00004, 0.000_008];
@@ -57,7 +58,7 @@ impl<'b> Begin<'b> {
     /// are about what they are there: otherwise one of them may have passed 0 in the place of a critical one.
     fn expects(&self, levels: &[Vec<Level>], noise: f64) -> bool {
         let mut here: Vec<f64> = levels.iter().flatten().map(|level| level.growth).collect();
-        here.sort_by(|a, b| b.total_cmp(a));
+        sort_by_number(&mut here, |growth| -growth);
         let count = here.iter().filter(|growth| **growth > 0.0).count();
         let (above, below) = (*self.growing.start(), *self.growing.end());
         let about = |there: Option<&f64>, here: Option<&f64>| match (there, here) {

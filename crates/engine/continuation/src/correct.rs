@@ -5,6 +5,7 @@ use super::point::Obstruction;
 use super::problem::{Equations, Failure, Linear};
 use motiform_analysis::singular::svd;
 use motiform_dynamics::Watch;
+use motiform_dynamics::sample::sort_by_number;
 
 /// Steps that Newton's method may take.
 const STEPS: usize = 10;
@@ -82,7 +83,7 @@ pub(super) fn seen(linear: &Linear, weights: &[f64]) -> Vec<(f64, Vec<f64>)> {
     let Some(rows) = svd.v_t else { return Vec::new() };
     let unscaled = |i: usize| rows.row(i).iter().zip(weights).map(|(v, w)| v / w.sqrt()).collect();
     let mut all: Vec<(f64, Vec<f64>)> = (0..dim).map(|i| (svd.singular_values[i], unscaled(i))).collect();
-    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut all, |a| a.0);
     all
 }
 

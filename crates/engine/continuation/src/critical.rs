@@ -2,6 +2,7 @@
 
 use super::levels::Level;
 use super::special::Special;
+use motiform_dynamics::sample::sort_by_number;
 
 /// Levels closer than this part of the largest one are the same.
 const TWINS: f64 = 1e-12;
@@ -100,7 +101,7 @@ impl Critical {
             libm::hypot(re, im)
         };
         let mut order: Vec<usize> = (0..levels.len()).collect();
-        order.sort_by(|a, b| size(a).total_cmp(&size(b)));
+        sort_by_number(&mut order, size);
         let first = *order.first()?;
         let (re, im) = number(&levels[first]);
         let value = match order.get(1) {

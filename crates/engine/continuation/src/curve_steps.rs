@@ -7,6 +7,7 @@ use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
 use super::special::Special;
 use super::steps::{SHORTER, STRAIGHT, next_step};
+use motiform_dynamics::sample::sort_by_number;
 
 /// A point is one of the curve only where its critical multiplier is as close to where it belongs: what the condition leaves at
 /// ordinary points is below 1e-6.
@@ -88,7 +89,7 @@ impl<P: Problem> CurveTracer<'_, P> {
         if let Some(symmetric) = self.symmetric(&new, length)? {
             degenerate.retain(|event| !symmetric.explains(event, length));
             degenerate.push(symmetric);
-            degenerate.sort_by(|a, b| a.s.total_cmp(&b.s));
+            sort_by_number(&mut degenerate, |a| a.s);
         }
         if let Some(last) = degenerate.iter().position(|event| event.ends) {
             degenerate.truncate(last + 1);
@@ -182,7 +183,7 @@ impl<P: Problem> CurveTracer<'_, P> {
                 }),
             }
         }
-        out.sort_by(|a, b| a.s.total_cmp(&b.s));
+        sort_by_number(&mut out, |a| a.s);
         Ok(out)
     }
 

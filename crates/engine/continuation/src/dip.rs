@@ -1,5 +1,7 @@
 //! Functions that change their sign twice between two places.
 
+use motiform_dynamics::sample::sort_by_number;
+
 /// Most places that are looked at.
 const LOOKS: usize = 8;
 
@@ -44,7 +46,7 @@ pub(super) fn dip(
 /// The vertex of the parabola through the lowest value and its neighbours, where that is inside and new, and whether the parabola falls no
 /// further there. (A lowest value below 0 is that of a sign change within rounding.)
 fn lowest(points: &mut [(f64, f64)], (from, to): (f64, f64)) -> Option<(f64, bool)> {
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(points, |a| a.0);
     let inside = |i: &usize| (from..=to).contains(&points[*i].0);
     let place = (0..points.len()).filter(inside).min_by(|&a, &b| points[a].1.total_cmp(&points[b].1))?;
     let first = place.saturating_sub(1).min(points.len() - 3);

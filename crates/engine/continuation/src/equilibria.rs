@@ -14,7 +14,7 @@ use super::special::{Broken, Hopf, Special};
 use super::vicinity::Vicinity;
 use motiform_analysis::equilibrium::Units;
 use motiform_analysis::equilibrium::{modes, neutral_direction, rounding};
-use motiform_analysis::linear::{add, apply, eigenvalues, leading_first, norm, restrict};
+use motiform_analysis::linear::{add, apply, eigenvalues, norm, restrict, sort_leading};
 use motiform_analysis::singular::svd;
 use motiform_analysis::{Isotropy, RelativeEquilibrium};
 use motiform_dynamics::sample::ascending;
@@ -199,7 +199,7 @@ impl Problem for Equilibria<'_> {
         let along = std::iter::repeat_n(&ALONG_FAMILY, self.family.len());
         let mut eigenvalues: Vec<(f64, f64)> =
             levels.iter().flatten().chain(along).map(|level| (level.growth, level.angle)).collect();
-        eigenvalues.sort_by(leading_first);
+        sort_leading(&mut eigenvalues);
         let neutral = local.neutral.len();
         let scale = local.matrix.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
         let units = self.vicinity.units;

@@ -6,6 +6,7 @@ use super::problem::{Border, Problem};
 use super::tracer::Tracer;
 use motiform_analysis::linear::{add, norm};
 use motiform_analysis::singular::svd;
+use motiform_dynamics::sample::sort_by_number;
 
 /// Lengths of the steps in which a family is walked along, in the units of the unknowns, the longest first: a small family bends more.
 const STEPS: [f64; 5] = [0.05, 0.015, 0.005, 0.0015, 0.0005];
@@ -72,7 +73,7 @@ fn borders<P: Problem>(
 ) -> Option<Vec<Border>> {
     let svd = svd(problem.linear(local).matrix.clone())?;
     let mut places: Vec<usize> = (0..svd.singular_values.len()).collect();
-    places.sort_by(|&a, &b| svd.singular_values[a].total_cmp(&svd.singular_values[b]));
+    sort_by_number(&mut places, |&a| svd.singular_values[a]);
     let left = svd.u?;
     let border = |(direction, &place): (&Vec<f64>, &usize)| Border {
         left: left.column(place).iter().copied().collect(),
@@ -198,7 +199,7 @@ impl<P: Problem> Tracer<'_, P> {
         let near = seen(self.problem.linear(&self.place.local), &weights).into_iter().take(dimension + 1);
         let mut near: Vec<Vec<f64>> = near.map(|one| one.1).collect();
         let lies_along = |v: &Vec<f64>| product(&weights, v, &self.place.tangent).abs();
-        near.sort_by(|a, b| lies_along(a).total_cmp(&lies_along(b)));
+        sort_by_number(&mut near, lies_along);
         near.truncate(dimension);
         let found = orthonormal(near.into_iter(), std::slice::from_ref(&self.place.tangent), &weights)
             .and_then(|family| borders(&self.problem, &self.place.local, &family, &weights));

@@ -15,6 +15,7 @@ use super::special::Special;
 use super::touch::touching;
 use super::tracer::neutral;
 use super::zero::solve;
+use motiform_dynamics::sample::sort_by_number;
 
 /// The changes on a step.
 pub(super) struct Changes<L> {
@@ -48,7 +49,7 @@ pub(super) fn locate<P: Problem>(step: &Step<'_, P>) -> Result<Changes<P::Local>
             let seen = signs.gaps.iter().map(|&test| kind(step, step.new, test).name());
             changes.missed.extend(seen.take(1));
         }
-        changes.found.sort_by(|a, b| a.0.arclength.total_cmp(&b.0.arclength));
+        sort_by_number(&mut changes.found, |a| a.0.arclength);
         if changes.found.len() == known.len() || !changes.missed.is_empty() {
             break;
         }

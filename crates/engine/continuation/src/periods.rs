@@ -2,6 +2,7 @@
 
 use super::homoclinic::{Connection, PeriodLaw};
 use motiform_analysis::linear::solve;
+use motiform_dynamics::sample::sort_by_number;
 
 /// Laws by which the distance to a connection falls as a power of the time: `|p - p0| ~ 1/T^k`.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +94,7 @@ impl Periods {
         let longest = self.points.last()?.0;
         let late = (0..self.points.len()).filter(|&i| self.points[i].0 > 0.5 * longest);
         let mut fits: Vec<(Connection, f64)> = late.filter_map(|last| self.fit(law, last)).collect();
-        fits.sort_by(|a, b| a.1.total_cmp(&b.1));
+        sort_by_number(&mut fits, |a| a.1);
         let (best, others) = fits.split_first()?;
         let compared = &others[..others.len().min(COMPARED)];
         // Neighbouring fits have errors in common: of those that are nearly as good, the farthest one counts three times.

@@ -7,6 +7,7 @@ use super::switch::Departure;
 use motiform_analysis::linear::{add, dot, norm};
 use motiform_analysis::symmetry::align;
 use motiform_dynamics::Watch;
+use motiform_dynamics::sample::sort_by_number;
 use nalgebra::{DMatrix, DVector};
 
 /// Radius of the sphere, in the units of the unknowns.
@@ -82,7 +83,7 @@ pub(super) fn paired(rays: &[Vec<f64>], weights: &[f64]) -> Vec<Vec<Vec<f64>>> {
         .map(|(a, b)| (product(weights, &rays[a], &rays[b]), a, b))
         .filter(|pair| pair.0 < -STRAIGHT)
         .collect();
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut pairs, |a| a.0);
     let mut partner = vec![None; rays.len()];
     for (_, a, b) in pairs {
         if partner[a].is_none() && partner[b].is_none() {

@@ -18,6 +18,7 @@ use super::tangents::{own_slope, tangents};
 use super::tracer::Tracer;
 use motiform_analysis::linear::add;
 use motiform_analysis::{PeriodicOrbit, RelativeEquilibrium, Result};
+use motiform_dynamics::sample::sort_by_number;
 use motiform_dynamics::{Equivariant, Watch};
 
 /// The branches that begin or cross at a special point, each with its legs: one where it begins, two where it crosses; none at a fold, a
@@ -96,7 +97,7 @@ fn unseen<P: Problem>(problem: &P, x: &[f64], most: usize) -> Option<(Vec<f64>, 
     };
     let mut others: Vec<Vec<f64>> = null.iter().filter(|v| !std::ptr::eq(*v, along)).map(across).collect();
     let length = |v: &Vec<f64>| product(&weights, v, v);
-    others.sort_by(|a, b| length(b).total_cmp(&length(a)));
+    sort_by_number(&mut others, |a| -length(a));
     let others: Option<Vec<Vec<f64>>> = others.into_iter().map(|v| scaled(v, &weights)).collect();
     Some((along.clone(), others?))
 }

@@ -2,6 +2,7 @@
 
 use crate::escape::{GrowthLaw, norm};
 use crate::orbit::StepFailure;
+use crate::sample::sort_by_number;
 use crate::section::{Crossing, PIECES, Section, Watcher, polish};
 use crate::{Error, Integration, Obstacle, Outcome, Watch};
 use std::ops::ControlFlow;
@@ -230,7 +231,7 @@ impl Run {
                 self.found.push((t, index, rising));
             });
         }
-        self.found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut self.found, |a| a.0);
         for event in 0..self.found.len() {
             let (guess, index, rising) = self.found[event];
             let section = &request.sections[index];

@@ -8,6 +8,29 @@ pub fn ascending(values: &mut [f64]) {
     values.sort_unstable_by(f64::total_cmp);
 }
 
+/// Sorts by a number of each item, smallest first, by [`f64::total_cmp`]; items of one number keep their order.
+pub fn sort_by_number<T>(items: &mut [T], number: impl FnMut(&T) -> f64) {
+    let numbers: Vec<f64> = items.iter().map(number).collect();
+    let mut ranks = ranks(&numbers);
+    for at in 0..items.len() {
+        while ranks[at] != at {
+            let rank = ranks[at];
+            items.swap(at, rank);
+            ranks.swap(at, rank);
+        }
+    }
+}
+
+/// The place of each number in ascending order. Compiled once, as [`ascending`] is.
+#[inline(never)]
+fn ranks(numbers: &[f64]) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..numbers.len()).collect();
+    places.sort_unstable_by(|&a, &b| numbers[a].total_cmp(&numbers[b]).then(a.cmp(&b)));
+    let mut ranks = vec![0; numbers.len()];
+    places.iter().enumerate().for_each(|(rank, &place)| ranks[place] = rank);
+    ranks
+}
+
 /// The mean; `None` of nothing.
 pub fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let (sum, count) =
@@ -39,7 +62,21 @@ pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{mean, median, quantile};
+    use super::{mean, median, quantile, sort_by_number};
+
+    /// As the stable sort of the standard library, of all cycles of a permutation, equal numbers, zeros of both signs and no number.
+    #[test]
+    fn a_sort_by_a_number_is_stable() {
+        let numbers = [3.0, -0.0, 7.0, 0.0, f64::NAN, 3.0, -1.0, f64::NEG_INFINITY, 7.0, 2.0, 3.0];
+        for length in 0..=numbers.len() {
+            let items: Vec<(usize, f64)> = numbers[..length].iter().copied().enumerate().collect();
+            let (mut ours, mut theirs) = (items.clone(), items);
+            sort_by_number(&mut ours, |item| -item.1);
+            theirs.sort_by(|a, b| b.1.total_cmp(&a.1));
+            let places = |items: &[(usize, f64)]| items.iter().map(|item| item.0).collect::<Vec<_>>();
+            assert_eq!(places(&ours), places(&theirs));
+        }
+    }
 
     /// By hand; the last ones as `numpy.quantile` has them.
     #[test]

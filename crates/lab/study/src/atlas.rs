@@ -7,6 +7,7 @@ use crate::plan::{Computation, Named, Plan, Question, check, stepper};
 use crate::scan::{Axis, ScanComputation};
 use crate::{BranchPlan, CurvePlan, Error, ScanPlan, Stride, Study};
 use motiform_analysis::Regime;
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::steppers::Method;
 use motiform_models::ModelName;
 use motiform_store::Kind;
@@ -277,7 +278,7 @@ fn even(axis: &Axis, count: usize) -> Result<Axis, Error> {
         );
     }
     let mut rising = axis.values.clone();
-    rising.sort_by(f64::total_cmp);
+    ascending(&mut rising);
     if rising.iter().enumerate().map(off).any(|off| off > UNEVEN * (to - from).abs()) {
         return refuse(
             "the values of an atlas rise in equal steps: give NAME=LOW:HIGH:COUNT (a scan takes any list)",

@@ -13,7 +13,7 @@ async function assertStill(page, wire) {
   const frame = await stands(page, wire);
   const clock = await page.locator("#clock-t").textContent();
   const asked = wire.count("advance");
-  await pictures(page, 40);
+  await pictures(page, 15);
   assert.deepEqual([wire.count("advance"), wire.frame.t], [asked, frame.t]);
   assert.equal(await page.locator("#clock-t").textContent(), clock);
   return frame;
@@ -49,7 +49,7 @@ test("a paused page comes to rest: it draws nothing", upon(it, { hash: LIGHT }, 
   const strokes = () => page.evaluate(() => window.strokes);
   await until(async () => {
     const before = await strokes();
-    await pictures(page, 30);
+    await pictures(page, 10);
     return (await strokes()) === before;
   }, "the camera to come to rest");
 }));
@@ -149,7 +149,7 @@ test("a hidden page costs nothing", upon(it, { hash: LIGHT }, async ({ page, wir
   await hide(true);
   await pictures(page, 3);
   const asked = wire.count("advance");
-  await pictures(page, 60);
+  await pictures(page, 20);
   assert.equal(wire.count("advance"), asked);
   await hide(false);
   await until(() => wire.count("advance") > asked, "the motion to go on");

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { LIGHT, onlyIn, shoot, stage, upon } from "./stage.mjs";
-import { changed, mapped, moves, number, pictures, seen, slide, slider, stands, until } from "./waits.mjs";
+import { changed, mapped, moves, number, pictures, rests, seen, slide, slider, stands, until } from "./waits.mjs";
 
 const it = stage();
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
@@ -38,7 +38,7 @@ async function paused(page, wire) {
   await moves(page, wire);
   await page.locator("#play").click();
   const frame = await stands(page, wire);
-  await pictures(page, 80); // the sight comes to rest
+  await rests(page);
   return frame;
 }
 
@@ -75,7 +75,7 @@ test("the inside is carried to another place, and thrown where the hand lets go 
   // On a busy machine a hand may rest between two events: then it has let go at rest, and throws again.
   for (let tries = 0; tries < 8 && !wire.said.get("put")?.velocity; tries++) {
     const carried = await stands(page, wire);
-    await pictures(page, 80);
+    await rests(page);
     const [u, v] = await centre(page, carried);
     await page.mouse.move(u, v);
     await page.mouse.down();

@@ -82,6 +82,16 @@ export async function pictures(page, count) {
   }), count);
 }
 
+/** Waits until the sight of the body stands: the same in five pictures. */
+export async function rests(page) {
+  const sight = () => page.evaluate(() => [window.motiform.body.scale, ...window.motiform.body.toPixel(0, 0)].join());
+  await until(async () => {
+    const before = await sight();
+    await pictures(page, 5);
+    return before === (await sight());
+  }, "the sight to stand");
+}
+
 /** The slider of a parameter. */
 export function slider(page, name) {
   return page.locator(`[data-parameter="${name}"] input[type=range]`);

@@ -68,7 +68,7 @@ struct Asked<'a> {
 
 impl<const SHAPE: usize, const STATE: usize> LaneKernel for Kernel<'_, SHAPE, STATE> {
     type Output = Evaluation;
-    const WIDE: bool = SHAPE < 8; // z4 is rarely fitted
+    const WIDE: bool = SHAPE == 6; // z2 alone, and z4, are rarely fitted
 
     #[inline(always)]
     fn run<B: Bundle>(self) -> Evaluation {

@@ -20,6 +20,7 @@ pub use average::{Averaged, averaged};
 pub(crate) use conditional::Conditional;
 pub(crate) use mixture::{Mixture, Scatter, over_sets};
 use motiform_dynamics::Watch;
+use motiform_dynamics::sample::sort_by_number;
 use search::{Choice, search};
 use serde::{Deserialize, Serialize};
 
@@ -160,7 +161,7 @@ fn joint(fit: &Fit, whole: &Conditional, choices: &[Vec<Choice>], penalty: f64) 
             (dropped, s)
         })
         .collect();
-    scored.sort_by(|a, b| a.1.total_cmp(&b.1));
+    sort_by_number(&mut scored, |a| a.1);
     let best = scored.first().map_or(0.0, |(_, score)| *score);
     let ties = scored.into_iter().take_while(|(_, score)| score - best <= TIE).take(MOST_TIES);
     ties.map(|(dropped, score)| subset(fit, &dropped, score - best)).collect()

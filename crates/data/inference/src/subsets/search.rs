@@ -2,6 +2,7 @@
 
 use super::TIE;
 use super::conditional::Conditional;
+use motiform_dynamics::sample::sort_by_number;
 
 /// Most nodes of the search.
 const MOST_NODES: usize = 2_000_000;
@@ -34,13 +35,13 @@ struct Search<'a> {
 pub(crate) fn search(rest: &Conditional, places: &[usize], penalty: f64) -> Found {
     let ratio = |i: usize| rest.estimates[i].abs() / rest.covariance[(i, i)].max(f64::MIN_POSITIVE).sqrt();
     let mut places = places.to_vec();
-    places.sort_by(|&a, &b| ratio(b).total_cmp(&ratio(a)));
+    sort_by_number(&mut places, |&a| -ratio(a));
     let own = rest.of(&places);
     let best = greedy(&own, penalty);
     let mut search = Search { places: &places, penalty, best, nodes: 0, choices: Vec::new() };
     search.visit(0, &own, &mut Vec::new(), 0);
     search.forget();
-    search.choices.sort_by(|a, b| a.score.total_cmp(&b.score));
+    sort_by_number(&mut search.choices, |a| a.score);
     Found { choices: search.choices, complete: search.nodes < MOST_NODES }
 }
 
@@ -54,7 +55,7 @@ fn greedy(own: &Conditional, penalty: f64) -> f64 {
             let (estimate, variance) = (rest.estimates[i], rest.covariance[(i, i)]);
             if variance > 0.0 { estimate * estimate / variance } else { 0.0 }
         };
-        left.sort_by(|&a, &b| cost(b).total_cmp(&cost(a)));
+        sort_by_number(&mut left, |&a| -cost(a));
         if let Some(cheapest) = left.pop() {
             rest.drop(cheapest);
         }

@@ -4,6 +4,7 @@ use super::flag::{Flag, Side};
 use super::straight::{Edge, run};
 use crate::geometry::{area, centroid};
 use crate::{Outline, Tracks};
+use motiform_dynamics::sample::ascending;
 use motiform_dynamics::sample::median;
 use std::f64::consts::PI;
 
@@ -114,7 +115,7 @@ fn coincidence(tracks: &Tracks, axis: usize, sign: f64, extreme: f64) -> Option<
     }
     let reaches = all.iter().flatten().map(|at| at[0]);
     let mut near: Vec<f64> = reaches.filter(|reach| extreme - reach <= NEAR * radius).collect();
-    near.sort_by(f64::total_cmp);
+    ascending(&mut near);
     let within = |from: f64, reach: f64| (from..=from + BAND * radius).contains(&reach);
     let count = |from: f64| near.iter().filter(|reach| within(from, **reach)).count();
     let (count, from) = near.iter().map(|&from| (count(from), from)).max_by_key(|found| found.0)?;

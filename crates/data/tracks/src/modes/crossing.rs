@@ -1,6 +1,7 @@
 //! The test of self-intersection of a polygon.
 
 use crate::geometry::edges;
+use motiform_dynamics::sample::sort_by_number;
 
 /// Pairs of edges that are looked at, at most.
 const PAIRS: usize = 20_000_000;
@@ -24,7 +25,7 @@ pub fn crossing(points: &[[f64; 2]]) -> Crossing {
     let edges: Vec<([f64; 2], [f64; 2])> = edges(points).collect();
     let low = |edge: &([f64; 2], [f64; 2])| edge.0[0].min(edge.1[0]);
     let mut order: Vec<usize> = (0..edges.len()).collect();
-    order.sort_by(|&a, &b| low(&edges[a]).total_cmp(&low(&edges[b])));
+    sort_by_number(&mut order, |&a| low(&edges[a]));
     let mut pairs = 0;
     for (place, &a) in order.iter().enumerate() {
         let high = edges[a].0[0].max(edges[a].1[0]);

@@ -4,6 +4,7 @@ use super::{RelativeEquilibrium, linearisation, matrix_of, neutral_direction, sp
 use crate::isotropy::Isotropy;
 use crate::linear::{add, basis, complement, dot, norm};
 use motiform_dynamics::Equivariant;
+use motiform_dynamics::sample::sort_by_number;
 use serde::{Deserialize, Serialize};
 
 /// Rates at a saddle of a cycle.
@@ -56,7 +57,7 @@ impl RelativeEquilibrium {
             Some((values.first()?.0, *errors.first()?))
         };
         let mut rates: Vec<(f64, f64)> = self.classes(body).iter().filter_map(leading).collect();
-        rates.sort_by(|a, b| b.0.total_cmp(&a.0));
+        sort_by_number(&mut rates, |a| -a.0);
         let (out, inward) = match rates[..] {
             [out, inward, ..] => (out, inward),
             [out] => (out, (self.eigenvalues.get(growing)?.0, *self.errors.get(growing)?)),

@@ -1,7 +1,6 @@
 //! A test that lives have no memory: that they are exponential after their delay.
 
-use crate::Result;
-use crate::{Stay, checks};
+use crate::{Result, Stay, ascending, checks};
 
 /// Fewest ends of lives that are tested.
 const LEAST: usize = 8;
@@ -47,7 +46,7 @@ pub fn memory(sets: &[(Vec<Stay>, f64)]) -> Result<Option<Memory>> {
 
 /// The test that places are uniform.
 fn uniform(mut places: Vec<f64>) -> Memory {
-    places.sort_unstable_by(f64::total_cmp);
+    ascending(&mut places);
     let events = places.len();
     let place = places.iter().sum::<f64>() / events as f64;
     Memory { probability: anderson_darling(&places), events, place }

@@ -8,7 +8,7 @@ pub use answer::{LifeLaws, compare_life_laws};
 pub use laws::{Critical, ExponentialLife, Goodness, PowerLawLife};
 pub use memory::{Memory, memory};
 
-use crate::{Result, Stay, checks, escape_limits};
+use crate::{Result, Stay, checks, escape_limits, sort_by_number};
 use serde::Serialize;
 
 /// The mean life of a set that loses its orbits at a constant rate, with its exact 95 % limits.
@@ -51,7 +51,7 @@ pub fn mean_life(stays: &[Stay], delay: f64) -> Result<MeanLife> {
         checks::argument("time of a stay", stay.time, stay.time >= 0.0, "of at least 0")?;
     }
     let mut late: Vec<&Stay> = stays.iter().filter(|stay| stay.time > delay).collect();
-    late.sort_by(|a, b| a.time.total_cmp(&b.time)); // the sum does not depend on the order of the runs
+    sort_by_number(&mut late, |a| a.time); // the sum does not depend on the order of the runs
     let watched: f64 = late.iter().map(|stay| stay.time - delay).sum();
     let events = late.iter().filter(|stay| stay.escaped).count();
     let early = stays.iter().filter(|stay| stay.escaped && stay.time <= delay).count();

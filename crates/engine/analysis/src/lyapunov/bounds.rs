@@ -2,8 +2,8 @@
 
 use super::separation::{GROWN, SECULAR};
 use super::{Lyapunov, durations, rates};
-use crate::Estimate;
 use crate::series_mean::mean;
+use crate::{Estimate, sort_by_number};
 
 /// After this part of a run, time grows by the factor that [`SECULAR`] is for, or less.
 const EARLY: f64 = 1.0 / 6.0;
@@ -27,7 +27,7 @@ pub(super) fn bound(exponents: &mut [Estimate], history: &[(f64, Vec<f64>)], tim
     let all: Vec<Vec<f64>> = (0..exponents.len()).map(|k| rates(history, k)).collect();
     let mut order: Vec<(f64, &Vec<f64>)> =
         all.iter().map(|rates| (mean(rates, &durations, rates[0]), rates)).collect();
-    order.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sort_by_number(&mut order, |a| -a.0);
     for (exponent, (_, rates)) in exponents.iter_mut().zip(order) {
         *exponent = with_unseen(*exponent, rates, &durations, GROWN);
     }

@@ -1,7 +1,7 @@
 //! The dimension that the exponents say.
 
 use super::Lyapunov;
-use crate::Estimate;
+use crate::{Estimate, sort_by_number};
 
 /// An exponent this near to the rate of a silent coordinate, against it, is that of this coordinate, beside its error.
 const SAME: f64 = 1e-6;
@@ -26,7 +26,7 @@ impl Lyapunov {
         let zeros = self.zeros();
         let exact = |x: &Estimate| if zeros.contains(x) { Estimate { value: 0.0, error: 0.0 } } else { *x };
         let mut exponents: Vec<Estimate> = self.exponents.iter().map(exact).collect();
-        exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+        sort_by_number(&mut exponents, |a| -a.value);
         for rate in &self.silent {
             let off = |x: &Estimate| (x.value - rate).abs();
             let nearest =

@@ -12,7 +12,7 @@ use crate::equilibrium::{RelativeEquilibrium, along_group_and_flow};
 use crate::linear::norm;
 use crate::series_mean::{FEWEST_INDEPENDENT, independent_samples, mean_over};
 use crate::symmetry::reduced_speed;
-use crate::{Estimate, Result};
+use crate::{Estimate, Result, sort_by_number};
 pub(crate) use bounds::with_unseen;
 pub use lanes::{TangentMember, lyapunov_in_lanes, runs_in_lanes};
 use motiform_dynamics::drive::drive;
@@ -75,7 +75,7 @@ impl Lyapunov {
     #[must_use]
     pub fn zeros(&self) -> Vec<Estimate> {
         let mut all = self.exponents.clone();
-        all.sort_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
+        sort_by_number(&mut all, |a| a.value.abs());
         all.truncate(self.neutral);
         all
     }
@@ -286,7 +286,7 @@ fn means(history: &[(f64, Vec<f64>)], start: f64, numerical: f64, pace: f64) -> 
         Ok(Estimate { value: mean.value, error })
     };
     let mut exponents = (0..count).map(exponent).collect::<Result<Vec<_>>>()?;
-    exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+    sort_by_number(&mut exponents, |a| -a.value);
     Ok(exponents)
 }
 

@@ -4,7 +4,7 @@
 use super::silent::silent_rates;
 use super::{Lyapunov, LyapunovSettings, SoFar, means, neutral_directions, pace};
 use crate::linear::norm;
-use crate::{Estimate, Result};
+use crate::{Estimate, Result, sort_by_number};
 use motiform_dynamics::{Equivariant, Outcome, StepControl};
 
 /// Vectors are made orthonormal when they have separated by this factor (natural logarithm).
@@ -208,7 +208,7 @@ fn with_known_zeros(mut exponents: Vec<Estimate>, neutral: usize) -> (Vec<Estima
         return (exponents, false); // which of them are the zeros is not known
     }
     let mut nearest = exponents.clone();
-    nearest.sort_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
+    sort_by_number(&mut nearest, |a| a.value.abs());
     nearest.truncate(neutral);
     // one that is clearly not 0 is that of a motion which settles
     let off = |zero: &Estimate| zero.error < zero.value.abs() && zero.value.abs() <= CLEAR * zero.error;

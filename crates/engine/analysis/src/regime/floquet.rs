@@ -5,11 +5,11 @@
 //! those of the parts of the period; in larger ones the leading exponents are computed.
 
 use super::case::Case;
-use crate::Estimate;
 use crate::equilibrium::along_group_and_flow;
 use crate::leading::leading_exponents;
 use crate::multiple_shooting::all_exponents;
 use crate::periodic::{PeriodicOrbit, is_whole};
+use crate::{Estimate, sort_by_number};
 
 /// Relative error of a multiplier from which on the parts of the period are asked.
 const UNRESOLVED: f64 = 1e-3;
@@ -58,6 +58,6 @@ pub(super) fn exponents(case: Case<'_>, orbit: &PeriodicOrbit) -> Exponents {
     });
     others.retain(known);
     all.extend(others);
-    all.sort_by(|a, b| b.value.total_cmp(&a.value));
+    sort_by_number(&mut all, |a| -a.value);
     Exponents { all, growth, leading: leading.map(|leading| libm::exp(leading.value * time)) }
 }

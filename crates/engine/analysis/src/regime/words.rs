@@ -11,7 +11,7 @@ use super::recurrence::Recurrence;
 use super::verdict::{Attractor, Regime, Spread, Verdict};
 use crate::equilibrium::RelativeEquilibrium;
 use crate::periodic::PeriodicOrbit;
-use crate::{Estimate, Result, SteadyMotion};
+use crate::{Estimate, Result, SteadyMotion, sort_by_number};
 use motiform_dynamics::Equivariant;
 use motiform_dynamics::digits::{decimals, six_decimals};
 
@@ -63,7 +63,7 @@ fn at_equilibrium(
     // what is missing are the neutral directions: of the rotations, and of a family that the equilibrium lies in
     let neutral = body.dim().saturating_sub(exponents.len());
     exponents.extend(std::iter::repeat_n(Estimate { value: 0.0, error: 0.0 }, neutral));
-    exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+    sort_by_number(&mut exponents, |a| -a.value);
     verdict.exponents = exponents;
     Direction { course: verdict.course, heading: verdict.heading } = steady.direction(body, found);
     verdict

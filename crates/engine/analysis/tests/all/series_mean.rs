@@ -73,12 +73,12 @@ fn correlated_series_are_covered_up_to_a_fiftieth_of_their_length() {
 #[test]
 fn means_of_short_series_are_covered_whatever_their_correlation_time() {
     let shares = [
-        (16, 0.3, 0.92),
-        (60, 0.5, 0.92),
-        (60, 5.0, 0.89),
-        (100, 2.0, 0.925),
-        (100, 12.0, 0.89),
-        (300, 20.0, 0.895),
+        (16, 0.3, 0.945),
+        (60, 0.5, 0.925),
+        (60, 5.0, 0.925),
+        (100, 2.0, 0.93),
+        (100, 12.0, 0.925),
+        (300, 20.0, 0.935),
     ];
     for (samples, tau, least) in shares {
         let count = draws(1000, 4000);
@@ -87,8 +87,8 @@ fn means_of_short_series_are_covered_whatever_their_correlation_time() {
         assert!(errors.iter().all(motiform_analysis::Estimate::has_error), "{samples} {tau}");
         let covered = errors.iter().filter(|mean| mean.covers(3.0)).count() as f64 / count as f64;
         println!("{samples} samples, correlation time {tau}: {covered}");
-        // .94 of white noise, .91 to .93 of 8 to 15 correlation times; twice the binomial scatter of 1000 is .017
-        assert!((least..0.975).contains(&covered), "{samples} samples, correlation time {tau}: {covered}");
+        // of 4000 series .94 to .965; twice the binomial scatter of 1000 is .014
+        assert!((least..0.98).contains(&covered), "{samples} samples, correlation time {tau}: {covered}");
     }
     assert!(matches!(short_series_mean(&[1.0; 15]), Err(Error::TooFew { least: 16, got: 15, .. })));
 }

@@ -3,6 +3,7 @@
 use super::grid::Grid;
 use motiform_dynamics::Normal;
 use motiform_dynamics::sample::mean;
+use motiform_dynamics::sample::sort_by_number;
 use serde::Serialize;
 
 /// Fewest cells of a frame.
@@ -129,7 +130,7 @@ impl Residuals {
         };
         let mut own: Vec<_> = grid.places.iter().map(of_cell).collect();
         // in an order of their own, so that the random shifts do not depend on that of the file
-        own.sort_by(|a, b| size(a).total_cmp(&size(b)));
+        sort_by_number(&mut own, |own| size(own));
         let mut found = Self { stencil, weights: vec![1.0; own.len()], own, common: Vec::new() };
         found.common = found.together(&found.own);
         found.weights = found.inverse_variances();

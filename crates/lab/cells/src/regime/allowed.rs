@@ -4,6 +4,7 @@ use super::natural_study;
 use crate::Result;
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::Watch;
+use motiform_dynamics::sample::sort_by_number;
 use motiform_inference::{Coefficient, Fit, Library, Selection, Subset, Track, draws, refit_tied};
 use motiform_lab::many;
 use motiform_study::RunPlan;
@@ -56,7 +57,7 @@ pub(super) fn drawn(sets: &[(Fit, f64)], count: usize, seed: u64) -> Vec<Drawn<'
             all.push(((k as f64 + 0.5) / share, Drawn { fit, values }));
         }
     }
-    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut all, |a| a.0);
     all.into_iter().map(|(_, model)| model).take(count).collect()
 }
 

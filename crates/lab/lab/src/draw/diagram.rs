@@ -4,6 +4,7 @@ use super::{Figures, words};
 use crate::scan::{Axis, CellSummary, Reasons, ScanFolder, cells};
 use motiform_analysis::regime::Regime;
 use motiform_dynamics::sample::ascending;
+use motiform_dynamics::sample::sort_by_number;
 use motiform_figures::{
     Cell, Chart, ErrorBarSeries, ExpectedLine, LineStyle, Measured, PhaseDiagram, sentence,
 };
@@ -163,7 +164,7 @@ fn exponents_of(
         (y.is_finite() && error.is_finite()).then_some(shown)
     };
     let mut points: Vec<Measured> = cells.iter().filter_map(point).collect();
-    points.sort_by(|a, b| a.x.total_cmp(&b.x));
+    sort_by_number(&mut points, |a| a.x);
     (!points.is_empty()).then(|| ErrorBarSeries { label: regime.words(), points, joined: false })
 }
 

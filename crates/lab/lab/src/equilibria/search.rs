@@ -5,6 +5,7 @@ use super::families::Families;
 use motiform_analysis::RelativeEquilibrium;
 use motiform_analysis::equilibrium::{Deflation, Units, balances};
 use motiform_dynamics::escape::norm;
+use motiform_dynamics::sample::sort_by_number;
 use motiform_dynamics::{Model, Semilinear, Watch};
 use motiform_models::ModelInfo;
 use motiform_study::Random;
@@ -62,7 +63,7 @@ impl<'m> Search<'m> {
 
     /// The equilibria found, the most stable first.
     pub(super) fn finish(mut self) -> Vec<Found> {
-        self.found.sort_by(|a, b| a.equilibrium.growth().total_cmp(&b.equilibrium.growth()));
+        sort_by_number(&mut self.found, |a| a.equilibrium.growth());
         self.found
     }
 

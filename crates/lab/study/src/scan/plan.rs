@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// Version of a scan's numbers; part of the hash. Raised whenever a plan's meaning or a row's bits change
 /// (tests/all/scan/bits.rs notices), so that no
 /// folder ever contains rows of two programs that compute differently.
-pub const SCAN_FORMAT: u32 = 13;
+pub const SCAN_FORMAT: u32 = 14;
 
 /// Maximum number of cells of a scan, and of initial states per cell.
 const MOST: (usize, u64) = (100_000_000, 100_000);

@@ -2,6 +2,7 @@
 
 use super::{check, claim};
 use motiform_analysis::regime::Regime;
+use motiform_dynamics::sample::sort_by_number;
 use motiform_figures::report::Claim;
 use motiform_lab::scan::CellSummary;
 use motiform_models::tensor::reduced::{Expected, Line, Motion, Reduced};
@@ -130,7 +131,7 @@ impl Grid {
             .iter()
             .filter(|cell| (cell.kappa2 - nearest.kappa2).abs() < 0.5 * self.size[0])
             .collect();
-        column.sort_by(|a, b| a.gamma.total_cmp(&b.gamma));
+        sort_by_number(&mut column, |a| a.gamma);
         let mut names: Vec<&str> =
             column.iter().filter_map(|cell| Some(cell.found.first()?.name())).collect();
         names.dedup();

@@ -5,6 +5,7 @@ use super::super::context::Context;
 use super::lengths::study;
 use motiform_diagrams::draw::{Ordinate, branch_diagram};
 use motiform_diagrams::{Branches, Followed, SpecialEntry, stretches};
+use motiform_dynamics::sample::sort_by_number;
 use motiform_figures::report::{Claim, ReportFigure};
 use motiform_study::branches::{Along, BranchPlan, BranchSettings};
 use motiform_study::{Error, Stride, Towards};
@@ -92,7 +93,7 @@ impl Atlas {
         };
         let steady = self.found.branches.iter().enumerate().filter(|(_, followed)| is_steady(followed));
         let mut all: Vec<SpecialEntry> = steady.flat_map(|(number, _)| self.found.special(number)).collect();
-        all.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
+        sort_by_number(&mut all, |a| a.parameter);
         all.dedup_by(|a, b| a.kind == b.kind && (a.parameter - b.parameter).abs() < 1e-6);
         all
     }
@@ -155,7 +156,7 @@ impl Atlas {
             stretches(found, followed).into_iter().map(move |range| (motion, range))
         });
         let mut ranges: Vec<(&str, [f64; 2])> = ranges.collect();
-        ranges.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+        sort_by_number(&mut ranges, |a| a.1[0]);
         let words = |(motion, [low, high]): &(&str, [f64; 2])| format!("{motion} from {low:.4} to {high:.4}");
         let moving = |motion: &str| motion == "straight" || motion == "circular";
         let beside = |(motion, [low, high]): &(&str, [f64; 2])| {

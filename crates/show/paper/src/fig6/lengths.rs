@@ -2,6 +2,7 @@
 
 use super::super::context::Context;
 use motiform_analysis::Regime;
+use motiform_dynamics::sample::sort_by_number;
 use motiform_lab::scan::{Axis, CellSummary};
 use motiform_models::ModelInfo;
 use motiform_study::{Error, Study};
@@ -68,7 +69,7 @@ impl Lengths {
             let (plan, cells) = context.scan(&format!("fig6-{}-modes", stretch.modes), &study)?;
             points.extend(cells.into_iter().map(|cell| (plan.axis_values(cell.cell)[0], cell)));
         }
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut points, |a| a.0);
         Ok(Self(points))
     }
 

@@ -4,6 +4,7 @@ use super::super::claims::claim;
 use super::lengths::Lengths;
 use super::tracks::Track;
 use motiform_analysis::Regime;
+use motiform_dynamics::sample::sort_by_number;
 use motiform_figures::report::Claim;
 
 /// The motions that the paper names for the cell.
@@ -61,7 +62,7 @@ fn order(lengths: &Lengths, tracks: &[Track]) -> Claim {
     let mut seen: Vec<(f64, Regime)> =
         lengths.0.iter().filter_map(|point| Some((point.0, point.1.motions.first()?.regime))).collect();
     seen.extend(tracks.iter().map(|track| (track.parameter("length"), track.verdict.regime)));
-    seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut seen, |a| a.0);
     let mut names: Vec<Regime> =
         seen.iter().map(|entry| entry.1).filter(|regime| *regime != Regime::Undetermined).collect();
     names.dedup();

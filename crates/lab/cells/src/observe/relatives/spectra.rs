@@ -4,6 +4,7 @@ use super::super::measures::Series;
 use super::{along_and_across, middles};
 use motiform_analysis::{Spectrum, welch};
 use motiform_dynamics::sample::median;
+use motiform_dynamics::sample::sort_by_number;
 use serde::Serialize;
 
 /// A peak is this many times the median power from half its frequency to twice.
@@ -52,7 +53,7 @@ fn spectrum(quantity: &'static str, samples: &[f64], dt: f64) -> Option<Observed
     let total = found.variance_between(0.0, f64::INFINITY);
     let mut peaks: Vec<SpectralPeak> =
         (FIRST..found.power.len() - 1).filter_map(|k| peak(&found, k, total)).collect();
-    peaks.sort_by(|a, b| b.share.total_cmp(&a.share));
+    sort_by_number(&mut peaks, |a| -a.share);
     peaks.truncate(MOST);
     Some(ObservedSpectrum { quantity, spacing: found.spacing(), power: found.power, peaks })
 }
