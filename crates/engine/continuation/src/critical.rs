@@ -90,7 +90,8 @@ impl Critical {
         level.angle == 0.0 || self.orbits && level.angle.abs() == std::f64::consts::PI
     }
 
-    /// The product of the two smallest `lambda - centre`: where both vanish, each alone is not smooth.
+    /// The product of the two smallest `lambda - centre`: where both vanish, each alone is not smooth. Its sign is that of the product of
+    /// all, so that it stays when another one becomes the second smallest.
     fn steady(&self, levels: &[Level], centre: f64) -> Option<Reading> {
         let number = |level: &Level| {
             let (re, im) = self.number(level);
@@ -112,6 +113,8 @@ impl Critical {
                 (other, im) => re * (other * other + im * im),
             },
         };
+        let rest = order.iter().skip(2).map(|&rank| number(&levels[rank])).filter(|one| one.1 == 0.0);
+        let value = rest.fold(value, |value, (re, _)| value * re.signum());
         let off = size(&first) / if self.orbits { 1.0 } else { self.rate };
         Some(Reading { value, off, angle: 0.0, members: vec![first] })
     }

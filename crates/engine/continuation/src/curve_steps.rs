@@ -1,12 +1,12 @@
 //! Steps along a curve of special points, and what happens on them.
 
-use super::correct::product;
+use super::correct::{TIGHT, product};
 use super::curve_tracer::{CurveTracer, Spot, last_two};
 use super::degenerate::{Degenerate, Seen, Sign};
 use super::point::{End, Obstruction};
 use super::problem::{Failure, Problem};
 use super::special::Special;
-use super::steps::{SHORTER, STRAIGHT, next_step};
+use super::steps::{FINE, SHORTER, SLOW, STRAIGHT, follows, next_step};
 use motiform_dynamics::sample::sort_by_number;
 
 /// A point is one of the curve only where its critical multiplier is as close to where it belongs: what the condition leaves at
@@ -48,7 +48,7 @@ impl<P: Problem> CurveTracer<'_, P> {
                     }
                     Obstruction::Newton
                 }
-                Ok((spot, off)) if self.is_straight(&spot) => {
+                Ok((spot, off)) if self.is_straight(&spot) && self.is_expected(&spot, length) => {
                     self.step = next_step(length, off.abs(), &self.settings);
                     return Ok((spot, length));
                 }
@@ -66,6 +66,26 @@ impl<P: Problem> CurveTracer<'_, P> {
     fn is_straight(&self, new: &Spot<P::Local>) -> bool {
         let weights = self.problem.weights(&new.x);
         product(&weights, &self.spot.frame.along, &new.frame.along) > STRAIGHT
+    }
+
+    /// Returns `true` if the levels at `new` are about those that the last two places, or the middle of the step, let expect. (Of
+    /// equilibria.)
+    fn is_expected(&self, new: &Spot<P::Local>, length: f64) -> bool {
+        let Some((_, levels, before)) = self.before.as_ref().filter(|_| self.problem.time().is_none()) else {
+            return true;
+        };
+        let (last, now, half) = ((-before, levels), (0.0, &self.spot.levels), 0.5 * length);
+        let largest = levels
+            .iter()
+            .chain(now.1)
+            .flatten()
+            .fold(self.problem.rate(), |most, one| most.max(one.growth.hypot(one.angle)));
+        let unclear = self.problem.unclear(&new.levels, TIGHT).max(SLOW * largest);
+        let new = (length, &new.levels);
+        let middle = || {
+            self.at(half).is_ok_and(|(middle, _)| follows(&[last, now, new], (half, &middle.levels), unclear))
+        };
+        length <= FINE * self.settings.smallest_step || follows(&[last, now], new, unclear) || middle()
     }
 
     /// One step; the present place is the new one afterwards.
@@ -97,7 +117,7 @@ impl<P: Problem> CurveTracer<'_, P> {
         }
         self.note_size(&new);
         let old = std::mem::replace(&mut self.spot, new);
-        self.before = Some((old.x, length));
+        self.before = Some((old.x, old.levels, length));
         Ok(Stretch { degenerate, end })
     }
 
@@ -156,7 +176,8 @@ impl<P: Problem> CurveTracer<'_, P> {
     fn degenerate(&self, new: &Spot<P::Local>, length: f64) -> Result<Vec<Event<P::Local>>, End> {
         let mut out = Vec::new();
         for (sign, kind) in Sign::all(&self.critical, self.special == Special::Fold) {
-            let value = |spot: &Spot<P::Local>| sign.value(&self.critical, &self.seen(spot));
+            let value =
+                |spot: &Spot<P::Local>| sign.value(&self.critical, &self.seen(spot), &|| self.turn(spot));
             let count = |spot: &Spot<P::Local>| sign.count(&self.critical, &self.seen(spot));
             let (low, high) = (value(&self.spot), value(new));
             let counts = (count(&self.spot), count(new));
@@ -174,13 +195,14 @@ impl<P: Problem> CurveTracer<'_, P> {
                     out.push(Event { s, spot: Some(spot), kind, at: None, ends: sign.ends(&self.critical) });
                 }
                 Err(Failure::Stopped) => return Err(End::Stopped),
-                _ => out.push(Event {
-                    s: length,
-                    spot: None,
-                    kind: Degenerate::Unresolved,
-                    at: None,
-                    ends: sign.ends(&self.critical),
-                }),
+                _ => {
+                    // the equations may be singular there
+                    let sides = self.closed_in(&value, (new, length))?;
+                    let left = sides[0].2.abs().max(sides[1].2.abs());
+                    let vanishes = left < 1e-3 * low.abs().max(high.abs()) && !matches!(sign, Sign::Lyapunov);
+                    let kind = if vanishes { kind } else { Degenerate::Unresolved };
+                    out.push(Event::between(&sides, kind, sign.ends(&self.critical)));
+                }
             }
         }
         sort_by_number(&mut out, |a| a.s);
@@ -195,7 +217,6 @@ impl<P: Problem> CurveTracer<'_, P> {
             solved: self.problem.solved(&spot.x),
             levels: &spot.levels,
             reading: &spot.reading,
-            directions: [last_two(&self.spot.frame.along), last_two(&spot.frame.along)],
         }
     }
 

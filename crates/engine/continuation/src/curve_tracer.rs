@@ -9,9 +9,14 @@ use super::section::{Cut, Frame, Section};
 use super::settings::Settings;
 use super::special::Special;
 use motiform_dynamics::Watch;
+use std::cell::OnceCell;
 
 /// The condition is solved for until a step across the curve is shorter than this: the error left is about its square.
 const ACROSS: f64 = 1e-9;
+
+/// The same, in the unit of levels: the range may be wide against what changes them. Multipliers are less exact.
+const CRITICAL: f64 = 1e-8;
+const CRITICAL_ORBITS: f64 = 1e-5;
 
 /// Motions on the way are solved for to this part of the step that led to them.
 const FINER: f64 = 1e-5;
@@ -19,8 +24,11 @@ const FINER: f64 = 1e-5;
 /// Steps that the condition is solved in.
 const TRIES: usize = 12;
 
-/// Length over which slopes on the surface are taken where none are known.
+/// Length over which slopes on the surface are taken where none are known. In units of a wide range it is shortened down to the second one,
+/// until what is left of a straight line is below this part of the slope.
 const PROBE: f64 = 1e-4;
+const LEAST: f64 = 1e-9;
+const BENT: f64 = 0.1;
 
 /// The start is this close to a special point.
 const NEAR: f64 = 1e-3;
@@ -39,6 +47,8 @@ pub(super) struct Spot<L> {
     /// Slope of the condition across the curve.
     pub(super) steep: f64,
     pub(super) arclength: f64,
+    /// Of [`CurveTracer::turn`], once it was asked for.
+    bend: OnceCell<Option<(Vec<f64>, f64)>>,
 }
 
 impl<L> Spot<L> {
@@ -72,8 +82,8 @@ pub(super) struct CurveTracer<'f, P: Problem> {
     pub(super) critical: Critical,
     pub(super) special: Special,
     pub(super) spot: Spot<P::Local>,
-    /// The place before, and the length of the step from there.
-    pub(super) before: Option<(Vec<f64>, f64)>,
+    /// The place before, with its levels, and the length of the step from there.
+    pub(super) before: Option<(Vec<f64>, Vec<Vec<Level>>, f64)>,
     pub(super) step: f64,
     /// Sizes of the orbits at the last places, with the parameters.
     pub(super) sizes: Vec<(f64, [f64; 2])>,
@@ -94,7 +104,8 @@ impl<'f, P: Problem> CurveTracer<'f, P> {
             .ok_or_else(singular)?;
         let frame = Frame::any(problem.linear(&local), &problem.weights(&x)).ok_or_else(singular)?;
         let step = settings.first_step.abs().min(settings.largest_step);
-        let spot = Spot { x, local, levels, reading, frame, steep: 1.0, arclength: 0.0 };
+        let spot =
+            Spot { x, local, levels, reading, frame, steep: 1.0, arclength: 0.0, bend: OnceCell::new() };
         let settings = *settings;
         let (before, sizes) = (None, Vec::new());
         let mut tracer =
@@ -117,7 +128,7 @@ impl<'f, P: Problem> CurveTracer<'f, P> {
         if product(&weights, &moved, &moved).sqrt() > NEAR {
             return Err(Failure::Obstructed(Obstruction::Newton));
         }
-        Ok(Spot { x: found, local, levels, reading, frame, steep, arclength: 0.0 })
+        Ok(Spot { x: found, local, levels, reading, frame, steep, arclength: 0.0, bend: OnceCell::new() })
     }
 
     /// The present place with a frame along the curve, from differences of the condition.
@@ -127,17 +138,62 @@ impl<'f, P: Problem> CurveTracer<'f, P> {
         let local = self.problem.local(x, self.watch)?;
         let levels = self.problem.levels(x, &local).ok_or_else(singular)?;
         let any = Frame::any(self.problem.linear(&local), &weights).ok_or_else(singular)?;
-        let slope = |direction: &[f64], other: &[f64]| {
-            let at = |length: f64| {
-                let guess = x.iter().zip(direction).map(|(x, d)| x + length * d).collect();
-                self.probe(guess, x, (other, direction), TIGHT).map(|probe| probe.reading.value)
-            };
-            Ok::<f64, Failure>((at(PROBE)? - at(-PROBE)?) / (2.0 * PROBE))
+        let here = self.critical.read(&levels, self.spot.reading.angle).ok_or_else(singular)?.value;
+        let mut length = PROBE;
+        let [a, b] = loop {
+            let all = [
+                self.sides(x, (&any.along, &any.across), length)?,
+                self.sides(x, (&any.across, &any.along), length)?,
+            ];
+            let slopes = all.map(|[low, high]| (high - low) / (2.0 * length));
+            let bent = all.map(|[low, high]| (high + low - 2.0 * here).abs());
+            if bent[0].max(bent[1]) <= BENT * length * libm::hypot(slopes[0], slopes[1]) || length <= LEAST {
+                break slopes;
+            }
+            length *= 0.1;
         };
-        let slopes = (slope(&any.along, &any.across)?, slope(&any.across, &any.along)?);
-        let (frame, steep) = any.level(slopes.0, slopes.1).ok_or_else(singular)?;
+        let (frame, steep) = any.level(a, b).ok_or_else(singular)?;
         let reading = self.spot.reading.clone();
-        Ok(Spot { x: x.clone(), local, levels, reading, frame, steep, arclength: self.spot.arclength })
+        let arclength = self.spot.arclength;
+        Ok(Spot { x: x.clone(), local, levels, reading, frame, steep, arclength, bend: OnceCell::new() })
+    }
+
+    /// The condition on the surface, the length before `x` in a direction and after it; `other` is normal to the direction.
+    fn sides(
+        &self,
+        x: &[f64],
+        (direction, other): (&[f64], &[f64]),
+        length: f64,
+    ) -> Result<[f64; 2], Failure> {
+        let at = |length: f64| {
+            let guess = x.iter().zip(direction).map(|(x, d)| x + length * d).collect();
+            self.probe(guess, x, (other, direction), TIGHT).map(|probe| probe.reading.value)
+        };
+        Ok([at(-length)?, at(length)?])
+    }
+
+    /// The direction of the surface in which neither parameter changes, as there is one at a fold, and the slope of the condition in this
+    /// direction: at a cusp it is 0.
+    fn bend<'s>(&self, spot: &'s Spot<P::Local>) -> Option<&'s (Vec<f64>, f64)> {
+        let bend = || {
+            let Frame { along, across } = &spot.frame;
+            let units = self.ranges.map(|(low, high)| high - low);
+            let [[p, q], [r, s]] = [last_two(along), last_two(across)];
+            let rows = [[p / units[0], r / units[0]], [q / units[1], s / units[1]]];
+            let [a, b] = rows.into_iter().max_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])))?;
+            let (frame, _) = spot.frame.level(a, b)?;
+            let [low, high] = self.sides(&spot.x, (&frame.along, &frame.across), PROBE).ok()?;
+            Some((frame.along, (high - low) / (2.0 * PROBE)))
+        };
+        spot.bend.get_or_init(bend).as_ref()
+    }
+
+    /// The slope of [`CurveTracer::bend`] at `spot`, in the direction that goes on from the one at the present place.
+    pub(super) fn turn(&self, spot: &Spot<P::Local>) -> f64 {
+        let Some((before, (now, slope))) = self.bend(&self.spot).zip(self.bend(spot)) else {
+            return f64::NAN;
+        };
+        slope * product(&self.problem.weights(&spot.x), &before.0, now).signum()
     }
 
     /// The motion near `guess` in the plane through `centre` normal to `normal_to`, at the guess's height along `along`.
@@ -168,6 +224,7 @@ impl<'f, P: Problem> CurveTracer<'f, P> {
     ) -> Result<(Probe<P::Local>, f64, f64), Failure> {
         let directions = (frame.along.as_slice(), frame.across.as_slice());
         let mut probe = self.probe(centre.to_vec(), centre, directions, TIGHT)?;
+        let critical = if self.critical.orbits { CRITICAL_ORBITS } else { CRITICAL };
         let (mut off, mut last) = (0.0, f64::INFINITY);
         for count in 0..TRIES {
             let change = (-probe.reading.value / steep).clamp(-0.1, 0.1);
@@ -176,7 +233,7 @@ impl<'f, P: Problem> CurveTracer<'f, P> {
             }
             let guess: Vec<f64> = probe.x.iter().zip(&frame.across).map(|(x, d)| x + change * d).collect();
             let stalled = count > 3 && change.abs() < 1000.0 * ACROSS && change.abs() > 0.5 * last;
-            if change.abs() < ACROSS || stalled {
+            if change.abs() < ACROSS && probe.reading.off < critical || stalled {
                 // so short a step leaves nothing that another solution would show
                 let x = if stalled { probe.x } else { guess };
                 return Ok((Probe { x, ..probe }, steep, off));
@@ -197,7 +254,7 @@ impl<'f, P: Problem> CurveTracer<'f, P> {
     pub(super) fn at(&self, s: f64) -> Result<(Spot<P::Local>, f64), Failure> {
         let Spot { x, frame, steep, arclength, .. } = &self.spot;
         let mut centre: Vec<f64> = x.iter().zip(&frame.along).map(|(x, t)| x + s * t).collect();
-        if let Some((before, length)) = self.before.as_ref().filter(|before| s < 2.0 * before.1) {
+        if let Some((before, _, length)) = self.before.as_ref().filter(|before| s < 2.0 * before.2) {
             for (i, value) in centre.iter_mut().enumerate() {
                 let chord = (x[i] - before[i]) / length;
                 *value += s * s / length * (frame.along[i] - chord);
@@ -209,7 +266,8 @@ impl<'f, P: Problem> CurveTracer<'f, P> {
         let guess = Frame { along, across: frame.across.clone() };
         let frame = guess.within(self.problem.linear(&found.local), &weights).ok_or_else(singular)?;
         let Probe { x, local, levels, reading } = found;
-        Ok((Spot { x, local, levels, reading, frame, steep, arclength: arclength + s }, off))
+        let (arclength, bend) = (arclength + s, OnceCell::new());
+        Ok((Spot { x, local, levels, reading, frame, steep, arclength, bend }, off))
     }
 
     /// The direction at `x`, the length `s` after the present place: that of the parabola through the last places.
@@ -218,7 +276,7 @@ impl<'f, P: Problem> CurveTracer<'f, P> {
         let along = |i: usize| {
             let chord = (x[i] - now[i]) / s;
             match &self.before {
-                Some((before, length)) => {
+                Some((before, _, length)) => {
                     let old = (now[i] - before[i]) / length;
                     chord + (chord - old) * s / (length + s)
                 }

@@ -80,7 +80,7 @@ impl Degenerate {
 /// The value that changes its sign at such a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Sign {
-    /// The direction of the parameters, against the one at the beginning of the step.
+    /// The slope of the condition in the direction in which the parameters do not change.
     Turn,
     /// The first Lyapunov coefficient, multiplied by what makes it finite where another eigenvalue vanishes: at a zero-Hopf point it has a
     /// pole, and changes its sign without being 0.
@@ -101,8 +101,6 @@ pub(super) struct Seen<'s> {
     pub(super) solved: f64,
     pub(super) levels: &'s [Vec<Level>],
     pub(super) reading: &'s Reading,
-    /// Direction of the parameters, and the one at the beginning of the step.
-    pub(super) directions: [[f64; 2]; 2],
 }
 
 /// A coefficient that vanishes is smaller than this part of those around it.
@@ -145,13 +143,11 @@ impl Sign {
         matches!(self, Self::Angle(value) if !critical.orbits || value.abs() == 1.0)
     }
 
-    pub(super) fn value(self, critical: &Critical, seen: &Seen<'_>) -> f64 {
+    /// The value; `turn` is the one of [`Sign::Turn`].
+    pub(super) fn value(self, critical: &Critical, seen: &Seen<'_>, turn: &dyn Fn() -> f64) -> f64 {
         let others = || critical.others(seen.levels, seen.reading);
         match self {
-            Self::Turn => {
-                let [a, b] = seen.directions;
-                a[0] * b[0] + a[1] * b[1]
-            }
+            Self::Turn => turn(),
             Self::Lyapunov => first_lyapunov_of(seen)
                 .map_or(f64::NAN, |found| found.value * critical.poles(seen.levels, seen.reading)),
             Self::Angle(value) => seen.reading.angle - value,

@@ -21,7 +21,7 @@ const EXPECTED: f64 = 0.1;
 
 /// Part of the largest level below which a growth is as good as 0. Where all levels are below this part of the rate of the equations the
 /// motion is far from where their units were taken, and what happens there is shorter than a step.
-const SLOW: f64 = 1e-5;
+pub(super) const SLOW: f64 = 1e-5;
 
 /// Part of the size of levels below which a real one says that another branch may be near.
 const NEAR: f64 = 0.1;
@@ -33,7 +33,7 @@ pub(super) const SAME: f64 = 30.0;
 const ABOUT: std::ops::RangeInclusive<f64> = 0.3..=3.0;
 
 /// Steps as short as this, in shortest ones, are taken as they are.
-const FINE: f64 = 100.0;
+pub(super) const FINE: f64 = 100.0;
 
 /// A step that fails is tried again with this part of its length. No power of 1.5 times a power of it is 1, so that growing and
 /// shrinking steps do not come back to the same place.
@@ -276,7 +276,7 @@ impl<P: Problem> Tracer<'_, P> {
 type Course<'l> = (f64, &'l Vec<Vec<Level>>);
 
 /// Returns `true` if growths are about those of the polynomials through the others; those that pass each other change their ranks.
-fn follows(others: &[Course<'_>], (s, levels): Course<'_>, unclear: f64) -> bool {
+pub(super) fn follows(others: &[Course<'_>], (s, levels): Course<'_>, unclear: f64) -> bool {
     let part = |t: f64| -> f64 {
         others.iter().filter(|one| one.0 != t).map(|one| (s - one.0) / (t - one.0)).product()
     };

@@ -3,26 +3,53 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use motiform_analysis::{Error, RelativeEquilibrium, Result};
-use motiform_continuation::{Branch, Family, Point, Settings};
+use motiform_continuation::{Branch, Degenerate, Family, Family2, Point, Settings, WholeCurve};
 use motiform_dynamics::Equivariant;
 use motiform_models::amplitudes::{Definition, ParameterDefinition, info};
 
-/// The bodies of an equation for one amplitude.
-fn family(symmetry: &str, equation: &str) -> impl Fn(f64) -> Result<Box<dyn Equivariant>> + Sync + use<> {
+/// The bodies of equations, one for each amplitude, over two parameters.
+fn plane(
+    symmetry: &str,
+    equations: &[&str],
+) -> impl Fn([f64; 2]) -> Result<Box<dyn Equivariant>> + Sync + use<> {
     let model = info(&Definition {
-        modes: vec![1],
+        modes: (1..=equations.len() as u32).collect(),
         velocity: None,
         symmetry: Some(symmetry.to_owned()),
-        parameters: vec![ParameterDefinition::new("p", 0.0)],
-        equations: vec![equation.to_owned()],
+        parameters: ["p", "q"].map(|name| ParameterDefinition::new(name, 0.0)).to_vec(),
+        equations: equations.iter().map(|&equation| equation.to_owned()).collect(),
         noise: std::collections::BTreeMap::new(),
     })
     .expect("a model");
-    move |p| {
-        let none = |error: motiform_models::Error| Error::NoBody { value: p, why: error.to_string() };
-        let body: Box<dyn Equivariant> = model.build(&[p]).map_err(none)?;
+    move |values| {
+        let none = |error: motiform_models::Error| Error::NoBody { value: values[0], why: error.to_string() };
+        let body: Box<dyn Equivariant> = model.build(&values).map_err(none)?;
         Ok(body)
     }
+}
+
+/// The bodies of an equation for one amplitude.
+fn family(symmetry: &str, equation: &str) -> impl Fn(f64) -> Result<Box<dyn Equivariant>> + Sync + use<> {
+    let plane = plane(symmetry, &[equation]);
+    move |p| plane([p, 0.0])
+}
+
+/// The points of codimension two on the curve through the first point of this kind, which begins at `x` and the parameters `from`, and the
+/// number of its points.
+fn degenerate(
+    family: &dyn Family2,
+    (from, x): ([f64; 2], &[f64]),
+    kind: &str,
+    [first, second]: [(f64, f64); 2],
+) -> (Vec<(Degenerate, [f64; 2])>, usize) {
+    let along = |p: f64| family.at([p, from[1]]);
+    let start = RelativeEquilibrium::find(along(from[0]).unwrap().as_ref(), x).unwrap();
+    let settings = Settings::over(first.0, first.1);
+    let mut branch = Branch::of_equilibria(&along, from[0], &start, &settings, &()).unwrap();
+    let special = branch.find(|point| point.special.is_some_and(|special| special.name() == kind)).unwrap();
+    let curve = WholeCurve::through(family, &special, from[1], &settings, second, &()).unwrap();
+    let found = curve.points.iter().filter_map(|point| Some((point.degenerate?, point.parameters)));
+    (found.collect(), curve.points.len())
 }
 
 /// The points on both sides of the equilibrium near `x`.
@@ -92,5 +119,47 @@ fn folds_have_their_name_over_ranges_of_any_width() {
             assert_eq!((first, second), ("fold", "fold"), "{a} {high}");
             assert!((low + fold).abs() < 1e-9 && (high - fold).abs() < 1e-9, "{a} {high}: {found:?}");
         }
+    }
+}
+
+/// `x' = p + q x - x^3`: in units of a wide range the parameters hardly change beside the cusp, and their direction had a sign of rounding:
+/// there were several cusps, or one elsewhere.
+#[test]
+fn folds_meet_in_one_cusp_in_ranges_of_any_width() {
+    let family = plane("none", &["p + q*re(z1) - re(z1)^3 - i*im(z1)"]);
+    for (first, second) in [(1.0, 1.0), (1.0, 1e3), (10.0, 1e5), (1e3, 10.0), (1e5, 1e5)] {
+        let ranges = [(-first, first), (-second, second)];
+        let (found, _) = degenerate(&family, ([0.0, 0.8], &[-0.9, 0.0]), "fold", ranges);
+        let [(Degenerate::Cusp, [p, q])] = found[..] else { unreachable!("{first} {second}: {found:?}") };
+        assert!(p.abs() < 1e-8 * first && q.abs() < 1e-9 * second.max(10.0), "{first} {second}: {found:?}");
+    }
+}
+
+/// Two oscillators: beside the Hopf point, in units of a wide range, the pair of the other one was taken for the critical one, and no
+/// curve began.
+#[test]
+fn hopf_curves_begin_in_ranges_of_any_width() {
+    let equations = ["(p + 2*i - |z1|^2)*z1", "(q + 3.3*i - |z2|^2)*z2"];
+    let family = plane("none", &equations);
+    for first in [1.0, 1e3, 1e5] {
+        let ranges = [(-first, first), (-1.0, 1.0)];
+        let (found, points) = degenerate(&family, ([-0.2, -0.5], &[0.0; 4]), "hopf", ranges);
+        let [(Degenerate::DoubleHopf, [p, q])] = found[..] else { unreachable!("{first}: {found:?}") };
+        assert!(p.abs().max(q.abs()) < 1e-8 && points > 50, "{first}: {found:?}");
+    }
+}
+
+/// `x' = y`, `y' = (p - x^2) y - q x - x^3`, with `x -> -x`: Hopf bifurcations on `p = 0`, `q > 0`. At `q = 0` a pitchfork crosses, where
+/// the equations are singular: the point was at the end of its step, and of no kind.
+#[test]
+fn a_hopf_curve_ends_at_a_point_where_the_equations_are_singular() {
+    let family = plane("none", &["im(z1) + i*((p - re(z1)^2)*im(z1) - q*re(z1) - re(z1)^3)"]);
+    for (first, second) in [(1.0, 1.0), (1.0, 0.7), (1.0, 1e3), (1e3, 10.0)] {
+        let ranges = [(-first, first), (-second, second)];
+        let (found, _) = degenerate(&family, ([-0.2, 0.5], &[0.0; 2]), "hopf", ranges);
+        let [(Degenerate::BogdanovTakens, [p, q])] = found[..] else {
+            unreachable!("{first} {second}: {found:?}")
+        };
+        assert!(p.abs() < 1e-8 && q.abs() < 1e-8 * second, "{first} {second}: {found:?}");
     }
 }
