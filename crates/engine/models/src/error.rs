@@ -60,7 +60,9 @@ pub enum Error {
     Coefficient { term: String },
 }
 
-fn hint(nearest: &Option<&'static str>) -> String {
+/// ` (did you mean NAME?)`, if there is a similar name.
+#[must_use]
+pub fn hint(nearest: &Option<&'static str>) -> String {
     nearest.map_or_else(String::new, |name| format!(" (did you mean {name}?)"))
 }
 

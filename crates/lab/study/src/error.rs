@@ -1,6 +1,6 @@
 //! Errors from the study file to the figure.
 
-use motiform_models::nearest;
+use motiform_models::{hint, nearest};
 use motiform_store::Kind;
 use std::path::{Path, PathBuf};
 
@@ -178,11 +178,6 @@ impl Error {
     pub fn write_failed(path: &Path, reason: impl std::fmt::Display) -> Self {
         motiform_store::Error::write_failed(path, reason).into()
     }
-}
-
-/// ` (did you mean NAME?)`, if there is a similar name.
-pub(crate) fn hint(nearest: &Option<&'static str>) -> String {
-    nearest.map_or_else(String::new, |name| format!(" (did you mean {name}?)"))
 }
 
 /// The registered name most similar to `name`.

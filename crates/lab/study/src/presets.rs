@@ -91,13 +91,6 @@ pub fn find(info: &'static ModelInfo, name: &str) -> Result<Study, Error> {
     Study::parse(preset.text, &format!("preset {name}"), name)
 }
 
-/// The model that a preset belongs to.
-#[must_use]
-pub fn model_of(name: &str) -> Option<&'static ModelInfo> {
-    let preset = PRESETS.iter().find(|preset| preset.name == name)?;
-    MODELS.iter().find(|info| info.name == preset.model)
-}
-
 /// Returns `true` if a text is the title or the sentence of one of a model's presets.
 pub(crate) fn says(model: &str, text: &str) -> bool {
     let theirs = |preset: &&'static Preset| preset.model == model;
