@@ -2,7 +2,7 @@
 
 use crate::error::nearest_of;
 use crate::{Error, Study};
-use motiform_models::{MODELS, ModelInfo};
+use motiform_models::ModelInfo;
 
 /// A preset: a study file of the folder `presets/`.
 #[derive(Debug)]
