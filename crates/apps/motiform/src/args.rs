@@ -36,6 +36,7 @@ use help::{
 pub(crate) use lifetimes::LifetimesOptions;
 use motiform_models::spelling::ascii;
 use motiform_study::Random;
+use motiform_study::scan::number;
 pub(crate) use motions::{ContinueOptions, Crossing, EquilibriaOptions, Observable, SectionOptions};
 pub(crate) use scan::{MergeOptions, ScanOptions};
 pub(crate) use settings::{Bodies, Cells, Following, Method, Recording, SettingOptions, Span};
@@ -283,12 +284,6 @@ pub(crate) enum TableFormat {
     Csv,
 }
 
-fn number(text: &str) -> Result<f64, String> {
-    let value: f64 =
-        text.parse().map_err(|_| format!("{text:?} is not a number: write it like 0.5 or 1e-9"))?;
-    if value.is_finite() { Ok(value) } else { Err(format!("{text} is not finite: give a finite number")) }
-}
-
 fn whole(text: &str) -> Result<u64, String> {
     text.parse()
         .map_err(|_| format!("{text:?} is not a whole number from 0 to {}: write it like 7", u64::MAX))
@@ -317,6 +312,20 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    /// A help is at most 100 columns wide: a row of a table fits in, and a paragraph is one line, which is broken where it is shown.
+    #[test]
+    fn rows_of_helps_fit_and_paragraphs_are_lines() {
+        for command in std::iter::once(&Arguments::command()).chain(Arguments::command().get_subcommands()) {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let lines: Vec<&str> = help.lines().chain([""]).collect();
+            for pair in lines.windows(2).filter(|pair| pair[0].len() > 100) {
+                let (typed, row) = (pair[0].starts_with("  motiform "), pair[0].starts_with(' '));
+                let ends = pair[1].is_empty() || pair[1].starts_with(' ');
+                assert!(typed || !row && ends, "{}: {}", command.get_name(), pair[0]);
+            }
+        }
     }
 
     #[test]

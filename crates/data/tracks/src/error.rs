@@ -33,11 +33,11 @@ pub enum Setting {
 /// The reasons why no tracks were read or written. Messages name the file, the line or entry, and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "each message says what its fields are")]
 pub enum Error {
     /// The file system refused.
     #[error("{}: {reason}", .file.display())]
     Io {
-        /// The file.
         file: PathBuf,
         /// The reason; in the message, so it is no source.
         reason: std::io::Error,
@@ -47,86 +47,33 @@ pub enum Error {
     NoFile,
     /// A file that would be read twice.
     #[error("{} is given twice: give every file once", .file.display())]
-    Twice {
-        /// The file.
-        file: PathBuf,
-    },
+    Twice { file: PathBuf },
     /// The content is that of no known format.
     #[error("{}: not a file of outlines that is known here ({found}); the formats are {}", .file.display(), Format::list())]
-    UnknownFormat {
-        /// The file.
-        file: PathBuf,
-        /// The apparent kind of the content.
-        found: String,
-        /// The setting that may help.
-        setting: Option<Setting>,
-    },
+    UnknownFormat { file: PathBuf, found: String, setting: Option<Setting> },
     /// The content fits several formats.
     #[error("{}: the content fits {}; choose one with the option format", .file.display(), names(.candidates))]
-    Ambiguous {
-        /// The file.
-        file: PathBuf,
-        /// The formats that it fits.
-        candidates: Vec<Format>,
-    },
+    Ambiguous { file: PathBuf, candidates: Vec<Format> },
     /// Something else stands where the format requires this.
     #[error("{place}: {found}, where {expected} is expected")]
-    Structure {
-        /// The place.
-        place: Place,
-        /// The content that was found.
-        found: String,
-        /// The content that was expected.
-        expected: String,
-    },
+    Structure { place: Place, found: String, expected: String },
     /// The content ends too early.
     #[error("{place}: the file ends before {missing}: it is truncated; write or copy it again")]
-    Truncated {
-        /// The place.
-        place: Place,
-        /// The missing part.
-        missing: String,
-    },
+    Truncated { place: Place, missing: String },
     /// A column is not there, or several could be meant.
     #[error("{}: {found} for {wanted} among the columns {}; name it", .file.display(), .known.join(", "))]
-    Column {
-        /// The file.
-        file: PathBuf,
-        /// The column.
-        wanted: &'static str,
-        /// None, or which.
-        found: String,
-        /// The columns of the file.
-        known: Vec<String>,
-    },
+    Column { file: PathBuf, wanted: &'static str, found: String, known: Vec<String> },
     /// More than is read at once.
     #[error("{place}: more than {limit} {what}; split the file (in Rust: or raise Options::limits.{key})")]
-    Limit {
-        /// The place.
-        place: Place,
-        /// The items that are too many.
-        what: &'static str,
-        /// The limit.
-        limit: u64,
-        /// The option that sets it.
-        key: &'static str,
-    },
+    Limit { place: Place, what: &'static str, limit: u64, key: &'static str },
     /// A sound file without an outline.
     #[error("{}: no outline: {reason}", .file.display())]
-    NoOutlines {
-        /// The file.
-        file: PathBuf,
-        /// The reason why there is none.
-        reason: String,
-    },
+    NoOutlines { file: PathBuf, reason: String },
     /// An outline that belongs to no frame.
     #[error(
         "{place}: the outline has no frame number; name it FRAME-CELL.roi, or set their position in ImageJ"
     )]
-    NoFrame {
-        /// The place.
-        place: Place,
-    },
+    NoFrame { place: Place },
     /// Several bodies under one name.
     #[error(
         "{}: {name:?} has several different outlines in {conflicts} of its {frames} frames, first in frame \
@@ -134,97 +81,40 @@ pub enum Error {
         .file.display()
     )]
     MixedCells {
-        /// The file.
         file: PathBuf,
-        /// Name of the cell.
         name: String,
         /// Frames with different outlines.
         conflicts: usize,
-        /// All frames.
         frames: usize,
-        /// The first such frame.
         first: i64,
-        /// The remedy.
         remedy: Apart,
     },
     /// The file and an option say different things.
     #[error("{}: the file says {what} = {file_says}, the option {key} says {option_says}; leave the option \
         out or correct the file", .file.display())]
-    Disagree {
-        /// The file.
-        file: PathBuf,
-        /// The measured quantity.
-        what: &'static str,
-        /// Name of the option.
-        key: &'static str,
-        /// The statement of the file.
-        file_says: String,
-        /// The statement of the option.
-        option_says: String,
-    },
+    Disagree { file: PathBuf, what: &'static str, key: &'static str, file_says: String, option_says: String },
     /// Units in the header of a table that are not known, or contradict each other.
     #[error("{}: {found}; {remedy}", .file.display())]
-    HeaderUnit {
-        /// The file.
-        file: PathBuf,
-        /// The units and their columns.
-        found: String,
-        /// The remedy.
-        remedy: &'static str,
-    },
+    HeaderUnit { file: PathBuf, found: String, remedy: &'static str },
     /// Files in different units cannot be read together.
     #[error("{}: its {what} is {found}, that of the files before it {before}; read them separately", .file.display())]
-    Units {
-        /// The file.
-        file: PathBuf,
-        /// Length or time unit.
-        what: &'static str,
-        /// That of this file.
-        found: String,
-        /// That of the others.
-        before: String,
-    },
+    Units { file: PathBuf, what: &'static str, found: String, before: String },
     /// A unit of an option that is not known.
     #[error("{key} = {value:?}: this unit is not known; choose one of {known}")]
-    OptionUnit {
-        /// Its name.
-        key: &'static str,
-        /// Its value.
-        value: String,
-        /// The units.
-        known: String,
-    },
+    OptionUnit { key: &'static str, value: String, known: String },
     /// An option out of its range.
     #[error("{key} = {value}: {remedy}")]
-    Setting {
-        /// Its name.
-        key: &'static str,
-        /// Its value.
-        value: f64,
-        /// The remedy.
-        remedy: &'static str,
-    },
+    Setting { key: &'static str, value: f64, remedy: &'static str },
     /// A name of a format that is not known.
     #[error("unknown format {name:?}: choose one of {}", Format::list())]
-    FormatName {
-        /// The name.
-        name: String,
-    },
+    FormatName { name: String },
     /// Data that this format cannot hold.
     #[error("{format} cannot hold this: {reason}")]
-    Unwritable {
-        /// The format.
-        format: Format,
-        /// The reason.
-        reason: String,
-    },
+    Unwritable { format: Format, reason: String },
     /// A file to write whose name ends in nothing known.
     #[error("{}: outlines are written as a table (.csv: cell, frame, i, x, y) or, one cell in um and s, as \
         AmoePy's text (.txt): end the name in one of these", .file.display())]
-    Ending {
-        /// The file.
-        file: PathBuf,
-    },
+    Ending { file: PathBuf },
 }
 
 impl Error {

@@ -3,17 +3,11 @@
 /// An input that names no model, parameter or coordinate, or a value that cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "each message says what its fields are")]
 pub enum Error {
     /// No model has this name.
     #[error("unknown model {name:?}{}: the models are {}", hint(.nearest), .known.join(", "))]
-    UnknownModel {
-        /// The name given.
-        name: String,
-        /// The most similar known name, if any is similar.
-        nearest: Option<&'static str>,
-        /// All known names.
-        known: Vec<&'static str>,
-    },
+    UnknownModel { name: String, nearest: Option<&'static str>, known: Vec<&'static str> },
     /// Equations given as text were asked for by name.
     #[error(
         "amplitudes are equations of your own: give a study file with [model.amplitudes], or one of their presets"
@@ -21,104 +15,54 @@ pub enum Error {
     NoEquations,
     /// A model of one's own that cannot be used.
     #[error("model {name:?}: {problem}")]
-    OwnModel {
-        /// Its name.
-        name: String,
-        /// The problem and its remedy.
-        problem: String,
-    },
+    OwnModel { name: String, problem: String },
     /// The model has no such parameter.
     #[error("unknown parameter {name:?} of model {model}{}: the parameters are {}", hint(.nearest), .known.join(", "))]
     UnknownParameter {
-        /// The name given.
         name: String,
-        /// The model.
         model: &'static str,
-        /// The most similar known name, if any is similar.
         nearest: Option<&'static str>,
-        /// All known names.
         known: Vec<&'static str>,
     },
     /// The model has no such coordinate.
     #[error("unknown coordinate {name:?} of model {model}{}: the names are {}", hint(.nearest), .known.join(", "))]
     UnknownCoordinate {
-        /// The name given.
         name: String,
-        /// The model.
         model: &'static str,
-        /// The most similar known name, if any is similar.
         nearest: Option<&'static str>,
-        /// All known names.
         known: Vec<&'static str>,
     },
     /// Not one value for each parameter.
     #[error("values = {got} numbers: model {model} has {expected} parameters; give one value for each")]
-    ValueCount {
-        /// The model.
-        model: &'static str,
-        /// The number of its parameters.
-        expected: usize,
-        /// The number given.
-        got: usize,
-    },
+    ValueCount { model: &'static str, expected: usize, got: usize },
     /// A number that is not finite, or outside what the model allows.
     #[error("{name} = {} is out of range: give a number from {min} to {max}", written(*.value))]
-    OutOfRange {
-        /// Name of the number.
-        name: String,
-        /// Its value.
-        value: f64,
-        /// Smallest allowed value.
-        min: f64,
-        /// Largest allowed value.
-        max: f64,
-    },
+    OutOfRange { name: String, value: f64, min: f64, max: f64 },
     /// A number that counts or switches, with a fraction.
     #[error("{name} = {value} is not a whole number: give it without a fraction")]
-    NotWhole {
-        /// Name of the number.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
+    NotWhole { name: &'static str, value: f64 },
     /// The modes do not resolve the boundary.
     #[error("modes = {modes} do not resolve a boundary of length {length}: give at least {needed}")]
-    TooFewModes {
-        /// The number given.
-        modes: usize,
-        /// Length of the boundary.
-        length: f64,
-        /// The required number.
-        needed: usize,
-    },
+    TooFewModes { modes: usize, length: f64, needed: usize },
     /// The error function is to be added to a shape with fewer modes.
     #[error(
         "modes = {modes} cannot represent the feedback of closure_modes = {closure_modes}: give as many modes, or feedback = 0"
     )]
-    NoRoomForFeedback {
-        /// Number of modes of the shape.
-        modes: usize,
-        /// Number of modes of the error function.
-        closure_modes: usize,
-    },
+    NoRoomForFeedback { modes: usize, closure_modes: usize },
     /// Equations given as text that are no model.
     #[error("the amplitude equations are not valid: {problem}")]
-    Equations {
-        /// The fault, and the remedy.
-        problem: String,
-    },
+    Equations { problem: String },
     /// A coefficient of amplitude equations has no value.
     #[error(
         "the coefficient of the term {term} has no finite value at these parameters: change a parameter \
         that it divides by, or takes a root of"
     )]
-    Coefficient {
-        /// The equation and its term.
-        term: String,
-    },
+    Coefficient { term: String },
 }
 
-fn hint(nearest: &Option<&'static str>) -> String {
+/// ` (did you mean NAME?)`, if there is a similar name.
+#[must_use]
+pub fn hint(nearest: &Option<&'static str>) -> String {
     nearest.map_or_else(String::new, |name| format!(" (did you mean {name}?)"))
 }
 

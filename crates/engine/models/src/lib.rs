@@ -15,7 +15,7 @@ pub mod spelling;
 pub mod tensor;
 pub mod zoo;
 
-pub use error::{Error, nearest};
+pub use error::{Error, hint, nearest};
 pub use model_name::ModelName;
 pub use own::{About, register};
 pub use parameters::{ParameterSpec, Parameters};

@@ -7,22 +7,6 @@ use motiform_study::dataset::{Dataset, Manifest};
 use motiform_study::plan::{Computation, Question, manifest, pretty};
 use std::path::{Path, PathBuf};
 
-/// Writes the tables, the fields (if any) and the manifest of a dataset into a staged folder.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write_dataset(
-    dataset: &Dataset,
-    fields: Option<&Fields>,
-    format: Format,
-    staged: &Staged,
-) -> Result<(), Error> {
-    let path = staged.path().join(format.file("trajectory"));
-    write_table(&dataset.trajectory, &dataset.manifest, format, &path)
-        .map_err(|error| staged.shown(error))?;
-    write_rest(&dataset.manifest, dataset.crossings.as_ref(), fields, format, staged)
-}
-
 /// Writes what belongs to a trajectory, which is in the staged folder: crossings and fields (if any) and the manifest.
 ///
 /// # Errors

@@ -3,7 +3,7 @@
 use crate::simulate::Run;
 use motiform_dynamics::{Model, Outline};
 use motiform_store::table::Table;
-use motiform_store::{Fields, Format, Staged, read_groups};
+use motiform_store::{Fields, Format, Staged, read_groups, write_table};
 use motiform_study::{Dataset, Error, Manifest};
 use std::path::Path;
 
@@ -18,7 +18,11 @@ const POINTS: usize = 128;
 /// # Errors
 /// Files that cannot be written.
 pub fn write_dataset(dataset: &Dataset, format: Format, staged: &Staged) -> Result<(), Error> {
-    crate::dataset::write_dataset(dataset, fields(dataset)?.as_ref(), format, staged)
+    let Dataset { manifest, trajectory, crossings } = dataset;
+    let path = staged.path().join(format.file("trajectory"));
+    write_table(trajectory, manifest, format, &path).map_err(|error| staged.shown(error))?;
+    let fields = fields_in(manifest, trajectory)?;
+    crate::dataset::write_rest(manifest, crossings.as_ref(), fields.as_ref(), format, staged)
 }
 
 /// Writes what belongs to a trajectory that is in the staged folder already (and `whole` in memory where it
@@ -35,14 +39,7 @@ pub fn write_rest(run: &Run, whole: Option<&Table>, format: Format, staged: &Sta
     crate::dataset::write_rest(manifest, crossings.as_ref(), fields.as_ref(), format, staged)
 }
 
-/// The fields of a dataset; `None` for models without a field on the boundary.
-///
-/// # Errors
-/// An unknown model, or a dataset without its columns.
-pub fn fields(dataset: &Dataset) -> Result<Option<Fields>, Error> {
-    fields_in(&dataset.manifest, &dataset.trajectory)
-}
-
+/// The fields of a table of states; `None` for models without a field on the boundary.
 fn fields_in(manifest: &Manifest, table: &Table) -> Result<Option<Fields>, Error> {
     let Some(mut made) = Making::new(manifest, table.rows())? else { return Ok(None) };
     made.take(table);

@@ -6,123 +6,67 @@ use std::path::{Path, PathBuf};
 /// A place that is not written to, or a file that cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "each message says what its fields are")]
 pub enum Error {
     /// The output exists.
     #[error("{} exists", .path.display())]
-    Exists {
-        /// The path.
-        path: PathBuf,
-    },
+    Exists { path: PathBuf },
     /// The output exists and is a result of the same kind, which can be continued.
     #[error("{} exists and contains {}", .path.display(), .kind.words())]
-    Resumable {
-        /// The folder.
-        path: PathBuf,
-        /// The kind of the result.
-        kind: Kind,
-    },
+    Resumable { path: PathBuf, kind: Kind },
     /// The output exists and has no inventory.
     #[error(
         "{} exists and has no inventory of motiform (others wrote it, or an earlier version): it is not replaced",
         .path.display()
     )]
-    NotOurs {
-        /// The path.
-        path: PathBuf,
-    },
+    NotOurs { path: PathBuf },
     /// The output exists and is a result of another kind.
     #[error("{} exists and contains {found}, not {}: it is not replaced", .path.display(), .asked.words())]
-    OtherKind {
-        /// The folder.
-        path: PathBuf,
-        /// The kind of the existing result, in words.
-        found: String,
-        /// The kind of the result that would be written.
-        asked: Kind,
-    },
+    OtherKind { path: PathBuf, found: String, asked: Kind },
     /// A folder without an inventory cannot be continued.
     #[error(
         "{} has no inventory of motiform (others wrote it, or an earlier version): it is not continued",
         .path.display()
     )]
-    NotContinued {
-        /// The folder.
-        path: PathBuf,
-    },
+    NotContinued { path: PathBuf },
     /// A folder to be verified that does not exist.
     #[error("there is no folder {}", .path.display())]
-    NoFolder {
-        /// Its place.
-        path: PathBuf,
-    },
+    NoFolder { path: PathBuf },
     /// A folder without an inventory cannot be verified.
     #[error("{} has no inventory of motiform (others wrote it, or an earlier version): there is nothing to \
         compare it with", .path.display())]
-    NotVerified {
-        /// The folder.
-        path: PathBuf,
-    },
+    NotVerified { path: PathBuf },
     /// A file of ours was changed by others.
     #[error("{} was changed after motiform wrote it: it is not replaced; move it to another place", .path.display())]
-    Changed {
-        /// The file.
-        path: PathBuf,
-    },
+    Changed { path: PathBuf },
     /// Something that is not ours has the name of a file of the result.
     #[error(
         "{} was not written by motiform, and a file of the result has this name: it is not replaced; move it to another place",
         .path.display()
     )]
-    Taken {
-        /// The file.
-        path: PathBuf,
-    },
+    Taken { path: PathBuf },
     /// A folder whose name ends as that of a file.
     #[error("{}: the output is a folder, and this is the name of a file; give a name without .{ending}", .path.display())]
-    NamedAsFile {
-        /// The path.
-        path: PathBuf,
-        /// The end of its name.
-        ending: String,
-    },
+    NamedAsFile { path: PathBuf, ending: String },
     /// An inventory that is damaged, or of a later version.
     #[error("cannot read {}: {reason}", .path.display())]
-    Inventory {
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        reason: String,
-    },
+    Inventory { path: PathBuf, reason: String },
     /// Another process writes there.
     #[error("another motiform process computes in {}: wait until it is done", .path.display())]
-    Busy {
-        /// The path.
-        path: PathBuf,
-    },
+    Busy { path: PathBuf },
     /// A place without write access.
     #[error("cannot write {}: {reason}", .path.display())]
     Unwritable {
-        /// The path.
         path: PathBuf,
         /// The system's reason. (Not a `source`, because the message already contains it.)
         reason: std::io::Error,
     },
     /// A file that cannot be read.
     #[error("cannot read {}: {reason}", .path.display())]
-    Unreadable {
-        /// The path.
-        path: PathBuf,
-        /// The reason.
-        reason: String,
-    },
+    Unreadable { path: PathBuf, reason: String },
     /// Writing failed (for example because of a full disk).
     #[error("writing {} failed: {reason}; {}", .path.display(), advice(.reason))]
-    WriteFailed {
-        /// The path.
-        path: PathBuf,
-        /// The reason.
-        reason: String,
-    },
+    WriteFailed { path: PathBuf, reason: String },
 }
 
 impl Error {

@@ -2,7 +2,7 @@
 
 use crate::error::nearest_of;
 use crate::{Error, Study};
-use motiform_models::{MODELS, ModelInfo};
+use motiform_models::ModelInfo;
 
 /// A preset: a study file of the folder `presets/`.
 #[derive(Debug)]
@@ -89,13 +89,6 @@ pub fn find(info: &'static ModelInfo, name: &str) -> Result<Study, Error> {
     let preset = all().find(|preset| preset.model == info.name && preset.name == name);
     let preset = preset.ok_or_else(|| unknown(name, info.name))?;
     Study::parse(preset.text, &format!("preset {name}"), name)
-}
-
-/// The model that a preset belongs to.
-#[must_use]
-pub fn model_of(name: &str) -> Option<&'static ModelInfo> {
-    let preset = PRESETS.iter().find(|preset| preset.name == name)?;
-    MODELS.iter().find(|info| info.name == preset.model)
 }
 
 /// Returns `true` if a text is the title or the sentence of one of a model's presets.

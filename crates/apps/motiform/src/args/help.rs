@@ -6,7 +6,7 @@ Start here:
   motiform explore                              explore the models in a browser
   motiform continue tensor --preset fig5a --along kappa2=0.3:1.6
                                                 where its motion begins and ends
-  motiform atlas fig4                           a plane of two parameters: its motions and their boundaries
+  motiform atlas fig4                           a plane: its motions and their boundaries
   motiform models tensor                        its equations, parameters and presets
 
 Exit codes: 0 success; 1 finished, but some result is not as requested (a run escaped, a motion is undecided); 2 invalid input, \
@@ -52,7 +52,7 @@ Examples:
 The output folder contains
   _manifest.json       plan, hash, version
   part-*.parquet       one row per cell and initial state; pandas.read_parquet(DIR) reads them all
-  _diagram             the phase diagram, as .svg and .png; with one axis also _exponent, if exponents are known
+  _diagram             the phase diagram, as .svg and .png; with one axis also _exponent
 --resume continues a scan that was interrupted or killed. The results do not depend on the number of threads, shards or \
 interruptions. Exit code 1: some cells are undetermined.
 
@@ -66,15 +66,16 @@ Examples:
   motiform classify tensor --preset fig4 --set kappa2=0.2 --set kappa3=0.1 --seed 7
 
 Regimes, by the dynamics of the shape with rotations divided out:
-  motionless, straight, circular   a fixed shape (at rest, moving, moving and turning), stable by its eigenvalues
+  motionless, straight, circular   a stable shape: at rest, moving, moving and turning
   spinning                         a fixed shape that turns in its place
-  pulsating-straight               a periodic shape that is always mirror symmetric: constant heading, changing speed
-  zigzag, quasi-periodic           a shape that returns after a period, without or with a net rotation
-  rectangular                      rests near motionless shapes, along an attracting heteroclinic cycle
+  pulsating-straight               always mirror symmetric: constant heading, changing speed
+  zigzag, quasi-periodic           it returns after a period, without or with a net rotation
+  rectangular                      rests near motionless shapes: a heteroclinic cycle attracts
   chaotic                          the largest Lyapunov exponent is positive by more than its error
   blow-up                          the shape grows without bound
-  undetermined                     the evidence is inconclusive; the output states what is missing (exit code 1)
+  undetermined                     inconclusive: the output states what is missing (exit code 1)
 The transient of a preset is ignored: the motion is integrated for longer and longer until the evidence is conclusive.
+
 --samples M reports the shares of the motions with 95 % intervals, what was sampled (--random), and how many starts blow up.
 
 More: docs/regimes.md.";
@@ -98,15 +99,15 @@ parameters: a point of a branch (branch and point as in points.parquet) or an eq
 not simulated, so that it may be unstable; a state of a dataset is simulated on, but --motion motionless, straight or circular \
 takes the steady motion close to it. Special points:
   fold                branch turns back               hopf                a shape begins to pulsate
-  pitchfork           a symmetry of a steady shape breaks (drift pitchfork: straight motion begins to turn)
+  pitchfork           a symmetry of a steady shape breaks, as where straight motion begins to turn
   symmetry-breaking   left and right of a zigzag differ: it begins to rotate
   period-doubling     it repeats after two periods    torus               a second frequency begins
-  homoclinic          the end of a motion whose period grows without bound: it passes by a steady one
+  homoclinic          the period grows without bound: the motion passes by a steady one
   heteroclinic        the same where it passes by several, or by one and its mirror image
 Special points are solved for. stable: ranges of the parameter where small deviations die out. subcritical: what begins is unstable.
 
 The output folder holds
-  points.parquet       a row per point: parameter, motion, stability, period, speed, multiplier, state
+  points.parquet       a row per point: parameter, motion, stability, period, speed, state, ..
   summary.json         what --json prints
   branches, period     the diagram and the periods against the parameter, as .svg, .png and .csv
   manifest.json        plan, hash, version; branches.json: from where --resume goes on
@@ -130,7 +131,7 @@ sampling alone. Cells are those of a scan with the same axes, samples and seed. 
 small basins, more --lines name more of the boundaries.
 
 The output folder contains
-  report.html          the map, its regions, its boundaries with their bifurcations, special points, what was followed
+  report.html          the map, its regions, boundaries with their bifurcations, special points
   atlas                the map, as .svg, .png and .csv
   cells.parquet        a row per cell and motion; curves.parquet: a row per point of a curve
   summary.json         what --json prints
@@ -148,6 +149,7 @@ Newton's method from the circle and from random shapes of several sizes; then by
 yet, from sizes about those at which terms of the equations balance (a tenth of the smallest to ten times the largest), from \
 symmetric shapes and from shapes between known ones, until half as many searches as --starts for each unknown (1.5 as many for \
 the cell) in turn find nothing. Nothing proves that these are all.
+
 share: of the random starts that lead there; 'deflated' and 'mirrored' (the mirror image of another one) are those that no \
 start led to. unstable: number of growing directions; a motion with 0 is stable where its leading \
 eigenvalue is negative. Mirror images are listed apart.
@@ -190,8 +192,8 @@ addition, of
   a scan               the digests inside its parts; the first, a middle and the last part,
                        computed again
   branches, curves     the hash of their plan; points are not computed again
-  an atlas             the hash of its plan; some of its cells, computed again (with --all every cell
-                       that was computed, once it is finished); points of its curves are not
+  an atlas             the hash of its plan; some of its cells, computed again (with --all all
+                       that were computed, once it is finished); points of its curves are not
   other results        nothing: their numbers are not computed again
 
 Files that motiform did not write are listed, and are no fault. Exit code 0: intact; 1: not intact.

@@ -50,12 +50,13 @@ Examples:
   motiform lifetimes tensor --preset fig4 --set kappa3=0.1 --axis kappa2=1.1995,1.2002,1.2003,1.2004,1.2006,1.2008 \
     --samples 128 --random 0.01 --until 4e4 --out crisis
 
-Chaos that is transient ends in one of two ways: the body blows up, or it is captured by a stable steady motion. For each value the
-table shows how many of the starts did, the number of events (ends of lives after --transient), the time watched, and the mean life
+Chaos that is transient ends in one of two ways: the body blows up, or it is captured by a stable steady motion. For each value the \
+table shows how many of the starts did, the number of events (ends of lives after --transient), the time watched, and the mean life \
 with its exact 95 % limits. A start that is still chaotic at --until counts as watched until then.
 
-Two laws of the mean life tau are compared by likelihood: tau = C |p - pc|^-gamma (chaos becomes transient in a crisis at pc) and
+Two laws of the mean life tau are compared by likelihood: tau = C |p - pc|^-gamma (chaos becomes transient in a crisis at pc) and \
 tau = C exp(-k p) (no crisis). 'Cannot be told apart' is an answer: give more --samples, or values closer to the suspected crisis.
 
 Default of --transient: one look of the model, or if orbits are captured, twice the time that the approach to their steady motion takes.
+
 Exit code 1: there are too few events to compare laws, neither law holds, or the lives are not exponential. See docs/lifetimes.md.";

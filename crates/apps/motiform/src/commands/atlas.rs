@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use motiform_analysis::Regime;
 use motiform_diagrams::atlas::{
     AtlasFolder, Boundary, Grid, Line, Stage, atlas_summary, boundaries, mixed_courses, regions, survey,
-    trace, why_no_line,
+    trace, why_no_line, words,
 };
 use motiform_store::Folder;
 use motiform_study::atlas::{AtlasPlan, axis, samples};
@@ -111,7 +111,7 @@ impl Display for Surveyed<'_> {
         let all = regions(plan, grid);
         let (listed, small): (Vec<_>, Vec<_>) = all.iter().partition(|region| region.cells >= LISTED);
         for region in listed {
-            let (names, [x, y]) = (names(&region.motions), region.at);
+            let (names, [x, y]) = (words(&region.motions), region.at);
             writeln!(f, "region     {names:<32} {:5.1} %, around {x:.4}, {y:.4}", 100.0 * region.share)?;
         }
         if !small.is_empty() {
@@ -151,10 +151,6 @@ impl Display for Surveyed<'_> {
 /// Regions and boundaries of fewer cells are not listed.
 const LISTED: usize = 3;
 
-fn names(motions: &[Regime]) -> String {
-    motions.iter().map(|motion| motion.words()).collect::<Vec<_>>().join(" + ")
-}
-
 fn boundary(f: &mut Formatter<'_>, found: &Boundary) -> std::fmt::Result {
     let part = |edges: usize| format!("{:.0} %", 100.0 * edges as f64 / found.edges as f64);
     let mut kinds: Vec<String> =
@@ -162,7 +158,7 @@ fn boundary(f: &mut Formatter<'_>, found: &Boundary) -> std::fmt::Result {
     if found.unnamed > 0 {
         kinds.push(format!("not named {}", part(found.unnamed)));
     }
-    let between = found.between.each_ref().map(|side| names(side)).join(" | ");
+    let between = found.between.each_ref().map(|side| words(side)).join(" | ");
     writeln!(f, "boundary   {between:<40} {}", kinds.join(", "))?;
     if let Some(why) = found.why {
         writeln!(f, "           {why}")?;

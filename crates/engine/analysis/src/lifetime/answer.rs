@@ -24,41 +24,31 @@ const LEAST: (usize, usize, usize) = (20, 4, 3);
 /// The law that mean lives follow, with both fits as far as they were made.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "answer", rename_all = "kebab-case")]
+#[allow(missing_docs, reason = "laws, by their names")]
 pub enum LifeLaws {
     /// The power law is far more likely: chaos becomes transient in a crisis.
     PowerLaw {
-        /// It.
         power: PowerLawLife,
-        /// The other one.
         exponential: ExponentialLife,
         /// Akaike's criterion of the other law minus that of this one.
         advantage: f64,
     },
     /// The exponential law is far more likely: no crisis within the range, nor near it.
     Exponential {
-        /// It.
         exponential: ExponentialLife,
-        /// The other one.
         power: PowerLawLife,
         /// Akaike's criterion of the other law minus that of this one.
         advantage: f64,
     },
     /// Neither is far more likely than the other.
     CannotBeToldApart {
-        /// One law.
         exponential: ExponentialLife,
-        /// The other one.
         power: PowerLawLife,
         /// Akaike's criterion of the exponential law minus that of the power law.
         difference: f64,
     },
     /// Both laws are improbable.
-    Neither {
-        /// One law.
-        exponential: ExponentialLife,
-        /// The other one.
-        power: PowerLawLife,
-    },
+    Neither { exponential: ExponentialLife, power: PowerLawLife },
     /// The lives at one value are not exponential: their ends have no rate, and no law of a mean life tells of a crisis.
     NotExponential(Memory),
     /// There are too few events or values for a comparison.

@@ -134,8 +134,7 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         let mut called = members.outside(&self.u);
         if C::WATCHES {
             let (t, u, end) = (self.t, &self.u, const { M::TABLEAU.stages() });
-            let mut step =
-                Stepped { accepted, t, t_old, h, u, u_old: &u_old, slopes, end, field: PhantomData };
+            let mut step = Stepped { accepted, t, t_old, u, u_old: &u_old, slopes, end, field: PhantomData };
             called |= members.stepped(&mut step);
         }
         called &= self.active;

@@ -135,8 +135,6 @@ pub struct Stepped<'s, B, const D: usize, F> {
     pub t: B,
     /// Time at its start.
     pub t_old: B,
-    /// Its size.
-    pub h: B,
     /// State at its end.
     pub u: &'s [B; D],
     /// State at its start.

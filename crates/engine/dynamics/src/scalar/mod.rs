@@ -68,20 +68,6 @@ pub trait Scalar:
         self * factor + addend
     }
 
-    /// `self + (a b - c d)`: a complex product, summed up.
-    #[inline(always)]
-    #[must_use]
-    fn add_difference(self, (a, b): (Self, Self), (c, d): (Self, Self)) -> Self {
-        self + (a * b - c * d)
-    }
-
-    /// `self + (a b + c d)`.
-    #[inline(always)]
-    #[must_use]
-    fn add_sum(self, (a, b): (Self, Self), (c, d): (Self, Self)) -> Self {
-        self + (a * b + c * d)
-    }
-
     /// `self + real * x`.
     fn add_scaled(self, x: Self, real: Self::Real) -> Self;
 

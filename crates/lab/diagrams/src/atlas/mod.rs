@@ -32,7 +32,7 @@ pub use grid::{Found, Grid, Place};
 pub use line::{CrossingKind, EndKind, Line, LineEnd, StabilityCurve};
 pub use page::{html, why_no_line};
 pub use region::{Region, regions};
-pub use summary::atlas_summary;
+pub use summary::{atlas_summary, words};
 pub use survey::{Begins, Stage, survey};
 pub use tables::{cell_columns, curve_columns};
 pub use trace::trace;

@@ -85,6 +85,6 @@ fn boundary_json(boundary: &Boundary) -> Value {
 
 /// Motions as words: `circular + zigzag`.
 #[must_use]
-pub(crate) fn words(motions: &[Regime]) -> String {
+pub fn words(motions: &[Regime]) -> String {
     motions.iter().map(|motion| motion.words()).collect::<Vec<_>>().join(" + ")
 }

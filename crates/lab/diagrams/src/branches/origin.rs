@@ -14,46 +14,20 @@ use serde::{Deserialize, Serialize};
 /// The origin of a branch. Branches, their legs and points are counted from 0 in the order in which they were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
+#[allow(missing_docs, reason = "a branch, a leg of it, a point of the leg")]
 pub enum Origin {
     /// The motion that the plan's start settles on.
     Start,
     /// A special point: what begins or crosses there.
-    Special {
-        /// The branch.
-        branch: usize,
-        /// Its leg.
-        leg: usize,
-        /// The point of the leg.
-        point: usize,
-    },
+    Special { branch: usize, leg: usize, point: usize },
     /// The end of a leg at a homoclinic connection: the saddle.
-    Saddle {
-        /// The branch.
-        branch: usize,
-        /// Its leg.
-        leg: usize,
-    },
+    Saddle { branch: usize, leg: usize },
     /// The same where both loops of the connection belong to one orbit, which is its own mirror image: an orbit along one of them.
-    Loop {
-        /// The branch.
-        branch: usize,
-        /// Its leg.
-        leg: usize,
-    },
+    Loop { branch: usize, leg: usize },
     /// The end of a leg where its motion gains a symmetry: the motion of more symmetry there.
-    Meets {
-        /// The branch.
-        branch: usize,
-        /// Its leg.
-        leg: usize,
-    },
+    Meets { branch: usize, leg: usize },
     /// The end of a leg where an orbit shrinks to a steady motion: that motion.
-    Shrinks {
-        /// The branch.
-        branch: usize,
-        /// Its leg.
-        leg: usize,
-    },
+    Shrinks { branch: usize, leg: usize },
 }
 
 impl Origin {

@@ -103,7 +103,7 @@ pub fn lifetimes(
     watch: &dyn Watch,
 ) -> Result<Option<Lifetimes>, Error> {
     check_axis(plan, delay)?;
-    let lives = follow_lives(plan, None, threads, watch)?;
+    let lives = follow_lives_kept(plan, None, threads, &|_| Ok(()), watch)?;
     lives.is_complete().then(|| lives.summarised(plan, delay)).transpose()
 }
 
@@ -127,22 +127,8 @@ pub struct Lives {
     orbits: Vec<Option<Followed>>,
 }
 
-/// Follows the orbits of a plan that `before` does not hold. Where the watch stopped it, some are still
-/// missing; each of those that are
-/// there was followed to its end.
-///
-/// # Errors
-/// As [`lifetimes`].
-pub fn follow_lives(
-    plan: &ScanPlan,
-    before: Option<Lives>,
-    threads: usize,
-    watch: &dyn Watch,
-) -> Result<Lives, Error> {
-    follow_lives_kept(plan, before, threads, &|_| Ok(()), watch)
-}
-
-/// As [`follow_lives`]; `keep` gets the orbits that are finished, every five seconds.
+/// Follows the orbits of a plan that `before` does not hold. Where the watch stopped it, some are still missing; each of those that are
+/// there was followed to its end. `keep` gets the orbits that are finished, every five seconds.
 ///
 /// # Errors
 /// As [`lifetimes`], and those of `keep`.

@@ -135,7 +135,10 @@ fn listed(text: &str) -> Result<Vec<f64>, String> {
     text.split(',').map(|value| number(value.trim())).collect()
 }
 
-fn number(text: &str) -> Result<f64, String> {
+/// A finite number that was typed.
+///
+/// # Errors    in words, with the remedy
+pub fn number(text: &str) -> Result<f64, String> {
     let value: f64 =
         text.parse().map_err(|_| format!("{text:?} is not a number: write it like 0.5 or 1e-9"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{text} is not finite: give a finite number")) }

@@ -5,6 +5,6 @@ mod plan;
 mod shard;
 mod start;
 
-pub use axis::Axis;
+pub use axis::{Axis, number};
 pub use plan::{SCAN_FORMAT, ScanComputation, ScanPlan};
 pub use shard::Shard;

@@ -12,8 +12,7 @@ pub fn tensor() -> &'static ModelInfo {
 
 /// A preset, changed.
 pub fn preset(name: &str, change: impl FnOnce(&mut Study)) -> Study {
-    let info = presets::model_of(name).unwrap();
-    let mut study = presets::find(info, name).unwrap();
+    let mut study = presets::find_any(name, "tensor").unwrap();
     change(&mut study);
     study
 }
