@@ -172,6 +172,9 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
     if fitted.is_handed() && cell.drift.is_some() {
         fitted.doubt("it is handed, or carried by the drift that all cells of the field of view have; the correction 'drift' subtracts it");
     }
+    if fitted.is_handed() && cell.flows {
+        fitted.doubt("it is handed, or turned by what makes velocities differ from place to place in the field of view");
+    }
     let companions = Companions { count: options.simulations, seed: options.seed };
     let prediction =
         (options.simulations > 0).then(|| predict(&path, fitted.model(), companions, watch)).flatten();
