@@ -188,7 +188,9 @@ fn velocities_that_differ_from_place_to_place_are_seen() {
         // twelve walkers of diffusion 0.9 over 149 times, places 100 apart: a scatter of 5e-4
         assert!((found - exact).abs() < 2e-3, "{flow:?}");
     }
-    assert!(flow.is_seen() && turned.field.in_words(&turned.units).iter().any(|row| row.0 == "flow"));
+    assert!(
+        flow.is_seen() && turned.field.in_words(&turned.cells[0].units).iter().any(|row| row.0 == "flow")
+    );
     assert!(turned.cells.iter().all(|cell| observe(cell).numbers.stated_walk.reason.is_some()));
     let rest = Walker { speed: 1e-6, shape: Shape::Round, noise: 0.001, ..WALK };
     let resting = sample(tracks((0..6).map(|seed| rest.outlines(seed)).collect()).turning(0.1));
