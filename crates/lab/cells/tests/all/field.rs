@@ -106,7 +106,8 @@ fn corrections_leave_what_a_still_stage_shows() {
 #[test]
 fn a_drift_gives_no_name_of_its_own() {
     let rest = Walker { speed: 1e-6, persistence: 50.0, shape: Shape::Round, frames: 200, noise: 0.02 };
-    let resting = || tracks((0..6).map(|seed| rest.outlines(500 + seed)).collect()).drifting([0.05, 0.02]);
+    let resting =
+        || tracks((0..6).map(|seed| rest.outlines(500 + seed)).collect()).turning(0.0).drifting([0.05, 0.02]);
     for cell in &sample(resting()).cells {
         let motion = observe(cell).motion;
         assert!(motion.regime.is_none() && motion.why.contains("without that velocity"), "{}", motion.why);
@@ -118,7 +119,7 @@ fn a_drift_gives_no_name_of_its_own() {
     }
     let circles = (0..6)
         .map(|k| body("fig4", &[("kappa2", 0.5), ("kappa3", 0.5 + 0.01 * f64::from(k))], (2.0, 0.0), 200));
-    let circling = sample(tracks(circles.collect()).drifting([0.02, 0.0]));
+    let circling = sample(tracks(circles.collect()).turning(0.0).drifting([0.02, 0.0]));
     for cell in &circling.cells {
         let motion = observe(cell).motion;
         assert_eq!(motion.regime, Some(Regime::Circular), "{}", motion.why);
