@@ -36,6 +36,7 @@ mod statistics;
 mod survival;
 mod tracks;
 mod turning;
+mod unlike;
 mod windows;
 
 pub use answer::{Answer, Measured};

@@ -71,10 +71,8 @@ fn parts(tracks: &Tracks, quantity: &Quantity) -> Vec<Sums> {
 }
 
 impl Statistics {
-    /// The statistics of records that are not those of a stationary motion.
-    pub(crate) fn of_records_alone(mut self, why: String) -> Self {
-        let reason =
-            "the records are not stationary: leave out more at their beginning (transient), or record longer";
+    /// The statistics of records that are not those of one stationary motion, for this reason.
+    pub(crate) fn of_records_alone(mut self, reason: &str) -> Self {
         let unknown = || Answer::unknown(reason);
         self.walk = Walk { curve: self.walk.curve, deviation: self.walk.deviation, ..Walk::unknown(reason) };
         self.diffusion = Diffusion::unknown(reason);
@@ -84,6 +82,6 @@ impl Statistics {
                 (oscillation.frequency, oscillation.decay) = (unknown(), unknown());
             }
         }
-        Self { not_stationary: Some(why), ..self }
+        self
     }
 }

@@ -7,6 +7,7 @@ use crate::diffusion;
 use crate::jackknife::Sums;
 use crate::resolution::too_far_apart;
 use crate::stationary::not_stationary;
+use crate::unlike::unlike;
 use crate::{
     Answer, Autocorrelation, Diffusion, Errors, Histogram, MeanSquare, Measured, Passage, PowerSpectrum,
     Quantity, Residence, Result, Seen, Track, Tracks, Turning, Walk, first_passages, histogram,
@@ -45,6 +46,8 @@ pub struct Statistics {
     /// Why the records are not those of a stationary motion; `None` where nothing says so. Else what is defined for stationary motion alone
     /// is unknown: persistence, diffusion coefficients, correlation times, frequencies. All other numbers are those of the records.
     pub not_stationary: Option<String>,
+    /// Why the bodies are not of one motion; `None` where nothing says so. Else the same is unknown.
+    pub unlike_bodies: Option<String>,
     /// Why numbers have no intervals; `None` where they have. Blocks of few bodies that are not long against the memory of the motion
     /// depend on each other, and intervals over them would be too narrow.
     pub no_intervals: Option<String>,
@@ -125,6 +128,7 @@ pub fn statistics_watched(tracks: &Tracks, settings: &Settings, watch: &dyn Watc
         samples: [lengths().min().unwrap_or(0), lengths().max().unwrap_or(0)],
         errors: tracks.errors(),
         not_stationary: None,
+        unlike_bodies: None,
         no_intervals: None,
         mean_speed,
         rms_speed,
@@ -144,10 +148,15 @@ pub fn statistics_watched(tracks: &Tracks, settings: &Settings, watch: &dyn Watc
     };
     at(quantities.len() + STEPS_BESIDE);
     let found = found.without_intervals(dependent(tracks)?);
-    Ok(match not_stationary(tracks) {
-        Some(why) => found.of_records_alone(why),
-        None => found,
-    })
+    let (changed, differ) = (not_stationary(tracks), unlike(tracks));
+    let reason = match (&changed, &differ) {
+        (Some(_), _) => {
+            "the records are not stationary: leave out more at their beginning (transient), or record longer"
+        }
+        (None, Some(_)) => "bodies differ over their whole records, so that these are not of one motion",
+        (None, None) => return Ok(found),
+    };
+    Ok(Statistics { not_stationary: changed, unlike_bodies: differ, ..found.of_records_alone(reason) })
 }
 
 /// Smallest radius, in ways that a body goes between samples, of a disc that it is seen to leave where it turns between them.

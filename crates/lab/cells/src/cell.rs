@@ -33,6 +33,8 @@ pub struct CellTrack {
     pub bridged: bool,
     /// The velocity with which all cells drift together, if that is seen and was not subtracted.
     pub drift: Option<[f64; 2]>,
+    /// `true` if velocities differ from place to place in its field of view.
+    pub flows: bool,
     /// Mean radius R0 over these frames; 0 without any.
     pub radius: f64,
     /// Units of its lengths and times.
@@ -134,6 +136,7 @@ impl CellTrack {
             breaks,
             bridged,
             drift: field.uncorrected_drift(),
+            flows: field.flows(),
             radius,
             units: units.clone(),
         }

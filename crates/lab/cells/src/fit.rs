@@ -17,6 +17,10 @@ use serde::{Deserialize, Serialize};
 /// Most fits after a velocity of the stage was subtracted.
 const MOST_ROUNDS: usize = 4;
 
+/// Why a cell is not called handed in a flow.
+const TURNED: &str =
+    "it is handed, or turned by what makes velocities differ from place to place in the field of view";
+
 /// Settings of a fit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FitOptions {
@@ -172,6 +176,9 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
     if fitted.is_handed() && cell.drift.is_some() {
         fitted.doubt("it is handed, or carried by the drift that all cells of the field of view have; the correction 'drift' subtracts it");
     }
+    if fitted.is_handed() && cell.flows {
+        fitted.doubt(TURNED);
+    }
     let companions = Companions { count: options.simulations, seed: options.seed };
     let prediction =
         (options.simulations > 0).then(|| predict(&path, fitted.model(), companions, watch)).flatten();
@@ -273,6 +280,9 @@ pub(crate) fn fit_in_stages(
     }
     if let Some(doubt) = doubted(&found, joint) {
         fitted.doubt(&doubt);
+    }
+    if fitted.is_handed() && cells.iter().any(|cell| cell.flows) {
+        fitted.doubt(TURNED);
     }
     let between = between_cells(&tracks, fitted.model())?;
     let differing = between.differing(fitted.model());

@@ -164,8 +164,16 @@ fn resampled(
     Motion { regime: None, why, confidence: None }
 }
 
-/// The verdict, if the path without the velocity that all cells have in common leads to the same one.
+/// The verdict, if the path without the velocity that all cells have in common leads to the same one, and velocities do not differ from
+/// place to place.
 fn beside_drift(cell: &CellTrack, motion: Motion) -> Motion {
+    if cell.flows && motion.regime.is_some() {
+        let why = format!(
+            "{}; but velocities of the cells differ from place to place: this may be the motion of its surroundings",
+            motion.why
+        );
+        return Motion { regime: None, why, confidence: None };
+    }
     let Some(velocity) = cell.drift.filter(|_| motion.regime.is_some()) else { return motion };
     let still = Measures::of(&cell.path_without(velocity), cell.units.times());
     let other = still.and_then(|m| decide(&m, cell, Repeats::of(&m).as_ref()).0);

@@ -231,5 +231,5 @@ def statistics_from(text: str, tables: Sequence[tuple[str, bytes]], units: Units
         frames["first_passage"],
         raw,
         units,
-        doubt=raw["not_stationary"] or raw["diffusion"]["doubt"],
+        doubt=raw["not_stationary"] or raw["unlike_bodies"] or raw["diffusion"]["doubt"],
     )

@@ -1,7 +1,7 @@
 //! Tests of a path for what no persistent random walk has.
 
-use super::course;
 use super::filter::Step;
+use super::{Fix, course};
 use serde::Serialize;
 use std::fmt::{Display, Formatter};
 
@@ -24,6 +24,9 @@ const UNSTEADY: f64 = 1e-3;
 
 /// Above this score additional diffusion is significant: p = 0.03.
 const EXTRA: f64 = 2.17;
+
+/// Below this score lengths of displacements scatter too little for the errors of the walk: p = 1e-3.
+const EVEN: f64 = -3.0;
 
 /// Fewest steps among which the changes of the velocity may be shared out.
 const FEWEST: f64 = 16.0;
@@ -49,6 +52,8 @@ pub enum Misfit {
     Smoothed,
     /// The velocity changes in a few steps alone: straight, and at rest from some time on.
     Rare,
+    /// Displacements have so nearly one length that errors of the places as large as those of the walk would show: turns at one speed.
+    Even,
 }
 
 impl Display for Misfit {
@@ -76,6 +81,10 @@ impl Display for Misfit {
                 "displacements from frame to frame scatter less than those of the walk: the places are means over an exposure, or smoothed"
             }
             Self::Rare => "the velocity changes in a few steps alone: too few to determine persistence and diffusion",
+            Self::Even => {
+                "displacements differ less in length than errors of the places as large as those of the walk would make them: what looks \
+                 like errors is sharp turns at a steady speed"
+            }
         })
     }
 }
@@ -104,11 +113,33 @@ pub struct WalkTests {
     /// The number of steps that share the changes of the velocity; infinite where it cannot be told from all of them.
     #[serde(skip)]
     pub changes: f64,
+    /// Score of the scatter of the lengths of displacements above the least one that the errors of the walk leave; below 0 it is less.
+    pub length_score: f64,
+}
+
+/// See [`WalkTests::length_score`]. Displacements d with normal errors of variance 2 s^2 in each coordinate have
+///
+/// <d^4> - <d^2>^2 >= 8 s^2 (<d^2> - 2 s^2)
+///
+/// whatever the motion is, with equality where it has one speed. The score is the difference over its standard error.
+pub(super) fn length_score(pieces: &[Vec<Fix>], error_variance: f64) -> f64 {
+    let pairs = pieces.iter().flat_map(|piece| piece.windows(2));
+    let squares: Vec<f64> =
+        pairs.map(|pair| (0..2).map(|k| (pair[1].at[k] - pair[0].at[k]).powi(2)).sum()).collect();
+    let (n, square) = (squares.len() as f64, squares.iter().sum::<f64>() / squares.len() as f64);
+    let scatter: Vec<f64> = squares.iter().map(|x| (x - square) * (x - square)).collect();
+    let variance = scatter.iter().sum::<f64>() / n;
+    let error = libm::sqrt(scatter.iter().map(|x| (x - variance) * (x - variance)).sum::<f64>()) / n;
+    over(variance - 8.0 * error_variance * (square - 2.0 * error_variance), error)
+}
+
+fn over(a: f64, b: f64) -> f64 {
+    if b > 0.0 { a / b } else { 0.0 }
 }
 
 impl WalkTests {
-    /// Those of the steps alone; likelihood, whiteness and additional diffusion are 0 here. Of the standardised innovations e, with the
-    /// velocity v that the walk expects before each:
+    /// Those of the steps alone; likelihood, whiteness, additional diffusion and lengths are 0 here. Of the standardised innovations e,
+    /// with the velocity v that the walk expects before each:
     ///
     /// turning: `sum v x e / sqrt(sum (v x e)^2)`, normal, for e is independent of what was before;
     /// direction: `|sum e^2|^2 / sum |e|^4` of e as complex numbers, exponential, for every direction of e is as likely.
@@ -131,7 +162,6 @@ impl WalkTests {
             direction[1] += 2.0 * x * y;
             fourth += (x * x + y * y) * (x * x + y * y);
         }
-        let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let axis = over(direction[0] * direction[0] + direction[1] * direction[1], fourth);
         Self {
             steps: steps.len(),
@@ -143,6 +173,7 @@ impl WalkTests {
             spread: course::spread(steps),
             steady_p_value: course::steady(steps),
             changes: course::changes(steps),
+            length_score: 0.0,
         }
     }
 
@@ -159,6 +190,7 @@ impl WalkTests {
             (above < KEEPS, Misfit::Keeps),
             (self.diffusion_score > EXTRA, Misfit::Diffuses),
             (self.diffusion_score < -EXTRA, Misfit::Smoothed),
+            (self.length_score < EVEN, Misfit::Even),
         ];
         all.into_iter().find(|one| one.0).map(|one| one.1)
     }

@@ -73,8 +73,8 @@ impl PersistentWalk {
         4.0 * self.diffusion.value * (lag + p * libm::expm1(-lag / p))
     }
 
-    /// Returns `true` if the walk describes the places: its innovations are white, isotropic, of one size, turn neither way, and their sums
-    /// go as far as those of independent ones.
+    /// Returns `true` if the walk describes the places: its innovations are white, isotropic, of one size, turn neither way, their sums
+    /// go as far as those of independent ones, and its errors are not larger than the lengths of displacements allow.
     #[must_use]
     pub fn describes(&self) -> bool {
         self.misfit().is_none()
@@ -128,6 +128,7 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
         log_likelihood: table.highest(),
         p_value: ljung_box(&filter::by_coordinate(&found, pieces.len())).1,
         diffusion_score: extra.score(),
+        length_score: misfit::length_score(pieces, error_variance.low.unwrap_or(0.0).max(0.0)),
         ..WalkTests::of(&found, best.law.error)
     };
     let rests = table.rests();

@@ -289,6 +289,40 @@ fn paths_with_a_direction_or_a_sense_are_not_described() {
     }
 }
 
+/// Runs and reversals at one speed, and a zigzag of sharp turns: what returns after a turn looks like errors of the places, six times the
+/// true ones, and the mean square speed without them lay below the square of the mean speed. Walks with any errors are not refused.
+#[test]
+fn turns_at_one_speed_are_no_errors_of_places() {
+    for turn in [std::f64::consts::PI, 1.2] {
+        let refused = (0..40).filter(|&seed| {
+            let mut normal = Normal::new(seed, 17);
+            let (mut heading, mut sense, mut wait) = (normal.next(), 1.0, 0.0);
+            let steps: Vec<f64> = (0..200)
+                .map(|_| {
+                    wait -= 1.0;
+                    if wait < 0.0 {
+                        wait = 7.0 * (0..3).map(|_| normal.next() * normal.next()).sum::<f64>().abs() + 4.0;
+                        heading += sense * turn;
+                        sense = -sense;
+                    }
+                    heading += 0.06 * normal.next();
+                    heading
+                })
+                .collect();
+            let walk = found(&path(steps.into_iter(), 0.01, &mut normal));
+            walk.misfit().is_some() || walk.error.low.is_none_or(|low| low <= 0.011)
+        });
+        let count = refused.count();
+        assert!(count >= 38, "{turn}: {count} of 40");
+    }
+    for error in [0.02, 0.3, 1.0] {
+        let even = (0..40).filter(|&seed| {
+            found(&walk([4.0, 1.0, error], (1.0, 200), 1.0, 7000 + seed)).misfit() == Some(Misfit::Even)
+        });
+        assert_eq!(even.count(), 0, "{error}");
+    }
+}
+
 /// The scores of turning of walks are normal: their mean and variance over walks, with and without gaps.
 #[test]
 fn scores_of_turning_are_normal() {

@@ -50,6 +50,32 @@ fn stationary_records_are_not_refused() {
     }
 }
 
+/// Circles of two sizes, each body on its own: the velocity of all seems to forget in the time in which the two get out of step, and no
+/// body forgets anything. One body and one size are one motion, and so are records of ten memories (`stationary_records_are_not_refused`).
+#[test]
+fn bodies_of_two_motions_are_told() {
+    let circle = |rate: f64, phase: f64| {
+        move |t: f64| {
+            let (s, c) = (rate * t + phase).sin_cos();
+            ([s, -c], [rate * c, rate * s])
+        }
+    };
+    let circles = |rates: &[f64]| {
+        let bodies = rates.iter().enumerate().map(|(k, rate)| along(0.2, 3000, circle(*rate, k as f64)));
+        found(&Tracks::new(0.2, vec![], bodies.collect()).unwrap())
+    };
+    let two = circles(&[0.30, 0.30, 0.33, 0.30, 0.33, 0.30, 0.30, 0.33, 0.30, 0.33]);
+    assert!(two.unlike_bodies.unwrap().contains("(the mean speed is 0.3 to 0.33)"));
+    let known = |found: &motiform_statistics::Autocorrelation| {
+        found.oscillation.as_ref().is_some_and(|one| one.decay.known().is_some())
+    };
+    assert!(!two.autocorrelations.iter().any(known) && two.not_stationary.is_none());
+    assert!(circles(&[0.3; 10]).unlike_bodies.is_none() && circles(&[0.3]).unlike_bodies.is_none());
+    for seed in 0..20 {
+        assert_eq!(found(&relaxing(1.0, 0.0, 12, 300 + seed)).unlike_bodies, None);
+    }
+}
+
 /// Bodies that beat together, in phase, are periodic: the first tenth holds no whole number of periods.
 #[test]
 fn what_is_periodic_is_stationary() {

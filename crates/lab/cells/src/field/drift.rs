@@ -37,7 +37,7 @@ impl CommonDrift {
     /// Source: Hotelling (1931), Ann. Math. Stat. 2, 360.
     pub(super) fn of(grid: &Grid) -> Option<Self> {
         let velocities: Vec<[f64; 2]> =
-            (0..grid.cells()).filter_map(|cell| grid.mean_velocity(cell)).collect();
+            (0..grid.cells()).filter_map(|cell| grid.mean_velocity(cell, 0)).collect();
         let n = velocities.len() as f64;
         if velocities.len() < LEAST_CELLS {
             return None;

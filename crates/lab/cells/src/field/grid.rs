@@ -85,11 +85,11 @@ impl Grid {
         }
     }
 
-    /// Mean velocity of a cell over the pieces that nothing parts.
-    pub(super) fn mean_velocity(&self, cell: usize) -> Option<[f64; 2]> {
+    /// Mean velocity of a cell from this frame on, over the pieces that nothing parts.
+    pub(super) fn mean_velocity(&self, cell: usize, from: usize) -> Option<[f64; 2]> {
         let (mut moved, mut time) = ([0.0; 2], 0.0);
         let mut last: Option<(usize, [f64; 2])> = None;
-        for (k, place) in self.places[cell].iter().enumerate() {
+        for (k, place) in self.places[cell].iter().enumerate().skip(from) {
             if self.parts[cell].contains(&k) {
                 last = None;
             }

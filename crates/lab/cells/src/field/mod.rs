@@ -6,6 +6,7 @@
 
 mod correction;
 mod drift;
+mod flow;
 mod grid;
 mod jitter;
 mod jumps;
@@ -14,6 +15,7 @@ mod words;
 
 pub use correction::Correction;
 pub use drift::CommonDrift;
+pub use flow::Flow;
 pub use jitter::Jitter;
 pub use jumps::StageJump;
 
@@ -49,6 +51,8 @@ pub struct FieldOfView {
     pub jitter: Option<Jitter>,
     /// A velocity that all cells have; `None` with fewer than three cells.
     pub drift: Option<CommonDrift>,
+    /// The change of the velocity with the place; `None` with fewer than six cells in the first frame.
+    pub flow: Option<Flow>,
     /// Side of the pixels whose edges or middles the outlines follow; `None` for smooth outlines.
     pub pixel: Option<f64>,
     /// The motion that was subtracted from the outlines. The numbers above are those before.
@@ -67,11 +71,11 @@ impl FieldOfView {
         let Some(mut grid) = Grid::of(cells) else { return Self { pixel, ..Self::default() } };
         let mut jumps = jumps::find(&grid, cells);
         grid.subtract_jumps(&jumps);
-        let (jitter, drift) = (Jitter::of(&grid), CommonDrift::of(&grid));
+        let (jitter, drift, flow) = (Jitter::of(&grid), CommonDrift::of(&grid), Flow::of(&grid));
         if let Some(jitter) = jitter.as_ref().filter(|jitter| jitter.is_seen()) {
             jumps.iter_mut().for_each(|jump| jump.add_jitter(jitter.deviation));
         }
-        Self { cells: grid.cells(), jumps, jitter, drift, pixel, corrected: Vec::new() }
+        Self { cells: grid.cells(), jumps, jitter, drift, flow, pixel, corrected: Vec::new() }
     }
 
     /// The common velocity, if it is seen and was not subtracted.
@@ -79,6 +83,12 @@ impl FieldOfView {
     pub fn uncorrected_drift(&self) -> Option<[f64; 2]> {
         let seen = self.drift.filter(CommonDrift::is_seen);
         seen.filter(|_| !self.is_corrected(Correction::Drift)).map(|drift| drift.velocity)
+    }
+
+    /// `true` if velocities differ from place to place.
+    #[must_use]
+    pub fn flows(&self) -> bool {
+        self.flow.as_ref().is_some_and(Flow::is_seen)
     }
 
     /// `true` if this was subtracted from the outlines.

@@ -1,6 +1,6 @@
 //! The field of view in words.
 
-use super::{Correction, FieldOfView};
+use super::{Correction, FieldOfView, Flow};
 use crate::Units;
 use motiform_inference::PValue;
 use motiform_statistics::{four_digits, with_error};
@@ -32,6 +32,19 @@ impl FieldOfView {
             let words =
                 "not tested: fewer than three cells do not tell a drift of the stage from their own motion";
             rows.push(("drift", words.to_owned()));
+        }
+        if let Some(flow) = self.flow.filter(Flow::is_seen) {
+            let [[xx, xy], [yx, yy]] = flow.gradient;
+            let [turning, widening, shear] =
+                [0.5 * (yx - xy), 0.5 * (xx + yy), libm::hypot(0.5 * (xx - yy), 0.5 * (xy + yx))]
+                    .map(four_digits);
+            let words = format!(
+                "velocities differ from place to place (turning {turning}, widening {widening}, shear {shear} {}), {}: a flow, a colony \
+                 that spreads, walls all around, or images that turn or change their scale; it is in all numbers of paths",
+                units.unit(Dimension::RATE),
+                PValue(flow.p_value)
+            );
+            rows.push(("flow", words));
         }
         if !self.jumps.is_empty() {
             rows.push(("stage jumps", self.jumps_in_words(units)));

@@ -58,7 +58,7 @@ pub struct Numbers {
     pub wobble: Option<Wobble>,
     /// The reason why displacements are not those of one cell, and there is no number of a path; `None` of a sound record.
     pub mixed: Option<String>,
-    /// The reason why the walk is not that of the cell alone, where all cells drift together.
+    /// The reason why the walk is not that of the cell alone, where all cells drift together or flow.
     #[serde(skip)]
     drift: Option<String>,
     #[serde(skip)]
@@ -72,7 +72,7 @@ pub struct Numbers {
 pub fn numbers(cell: &CellTrack) -> Numbers {
     let places = Places::of(&cell.modes);
     let walk = persistent_walk(&places.pieces);
-    let drift = cell.drift.map(|_| DRIFTS.to_owned());
+    let drift = cell.drift.map(|_| DRIFTS).or_else(|| cell.flows.then_some(FLOWS)).map(str::to_owned);
     let error = walk.as_ref().filter(|walk| walk.describes()).map(|walk| walk.error_variance);
     let times: Vec<f64> = cell.modes.frames.iter().filter(|one| one.is_seen()).map(|one| one.t).collect();
     let (seen, mixed) = (times.len(), cell.modes.mixed());
@@ -93,6 +93,9 @@ pub fn numbers(cell: &CellTrack) -> Numbers {
         places,
     }
 }
+
+/// Why there is no walk of cells in a flow.
+const FLOWS: &str = "velocities of the cells differ from place to place, which those of random walks do not";
 
 /// Why there is no walk of cells on a stage that drifts.
 const DRIFTS: &str = "all cells drift together, which no random walk does; the correction 'drift' subtracts it, if it is that of the stage";

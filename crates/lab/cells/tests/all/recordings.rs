@@ -118,6 +118,8 @@ pub(crate) fn tracks(cells: Vec<Vec<Outline>>) -> Tracks {
 pub(crate) trait Seen {
     /// The stage drifts by this much in a unit of time.
     fn drifting(self, velocity: [f64; 2]) -> Self;
+    /// Cells are placed far apart, and the images turn at this rate.
+    fn turning(self, rate: f64) -> Self;
     /// All outlines of a frame are displaced together, by this standard deviation.
     fn jittering(self, deviation: f64, seed: u64) -> Self;
     /// Frames are missing with this probability, cell by cell; neither the first nor the last.
@@ -130,6 +132,19 @@ impl Seen for Tracks {
     fn drifting(mut self, velocity: [f64; 2]) -> Self {
         for outline in self.cells.iter_mut().flat_map(|cell| &mut cell.frames) {
             shift(outline, velocity.map(|v| v * outline.t));
+        }
+        self
+    }
+
+    fn turning(mut self, rate: f64) -> Self {
+        for (k, cell) in self.cells.iter_mut().enumerate() {
+            let (s, c) = libm::sincos(2.4 * k as f64);
+            let far = 40.0 * libm::sqrt(1.0 + k as f64);
+            for outline in &mut cell.frames {
+                shift(outline, [far * c, far * s]);
+                let (s, c) = libm::sincos(rate * outline.t);
+                outline.points.iter_mut().for_each(|p| *p = [c * p[0] - s * p[1], s * p[0] + c * p[1]]);
+            }
         }
         self
     }

@@ -38,6 +38,7 @@ pub fn summary(measurement: &Measurement) -> Value {
         "dt": found.dt,
         "errors": found.errors,
         "not_stationary": found.not_stationary,
+        "unlike_bodies": found.unlike_bodies,
         "no_intervals": found.no_intervals,
         "complete": measurement.complete,
         "notes": measurement.notes,
@@ -84,6 +85,7 @@ pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str,
         ("", format!("not stationary: {why}{of_model}. The numbers below are those of these records"))
     };
     all.extend(found.not_stationary.iter().map(doubt));
+    all.extend(found.unlike_bodies.iter().map(|why| ("", format!("{why}{of_model}"))));
     let [mean, rms] = [&found.mean_speed, &found.rms_speed].map(|speed| value(Dimension::SPEED, speed));
     all.push(("speed", format!("mean {mean}, root mean square {rms}")));
     all.extend(walk(&found.walk, &answer));
