@@ -3,8 +3,8 @@
 use crate::{Estimate, Result, checks};
 use motiform_dynamics::distributions::student_quantile;
 
-/// Factor by which errors of a short series of up to so many cosines are wider: the spectrum falls over its lowest cosines, and where two or
-/// three were taken the correlation time is often underestimated.
+/// Errors of a short series of up to so many cosines are so many times wider: the spectrum falls over its lowest cosines, and where two
+/// or three were taken the correlation time is often underestimated.
 const WIDER: (usize, f64) = (3, 1.3);
 
 /// Least and most cosines; below the least there is no error.

@@ -62,9 +62,10 @@ pub enum Flag {
 
 impl Flag {
     /// All names, in the order of the flags.
-    pub const NAMES: [&'static str; 15] = [
+    pub const NAMES: [&'static str; 16] = [
         "too few vertices",
         "missing vertices",
+        "position alone",
         "no area",
         "self-crossing",
         "crossing unknown",
