@@ -112,13 +112,13 @@ pub(crate) fn leading_first(a: &ComplexPair, b: &ComplexPair) -> std::cmp::Order
     b.0.total_cmp(&a.0).then(b.1.abs().total_cmp(&a.1.abs())).then(b.1.total_cmp(&a.1))
 }
 
-/// Sorts eigenvalues, [`leading_first`].
+/// Sorts eigenvalues: the leading one, whose real part is the largest, first; then by the modulus of the imaginary part.
 #[inline(never)]
 pub fn sort_leading(values: &mut [ComplexPair]) {
     values.sort_unstable_by(leading_first);
 }
 
-/// The eigenvalues of a matrix given by its columns, [`leading_first`]. `None` where a number is not finite or the iteration does not end.
+/// The eigenvalues of a matrix given by its columns, the leading one first. `None` where one is not finite or the iteration does not end.
 pub fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
     let dim = columns.len();
     if dim == 0 {

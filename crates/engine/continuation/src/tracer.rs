@@ -263,17 +263,22 @@ impl<'f, P: Problem> Tracer<'f, P> {
 
     /// The next place of the branch, the length of the step, and why the branch ends there, where it does.
     fn reach_within(&mut self) -> Result<Reached<P::Local>, End> {
-        let (mut new, mut length) = self.reach()?;
-        while let Some((nearer, end)) = self.limit(&new)? {
-            length = nearer.arclength - self.place.arclength;
-            if self.is_fine(length) || self.is_expected(&nearer, length, self.watch) {
-                return Ok((nearer, length, Some(end)));
-            }
-            // what is found at the edge is of another branch
-            self.step = SHORTER * length.abs();
-            (new, length) = self.reach()?;
+        loop {
+            let (new, length) = self.reach()?;
+            let shorter = match self.limit(&new) {
+                Ok(None) => return Ok((new, length, None)),
+                Ok(Some((nearer, end))) => {
+                    let length = nearer.arclength - self.place.arclength;
+                    if self.is_fine(length) || self.is_expected(&nearer, length, self.watch) {
+                        return Ok((nearer, length, Some(end)));
+                    }
+                    length // what is found at the edge is of another branch
+                }
+                Err(End::StepUnderflow { .. }) if !self.is_fine(length) => length, // nothing is found at the edge from here
+                Err(end) => return Err(end),
+            };
+            self.step = SHORTER * shorter.abs();
         }
-        Ok((new, length, None))
     }
 
     /// Returns `true` if the parameter is within the range, or beyond it by no more than its error.

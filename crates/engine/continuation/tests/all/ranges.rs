@@ -72,16 +72,25 @@ fn special(points: &[Point]) -> Vec<(f64, &'static str)> {
 fn a_crossing_is_found_over_ranges_of_any_width_from_any_start() {
     for scale in [1e-3, 1.0, 1e3] {
         let family = family("rotation", &format!("{scale}*(i*0.5*|z1|^2 + (|z1|^2-1)*(1+p-|z1|^2))*z1"));
-        for (high, p) in
-            [(1.0, 0.25), (1e2, 1.0), (1e2, 1e2), (1e4, 0.25), (1e4, 1e4), (1e5, 1e5), (9e5, 9e5)]
-        {
-            let found = points(&family, (p, (1.0 + p).sqrt()), &Settings::over(-0.5, high));
-            let case = format!("x{scale}, {p} to {high}: {:?}", special(&found));
+        // the lower end, the upper one, the start; with -0.1 nothing is found at the edge after the first steps
+        let cases = [
+            (-0.5, 1.0, 0.25),
+            (-0.5, 1e2, 1.0),
+            (-0.5, 1e2, 1e2),
+            (-0.5, 1e4, 0.25),
+            (-0.5, 1e4, 1e4),
+            (-0.1, 1e4, 1e4),
+            (-0.5, 1e5, 1e5),
+            (-0.5, 9e5, 9e5),
+        ];
+        for (low, high, p) in cases {
+            let found = points(&family, (p, (1.0 + p).sqrt()), &Settings::over(low, high));
+            let case = format!("x{scale}, {p} in {low} to {high}: {:?}", special(&found));
             assert!(matches!(special(&found)[..], [(at, "branch-point")] if at.abs() < 1e-9), "{case}");
             let right = |at: &Point| at.special.is_some() || (at.parameter < 0.0) == (at.unstable > 0);
             assert!(found.iter().all(right), "{case}");
             assert!(
-                found.iter().any(|at| at.parameter == -0.5) && found.iter().any(|at| at.parameter == high),
+                found.iter().any(|at| at.parameter == low) && found.iter().any(|at| at.parameter == high),
                 "{case}"
             );
         }
