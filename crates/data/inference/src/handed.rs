@@ -1,7 +1,7 @@
 //! The test that left and right are different motions: real coefficients against complex ones.
 
 use crate::filter::{NO_CENTRE_NOISE, Theta};
-use crate::fit::{reached, refit};
+use crate::fit::{reached, refit, refit_within};
 use crate::{Coefficient, Error, Fit, Result, Settings, Track, identifiability, observation, whiteness};
 use motiform_dynamics::Watch;
 use motiform_dynamics::distributions::{NORMAL_95, chi_square_tail};
@@ -16,6 +16,9 @@ pub const DOUBTED_RATE: f64 = 0.01;
 
 /// Significance of innovations that are not white from which on a fit describes the cell too badly to tell left from right.
 pub const COLOURED: f64 = 1e-6;
+
+/// The search beside a fit that did not converge ends at this promise of log-likelihood, and after so many evaluations.
+const FIRST_STEPS: (f64, usize) = (0.05, 10);
 
 /// Size of an imaginary part, relative to the largest coefficient of its equation (natural units), that the
 /// intervals of a mirror-symmetric cell exclude.
@@ -108,7 +111,11 @@ pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Hand
     let degrees = coefficients.len();
     coefficients.resize(2 * degrees, 0.0);
     let start = Theta { coefficients, logs: fit.natural.logs };
-    let near = refit(tracks, &settings, &fit.scales, &start, watch)?;
+    let near = match fit.converged() {
+        true => refit(tracks, &settings, &fit.scales, &start, watch)?,
+        // decides nothing
+        false => refit_within(tracks, &settings, &fit.scales, &start, FIRST_STEPS, watch)?,
+    };
     let coloured = whiteness(fit).iter().any(|channel| channel.p_value < COLOURED);
     if coloured || !fit.converged() {
         return Ok(compare(fit, near, degrees)); // decides nothing, and a second search would not either

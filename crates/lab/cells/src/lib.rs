@@ -41,7 +41,7 @@ pub use cell::{CellTrack, Sample};
 pub use checks::Checks;
 pub use driven::Driven;
 pub use error::{Error, Result};
-pub use field::{CommonDrift, Correction, FieldOfView, Flow, Jitter, StageJump};
+pub use field::{CommonDrift, Correction, FieldOfView, Flow, Jitter, Magnification, StageJump};
 pub use fit::{CellFit, FitOptions, TOGETHER, fit_cell, fit_cells, fit_together};
 pub(crate) use fit::{fit_in_stages, fit_or_reason};
 pub use fitted::{Fitted, PERSISTENT_WALK};

@@ -10,6 +10,7 @@ mod flow;
 mod grid;
 mod jitter;
 mod jumps;
+mod magnification;
 mod pixels;
 mod words;
 
@@ -18,6 +19,7 @@ pub use drift::CommonDrift;
 pub use flow::Flow;
 pub use jitter::Jitter;
 pub use jumps::StageJump;
+pub use magnification::Magnification;
 
 use grid::Grid;
 use motiform_tracks::modes::CellModes;
@@ -53,6 +55,9 @@ pub struct FieldOfView {
     pub drift: Option<CommonDrift>,
     /// The change of the velocity with the place; `None` with fewer than six cells in the first frame.
     pub flow: Option<Flow>,
+    /// A change of the magnification; `None` where none is seen, as with fewer than three cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub magnification: Option<Magnification>,
     /// Side of the pixels whose edges or middles the outlines follow; `None` for smooth outlines.
     pub pixel: Option<f64>,
     /// The motion that was subtracted from the outlines. The numbers above are those before.
@@ -72,10 +77,12 @@ impl FieldOfView {
         let mut jumps = jumps::find(&grid, cells);
         grid.subtract_jumps(&jumps);
         let (jitter, drift, flow) = (Jitter::of(&grid), CommonDrift::of(&grid), Flow::of(&grid));
+        let magnification = magnification::find(&grid, cells);
         if let Some(jitter) = jitter.as_ref().filter(|jitter| jitter.is_seen()) {
             jumps.iter_mut().for_each(|jump| jump.add_jitter(jitter.deviation));
         }
-        Self { cells: grid.cells(), jumps, jitter, drift, flow, pixel, corrected: Vec::new() }
+        let cells = grid.cells();
+        Self { cells, jumps, jitter, drift, flow, magnification, pixel, corrected: Vec::new() }
     }
 
     /// The common velocity, if it is seen and was not subtracted.

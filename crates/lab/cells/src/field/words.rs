@@ -46,6 +46,15 @@ impl FieldOfView {
             );
             rows.push(("flow", words));
         }
+        if let Some(change) = self.magnification {
+            let words = format!(
+                "lengths of all cells change by a factor of {} at frame {}, and stay: another magnification, or another threshold of the \
+                 segmentation; numbers of the whole record mix both: read the frames before and after by themselves",
+                four_digits(change.factor),
+                change.frame
+            );
+            rows.push(("magnification", words));
+        }
         if !self.jumps.is_empty() {
             rows.push(("stage jumps", self.jumps_in_words(units)));
         }

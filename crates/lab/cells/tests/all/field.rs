@@ -212,6 +212,38 @@ fn velocities_that_differ_from_place_to_place_are_seen() {
     }
 }
 
+/// Another objective from frame 75 on: its factor is found, also where frames are missing there, and in no field without one, whose cells
+/// may grow all the time, or swell for a moment.
+#[test]
+fn a_change_of_the_magnification_is_found() {
+    let scaled = |cells: u64, size: &dyn Fn(i64) -> Option<f64>| {
+        let mut seen = walkers(cells);
+        for cell in &mut seen.cells {
+            cell.frames.retain(|outline| size(outline.frame).is_some());
+            for outline in &mut cell.frames {
+                let size = size(outline.frame).unwrap_or(1.0);
+                outline.points.iter_mut().flatten().for_each(|x| *x *= size);
+            }
+        }
+        field(seen).magnification
+    };
+    for factor in [0.8, 1.1, 1.5] {
+        let after = |frame: i64| if frame < 75 { 1.0 } else { factor };
+        for gap in [75..75, 73..76] {
+            let found = scaled(4, &|frame| (!gap.contains(&frame)).then(|| after(frame)));
+            let found = found.unwrap_or_else(|| panic!("{factor} {gap:?}"));
+            assert!(found.frame == gap.end && found.cells == 4, "{found:?}");
+            // shapes that fluctuate change areas by a per cent or two
+            assert!((found.factor / factor - 1.0).abs() < 0.02, "{found:?}");
+        }
+    }
+    for cells in 3..9 {
+        assert_eq!(scaled(cells, &|_| Some(1.0)), None);
+        assert_eq!(scaled(cells, &|frame| Some(libm::exp(0.005 * frame as f64))), None);
+        assert_eq!(scaled(cells, &|frame| Some(if frame == 75 { 1.3 } else { 1.0 })), None);
+    }
+}
+
 /// The side of the pixels that outlines follow is found, and rounded digits of smooth outlines are none.
 #[test]
 fn pixels_are_found() {
