@@ -19,7 +19,7 @@ LONG = {
     "lyapunov": "motiform.preset('fig5b').lyapunov(6, t_end=1e7)",
     "equilibria": "motiform.preset('fig6a').equilibria(starts=100000)",
     "section": "motiform.preset('fig5b').section('y', 0.0, t_end=1e7)",
-    "statistics": "motiform.Tensor(gamma=1, kappa2=2, kappa3=2).statistics(5000, t_end=100.0, noise=0.1)",
+    "statistics": "motiform.Tensor(gamma=1, kappa2=2, kappa3=2).statistics(20000, t_end=20.0, noise=0.1)",
     "scan": "motiform.scan(motiform.preset('fig5b'), {'kappa2': '0.4:0.6:2000'}, samples=50)",
 }
 
