@@ -24,10 +24,11 @@ use nalgebra::{DMatrix, DVector};
 const CONVERGED: f64 = 2e-4;
 /// Most evaluations.
 pub(crate) const MOST: usize = 200;
-/// Most steps of the integration in all of them, for each frame: the first up to a million, then the second. Cells that follow
+/// Most steps of the integration in all of them, for each frame: the first, between the two limits, or the second. Cells that follow
 /// the equations need 2 to 100 for each frame and real ones up to 1700; equations that blow up between
 /// frames, which have no maximum, take 16 times the steps of others.
 const MOST_STEPS: [usize; 2] = [2_000, 1_000];
+const LIMITS: (usize, usize) = (300_000, 1_000_000);
 /// Most evaluations of equations that are too fast for the frames.
 const MOST_TOO_FAST: usize = 5;
 /// First radius and the largest one.
@@ -188,7 +189,7 @@ impl Climb<'_> {
 
     fn most_steps(&self) -> usize {
         let [few, many] = MOST_STEPS.map(|each| each * self.problem.frames());
-        few.min(1_000_000).max(many)
+        few.clamp(LIMITS.0, LIMITS.1).max(many)
     }
 
     /// The end where no step improves the likelihood: a maximum within the accuracy of the integration, or none.
