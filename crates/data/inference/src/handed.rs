@@ -17,9 +17,6 @@ pub const DOUBTED_RATE: f64 = 0.01;
 /// Significance of innovations that are not white from which on a fit describes the cell too badly to tell left from right.
 pub const COLOURED: f64 = 1e-6;
 
-/// The search beside a fit that did not converge ends at this promise of log-likelihood, and after so many evaluations.
-const FIRST_STEPS: (f64, usize) = (0.05, 10);
-
 /// Size of an imaginary part, relative to the largest coefficient of its equation (natural units), that the
 /// intervals of a mirror-symmetric cell exclude.
 pub const SEEN: f64 = 0.1;
@@ -93,7 +90,8 @@ pub struct Handedness {
 /// Give the fit of selected terms ([`crate::select`]): with fewer imaginary parts the test sees smaller ones.
 /// A cell is called handed where the ratio is exceeded in less than [`HANDED_RATE`] of mirror-symmetric
 /// cells, and so is the Wald statistic with robust errors; mirror symmetric where it is exceeded in [`DOUBTED_RATE`] of them and more,
-/// and the intervals of all imaginary parts exclude the size [`SEEN`]: a large p-value alone is no evidence of symmetry.
+/// and the intervals of all imaginary parts exclude the size [`SEEN`]: a large p-value alone is no evidence of symmetry. Beside a fit that
+/// did not converge nothing is decided, and no handed model is searched for: ratio and p-values say nothing.
 ///
 /// # Errors    of the input; [`Error::Setting`] if `fit` is handed itself
 /// # Checked by  `tests/all/handed.rs`: rate of false alarms, a handed cell
@@ -113,8 +111,8 @@ pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Hand
     let start = Theta { coefficients, logs: fit.natural.logs };
     let near = match fit.converged() {
         true => refit(tracks, &settings, &fit.scales, &start, watch)?,
-        // decides nothing
-        false => refit_within(tracks, &settings, &fit.scales, &start, FIRST_STEPS, watch)?,
+        // decides nothing, whatever is promised
+        false => refit_within(tracks, &settings, &fit.scales, &start, (f64::INFINITY, 1), watch)?,
     };
     let coloured = whiteness(fit).iter().any(|channel| channel.p_value < COLOURED);
     if coloured || !fit.converged() {

@@ -124,15 +124,15 @@ fn add(object: &mut Value, fitted: &Fitted) {
         Symmetry::Mirror => false.into(),
         Symmetry::Undecided => "not decidable".into(),
     };
-    object["handed_excluded"] = json!(fitted.handedness.excluded);
+    object["handed_excluded"] = json!(fitted.handed_test().map(|test| test.excluded));
     object["symmetry"] = json!(fitted.symmetry());
-    object["handed_p_value"] = json!(fitted.handedness.p_value);
+    object["handed_p_value"] = json!(fitted.handed_test().map(|test| test.p_value));
     object["noise"] = fitted.noise_json();
     object["stage"] = json!(fitted.stage);
     object["handed_beside_stage"] = json!(fitted.beside_stage);
     object["handed_beside_stretch"] = json!(fitted.beside_stretch);
     object["handed_beside_change"] = json!(fitted.beside_change);
-    object["handed_robust_p_value"] = json!(fitted.handedness.robust_p_value);
+    object["handed_robust_p_value"] = json!(fitted.handed_test().map(|test| test.robust_p_value));
     object["coefficients"] = coefficients(fitted);
     object["no_weak_form"] = json!(fitted.checks.no_weak());
     let name = |c: &Coefficient| format!("{}{}", if c.imaginary { "i " } else { "" }, c.name);

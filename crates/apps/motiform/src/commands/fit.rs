@@ -161,14 +161,12 @@ fn sentences(sample: &Sample, fit: &CellFit) -> Result<String, std::fmt::Error> 
     let mut text = format!("cell {:<13} {}\n", fit.name, fitted.motion_words());
     writeln!(text, "because            {}", fitted.why())?;
     text += &quality(sample.cells.iter().find(|cell| cell.name == fit.name), fit.frames)?;
-    let handedness = &fitted.handedness;
     let symmetry = match fitted.symmetry() {
         Symmetry::Handed => "handed: real coefficients are rejected",
         Symmetry::Mirror => "mirror symmetric",
         Symmetry::Undecided => "not decidable whether it is handed",
     };
-    let p = PValue(handedness.p_value);
-    writeln!(text, "symmetry           {symmetry}, {p}; {}", handedness.excluded_parts())?;
+    writeln!(text, "symmetry           {symmetry}, {}", fitted.handed_test_in_words())?;
     let model = fitted.model();
     for (place, coefficient) in model.coefficients.iter().enumerate() {
         let part = if coefficient.imaginary { "imaginary part of " } else { "" };

@@ -17,10 +17,12 @@ pub(super) fn doubts(
 ) -> Vec<String> {
     let mut doubts: Vec<String> = warnings.iter().filter(|w| serious(w)).map(ToString::to_string).collect();
     let handed = handedness.symmetry == Symmetry::Handed;
-    if handedness.p_value < HANDED_RATE && !handed {
+    if warnings.iter().any(|warning| matches!(warning, Warning::NotConverged { .. })) {
+        // the test decides nothing then
+    } else if handedness.p_value < HANDED_RATE && !handed {
         let robust = PValue(handedness.robust_p_value);
         let but = match handedness.robust_p_value < HANDED_RATE {
-            true => "but the fit with imaginary parts, or the one without, did not converge".to_owned(),
+            true => "but the fit with imaginary parts did not converge".to_owned(),
             false => format!("but its imaginary parts are within their robust errors ({robust})"),
         };
         doubts.push(format!(

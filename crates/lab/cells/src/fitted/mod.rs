@@ -11,7 +11,7 @@ use crate::Checks;
 use crate::regime::FittedRegime;
 use motiform_dynamics::in_words;
 use motiform_inference::{
-    Averaged, BetweenCells, Drift, Fit, HANDED_RATE, Handedness, Identifiability, Ladder, Placement,
+    Averaged, BetweenCells, Drift, Fit, HANDED_RATE, Handedness, Identifiability, Ladder, PValue, Placement,
     Selection, Symmetry, Warning,
 };
 use serde::{Deserialize, Serialize};
@@ -75,6 +75,21 @@ impl Fitted {
     #[must_use]
     pub fn model(&self) -> &Fit {
         if self.rejects_real() { &self.handedness.fit } else { &self.selection.fit }
+    }
+
+    /// The test of handedness; `None` beside a fit that did not converge, where it decides nothing.
+    #[must_use]
+    pub fn handed_test(&self) -> Option<&Handedness> {
+        self.selection.fit.converged().then_some(&self.handedness)
+    }
+
+    /// The outcome of the test, as a clause.
+    #[must_use]
+    pub fn handed_test_in_words(&self) -> String {
+        self.handed_test().map_or_else(
+            || "the fit did not converge".to_owned(),
+            |test| format!("{}; {}", PValue(test.p_value), test.excluded_parts()),
+        )
     }
 
     /// `true` if real coefficients are rejected: the model then has complex ones.

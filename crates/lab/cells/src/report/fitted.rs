@@ -7,7 +7,7 @@ use crate::report::terms::{typeset, unit};
 use crate::{CellFit, Fitted};
 use motiform_figures::literal;
 use motiform_figures::report::{Cell, Section, Table};
-use motiform_inference::{Coefficient, EquationKnowledge, PValue, Rung, paper};
+use motiform_inference::{Coefficient, EquationKnowledge, Rung, paper};
 use motiform_statistics::to_error;
 use motiform_study::Dimension;
 use motiform_study::titles::capital;
@@ -47,9 +47,8 @@ pub(crate) fn section(fit: &CellFit, name: &str, units: &Units) -> Section {
 
 fn parameters(fitted: &Fitted, units: &Units) -> Vec<(String, String)> {
     let model = fitted.model();
-    let (symmetry, p) = (fitted.symmetry().name(), PValue(fitted.handedness.p_value));
     vec![
-        ("symmetry".to_owned(), format!("{symmetry}, {p}; {}", fitted.handedness.excluded_parts())),
+        ("symmetry".to_owned(), format!("{}, {}", fitted.symmetry().name(), fitted.handed_test_in_words())),
         ("frames with a likelihood".to_owned(), model.frames.to_string()),
         ("log-likelihood".to_owned(), plain(model.log_likelihood)),
         ("factor of the stated errors".to_owned(), fitted.factor_of_errors()),
