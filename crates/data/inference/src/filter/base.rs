@@ -7,7 +7,7 @@ use motiform_dynamics::Complex;
 /// Longest step of the integration times the largest row sum of the Jacobian.
 const LONGEST_TURN: f64 = 1.0;
 /// Most parts of a step for the rates, and as many again for the covariance of the first frame.
-pub(super) const MOST_PARTS: usize = 16;
+const MOST_PARTS: usize = 16;
 /// Largest ratio of two variances for which steps of [`LONGEST_TURN`] do: the first frame, whose velocity is
 /// hardly known, has up to 1e5, later ones 50 to 100.
 const CONDITION: f64 = 1e3;
@@ -167,9 +167,9 @@ impl<const SHAPE: usize, const STATE: usize> Law<'_, SHAPE, STATE> {
 
     /// The number of parts in which a step must be made: a power of two, so that the fastest rate is resolved. Where it
     /// is not, the covariance is no longer positive definite, and the likelihood has maxima that are errors
-    /// of the integration. `values` becomes the field at `state`.
+    /// of the integration. With it the fastest rate times `h`; `values` becomes the field at `state`.
     #[inline(always)]
-    pub(crate) fn parts(&self, state: &State<STATE>, h: f64, values: &mut Values<SHAPE>) -> usize {
+    pub(crate) fn parts(&self, state: &State<STATE>, h: f64, values: &mut Values<SHAPE>) -> (usize, f64) {
         self.field(state, values);
         let mut fastest = 0.0_f64;
         for row in &values.jacobian {
@@ -183,7 +183,7 @@ impl<const SHAPE: usize, const STATE: usize> Law<'_, SHAPE, STATE> {
         while parts < MOST_PARTS && h * fastest > LONGEST_TURN * parts as f64 {
             parts *= 2;
         }
-        parts
+        (parts, h * fastest)
     }
 
     /// One step of the classical Runge-Kutta method; the stages are kept. `known`: the first one has the field at `state` ([`Law::parts`]).

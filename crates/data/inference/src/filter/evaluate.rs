@@ -10,6 +10,9 @@ use motiform_dynamics::simd::{self, LaneKernel, run_lanes};
 use motiform_dynamics::{Bundle, Complex};
 use nalgebra::{DMatrix, DVector};
 
+/// Fastest rate (largest row sum of the Jacobian) times the interval between frames that is far too much: from 2 on coefficients are biased.
+const TOO_FAST: f64 = 12.0;
+
 /// The quantities that an evaluation computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Want {
@@ -38,7 +41,7 @@ pub(crate) struct Evaluation {
     pub(crate) vaguest: (f64, f64),
     /// Steps of the integration: what the evaluation cost.
     pub(crate) steps: usize,
-    /// `true` if rates are too fast, for nine tenths of the record or more, for the shortest steps of the integration.
+    /// `true` if rates are too fast for the interval before every second frame or more.
     pub(crate) too_fast: bool,
 }
 
@@ -96,8 +99,8 @@ struct Run<'a, B, const SHAPE: usize, const STATE: usize> {
     scores: Vec<Vec<DVector<f64>>>,
     vaguest: (f64, f64),
     steps: usize,
-    /// Those of the shortest kind.
-    shortest: usize,
+    /// Frames whose interval is too long for the rates.
+    fast: usize,
 }
 
 /// A step of the law, with the instructions of the lanes: a function of its own, see [`Law::step`].
@@ -139,7 +142,7 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             scores: Vec::new(),
             vaguest: (0.0, 0.0),
             steps: 0,
-            shortest: 0,
+            fast: 0,
         }
     }
 
@@ -155,10 +158,11 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             let dt = frames[pair + 1].t - frames[pair].t;
             let steps = (dt / LONGEST_STEP - 1e-9).ceil().max(1.0);
             let h = dt / steps;
+            let mut turns = 0.0;
             let refinement = if pair == 0 { state.refinement() } else { 1 };
             for _ in 0..steps as usize {
-                let parts = self.law.parts(&state, h, &mut self.stages[0].values);
-                self.shortest += if parts == base::MOST_PARTS { refinement * parts } else { 0 };
+                let (parts, turn) = self.law.parts(&state, h, &mut self.stages[0].values);
+                turns += turn;
                 let parts = refinement * parts;
                 self.steps += parts;
                 let h = h / parts as f64;
@@ -171,6 +175,7 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
                     self.blocks.step(&self.stages, self.work.problem, self.work.want, h);
                 }
             }
+            self.fast += usize::from(turns > TOO_FAST);
             for i in 2..STATE {
                 if state.p[i][i] > self.vaguest.0 {
                     self.vaguest = (state.p[i][i], frames[pair + 1].t);
@@ -221,7 +226,7 @@ impl<'a, B: Bundle, const SHAPE: usize, const STATE: usize> Run<'a, B, SHAPE, ST
             scores: self.scores,
             vaguest: self.vaguest,
             steps: self.steps,
-            too_fast: 10 * self.shortest > 9 * self.steps,
+            too_fast: 2 * self.fast > self.work.problem.frames(),
         }
     }
 }

@@ -29,8 +29,9 @@ pub(crate) const MOST: usize = 200;
 /// frames, which have no maximum, take 16 times the steps of others.
 const MOST_STEPS: [usize; 2] = [2_000, 1_000];
 const LIMITS: (usize, usize) = (300_000, 1_000_000);
-/// Most evaluations of equations that are too fast for the frames.
-const MOST_TOO_FAST: usize = 5;
+/// Most steps, for each frame but not below the least limit, in evaluations of equations that are too fast for the frames.
+const MOST_TOO_FAST: (usize, usize) = (400, 50_000);
+const TOO_FAST: &str = "the search leads to equations that are too fast for the interval between frames";
 /// First radius and the largest one.
 const RADII: [f64; 2] = [2.0, 8.0];
 /// Radius below which no step can improve the likelihood beyond round-off.
@@ -86,7 +87,7 @@ struct Climb<'a> {
     evaluations: usize,
     /// Steps of the integration in all of them.
     steps: usize,
-    /// Evaluations of equations that are too fast for the frames.
+    /// Those in evaluations of equations that are too fast for the frames.
     too_fast: usize,
     /// Natural unit of time.
     time: f64,
@@ -119,7 +120,7 @@ impl Climb<'_> {
         let trial = objective(self.problem, &next, Want::Exact);
         self.evaluations += 1;
         self.steps += trial.steps;
-        self.too_fast += usize::from(trial.too_fast);
+        self.too_fast += if trial.too_fast { trial.steps } else { 0 };
         if !trial.value.is_finite() {
             self.radius = 0.25 * length;
             return;
@@ -165,12 +166,8 @@ impl Climb<'_> {
             if self.evaluations >= self.most {
                 return stopped(&self.why(&format!("{} evaluations were not enough", self.most)));
             }
-            if self.too_fast >= MOST_TOO_FAST {
-                return stopped(
-                    &self.why(
-                        "the search leads to equations that are too fast for the interval between frames",
-                    ),
-                );
+            if self.too_fast >= (MOST_TOO_FAST.0 * self.problem.frames()).max(MOST_TOO_FAST.1) {
+                return stopped(&self.why(TOO_FAST));
             }
             if self.steps >= self.most_steps() {
                 return stopped(&self.why(&format!("{} steps of the filter were not enough", self.steps)));
@@ -204,11 +201,11 @@ impl Climb<'_> {
     }
 
     /// The reason of a search without end. Where a frame is hardly predicted at all, the likelihood rises up
-    /// to equations that blow up before it.
+    /// to equations that blow up before it. A search that ends among equations that are too fast says so.
     fn why(&self, what: &str) -> String {
         let (variance, t) = self.at.vaguest;
         if variance < VAGUE {
-            return what.to_owned();
+            return if self.at.too_fast { TOO_FAST } else { what }.to_owned();
         }
         let after = (1e4 * t * self.time).round() / 1e4;
         format!(
