@@ -50,7 +50,7 @@ for (const playing of [true, false]) {
 }
 
 test("a page that comes back says nothing before the greeting, however late it comes", async () => {
-  const { page, leave } = await visit(it, { hash: "preset=fig2" });
+  const { page, leave } = await visit(it, { hash: "preset=fig2", own: true });
   const [lines, early] = [[], []];
   await page.routeWebSocket(/live$/, (ours) => {
     const server = ours.connectToServer();
@@ -96,7 +96,7 @@ test("a server that stops answering is no green light, and the body goes on when
 });
 
 test("why a connection was closed is said", async () => {
-  const { page, wire, leave } = await visit(it, { hash: LIGHT });
+  const { page, wire, leave } = await visit(it, { hash: LIGHT, own: true });
   await page.routeWebSocket(/live$/, (ours) => {
     const server = ours.connectToServer();
     let ends = false; // nothing follows the message at which the server closes
