@@ -9,7 +9,7 @@ import { moves, named, number, seen } from "./waits.mjs";
 const it = stage();
 const NAMED = new Set(["button", "checkbox", "combobox", "slider", "spinbutton", "textbox", "link", "progressbar", "img", "application", "Canvas", "DisclosureTriangle", "listbox", "dialog"]);
 
-test("everything that can be used or seen has a name", onlyIn("chromium", "the tree of accessibility"), upon(it, { hash: LIGHT }, async ({ page, wire }) => {
+test("everything that can be used or seen has a name", onlyIn("chromium", "the tree of accessibility"), upon(it, { hash: LIGHT, own: true }, async ({ page, wire }) => {
   await moves(page, wire);
   await page.locator("#share-menu > summary").click();
   const session = await page.context().newCDPSession(page);

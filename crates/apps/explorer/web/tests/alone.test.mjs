@@ -11,7 +11,7 @@ import { oneFile } from "../site.mjs";
 import { assertAccessible } from "./axe.mjs";
 import { SITE } from "./engine.mjs";
 import { assertAllFiles } from "./files.mjs";
-import { denied, launch, ofDriver, onlyIn, PATIENCE, shoot, unhurried } from "./stage.mjs";
+import { denied, launch, LIGHT, newTab, ofDriver, onlyIn, PATIENCE, shoot, vacate, VIEWPORT } from "./stage.mjs";
 
 /** Where the static host has the page: it must not need the root. */
 const PATH = "/talks/2026/";
@@ -61,18 +61,16 @@ after(async () => {
   it.server?.close();
 });
 
-/** Opens an address; any error in the console fails the test. */
-async function visit(address, act, context = {}, tolerate = null) {
-  const place = await it.browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "light", ...context });
-  await place.addInitScript(unhurried);
-  const page = await place.newPage();
-  page.setDefaultTimeout(PATIENCE);
+/** Opens an address in the tab of the visit before, or one with this context of its own; any error in the console fails the test. */
+async function visit(address, act, tolerate = null, own = null) {
+  const page = (!own && it.tab) || (await newTab(it.browser, { viewport: VIEWPORT, colorScheme: "light", ...own }));
   const faults = [];
   page.on("console", (message) => message.type() === "error" && !/favicon/.test(message.location().url) && faults.push(message.text()));
   page.on("pageerror", (error) => faults.push(error.stack ?? String(error)));
   await page.goto(address);
   await act(page);
-  await place.close();
+  if (own) await page.context().close();
+  else it.tab = await vacate(page);
   assert.deepEqual(faults.filter((text) => !tolerate?.test(text) && !ofDriver(text)), []);
 }
 
@@ -97,7 +95,7 @@ test("one file from a disk: a body moves, is named, and a map fills", async (t) 
     assert.ok((await page.locator("#map-legend li").count()) > 2);
     await shoot(page, "alone-fig1");
   });
-  await visit(`${it.file}#preset=fig5a&x=kappa2:1.2:1.6&y=kappa3:0.7:1`, async (page) => {
+  await visit(`${it.file}#${LIGHT}`, async (page) => {
     await moving(page);
     await named(page, "zigzag");
     // A change is named as well, and what was found before it is not shown any more.
@@ -108,7 +106,7 @@ test("one file from a disk: a body moves, is named, and a map fills", async (t) 
 });
 
 test("a static host under a sub-path: branches, a swarm and a second place", async () => {
-  await visit(`${it.origin}${PATH}#preset=fig5a&x=kappa2:1.2:1.6&y=kappa3:0.7:1`, async (page) => {
+  await visit(`${it.origin}${PATH}#${LIGHT}`, async (page) => {
     await moving(page);
     await page.locator("#swarm-menu summary").click();
     await page.locator("#swarm-begin").click();
@@ -138,18 +136,18 @@ test("every file can be saved without a server", async () => {
 });
 
 // What axe judges, the document and its styles, is the same in both browsers: one of the two widths is enough in Firefox.
-for (const [name, context, options] of [["a desktop", {}, {}], ["a narrow window", { viewport: { width: 390, height: 844 } }, onlyIn("chromium", "a narrow window")]]) {
+for (const [name, context, options] of [["a desktop", null, {}], ["a narrow window", { viewport: { width: 390, height: 844 } }, onlyIn("chromium", "a narrow window")]]) {
   test(`axe finds nothing without a server, on ${name}`, options, async () => {
-    await visit(`${it.file}#preset=fig1`, async (page) => {
+    await visit(`${it.file}#${LIGHT}`, async (page) => {
       await moving(page);
       await page.locator("#regime:not([data-regime=''])").waitFor({ timeout: 4 * PATIENCE });
       await assertAccessible(page);
-    }, context);
+    }, null, context);
   });
 }
 
 test("basins without a server", async () => {
-  await visit(`${it.file}#preset=fig4&kappa2=0.12&kappa3=0.45&x=v1:-1.5:1.5&y=u222:-1.5:1.5`, async (page) => {
+  await visit(`${it.file}#preset=fig4&kappa2=0.12&kappa3=0.45&x=u222:-1.5:1.5&y=none`, async (page) => {
     await moving(page);
     await complete(page);
     const names = await page.locator("#map-legend li").allTextContents();
@@ -183,14 +181,14 @@ test("in a sandboxed frame of a host that does not allow it, the page says what 
     const note = frame.locator("#toasts li").first();
     await note.waitFor();
     assert.match(await note.textContent(), /motiform\.html/);
-  }, {}, refused);
+  }, refused);
 });
 
 test("where storage is denied, a body moves and is named", async () => {
   await visit("about:blank", async (page) => {
     await page.addInitScript(denied);
-    await page.goto(`${it.origin}${PATH}#preset=fig5a&x=kappa2:1.2:1.6&y=kappa3:0.7:1`);
+    await page.goto(`${it.origin}${PATH}#${LIGHT}`);
     await moving(page);
     await named(page, "zigzag");
-  });
+  }, null, {});
 });

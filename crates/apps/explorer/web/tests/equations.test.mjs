@@ -83,7 +83,7 @@ test("the tensor model is changed as text", upon(it, { hash: "preset=fig5a&x=kap
   await shoot(page, "edited");
 }));
 
-test("where storage is denied the page works, and equations last as long as it does", upon(it, { hash: "model=my.toml" }, async ({ page, wire }) => {
+test("where storage is denied the page works, and equations last as long as it does", upon(it, { hash: "model=my.toml", own: true }, async ({ page, wire }) => {
   await page.addInitScript(denied);
   await page.reload();
   await moves(page, wire);

@@ -50,7 +50,7 @@ for (const [width, height] of SIZES) {
   });
 }
 
-test("nothing jumps", upon(it, { hash: "" }, async ({ page, wire }) => {
+test("nothing jumps", upon(it, { hash: "", own: true }, async ({ page, wire }) => {
   await seen(page, wire);
   const shifts = () => page.evaluate(() => new Promise((done) => {
     const list = [];

@@ -11,7 +11,7 @@ const it = stage();
 for (const playing of [true, false]) {
   test(`a ${playing ? "moving" : "paused"} body goes on after the server was killed`, async () => {
     const server = await Server.start();
-    const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: LIGHT, tolerate: /WebSocket connection|ERR_CONNECTION_REFUSED|connection to .* was interrupted|establish a connection/ });
+    const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: LIGHT, own: true, tolerate: /WebSocket connection|ERR_CONNECTION_(REFUSED|RESET)|connection to .* was interrupted|establish a connection/ });
     await moves(page, wire);
     const { revision } = wire.frame;
     await slide(slider(page, "kappa2"), 0.8);
@@ -50,7 +50,7 @@ for (const playing of [true, false]) {
 }
 
 test("a page that comes back says nothing before the greeting, however late it comes", async () => {
-  const { page, leave } = await visit(it, { hash: "preset=fig2" });
+  const { page, leave } = await visit(it, { hash: "preset=fig2", own: true });
   const [lines, early] = [[], []];
   await page.routeWebSocket(/live$/, (ours) => {
     const server = ours.connectToServer();
@@ -78,7 +78,7 @@ test("a page that comes back says nothing before the greeting, however late it c
 
 test("a server that stops answering is no green light, and the body goes on when it answers again", async () => {
   const server = await Server.start();
-  const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: LIGHT });
+  const { page, wire, leave } = await visit({ browser: it.browser, server }, { hash: LIGHT, own: true });
   await moves(page, wire);
   server.child.kill("SIGSTOP");
   await page.locator("#connection[data-state=silent]").waitFor();
@@ -96,7 +96,7 @@ test("a server that stops answering is no green light, and the body goes on when
 });
 
 test("why a connection was closed is said", async () => {
-  const { page, wire, leave } = await visit(it, { hash: LIGHT });
+  const { page, wire, leave } = await visit(it, { hash: LIGHT, own: true });
   await page.routeWebSocket(/live$/, (ours) => {
     const server = ours.connectToServer();
     let ends = false; // nothing follows the message at which the server closes

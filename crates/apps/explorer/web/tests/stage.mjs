@@ -61,8 +61,11 @@ export function stage(options = {}) {
   return it;
 }
 
+/** What the pages of tests show, where these do not say. */
+export const VIEWPORT = { width: 1280, height: 720 };
+
 /**
- * A test upon a page of its own: `act` gets `page`, its `wire`, and the stage. Any error in the console, any exception and any
+ * A test upon a page: `act` gets `page`, its `wire`, and the stage. Any error in the console, any exception and any
  * request that leaves the origin fails it; `hash` is what follows the # of the address, `tolerate` a pattern of errors to expect.
  */
 export function upon(it, options, act) {
@@ -73,25 +76,52 @@ export function upon(it, options, act) {
   };
 }
 
-/** Opens a page; `leave` closes it and asserts that it behaved. */
-export async function visit({ browser, server }, { hash = "", tolerate = null, address = server.address, ...context } = {}) {
-  const place = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...context });
-  await place.addInitScript(unhurried);
-  const page = await place.newPage();
-  page.setDefaultTimeout(PATIENCE);
+/** What stays with a tab when the page in it is another one. */
+const LASTING = ["addInitScript", "emulateMedia", "exposeFunction", "route", "routeWebSocket"];
+
+/**
+ * Loads a page; `leave` leaves it and asserts that it behaved. A new tab takes twice as long as a page, so the next visit has the tab of
+ * this one, with nothing stored and the pointer in a corner. A visit that does anything `LASTING`, or wants another context, has a tab of its `own`.
+ */
+export async function visit(it, { hash = "", tolerate = null, address = it.server.address, viewport = VIEWPORT, own = false, ...context } = {}) {
+  const shared = !FIREFOX && !own && Object.keys(context).length === 0;
+  const page = (shared && it.tab) || (await newTab(it.browser, { viewport, ...context }));
+  if (page === it.tab) it.tab = null;
+  await page.setViewportSize(viewport);
   const [wire, faults] = [new Wire(page), []];
   if (FIREFOX) await wire.listenInside(page);
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   page.on("pageerror", (error) => faults.push(error.stack ?? String(error)));
-  const own = [new URL(address).origin, new URL(address).origin.replace("http", "ws"), "data:", `blob:${new URL(address).origin}`];
-  page.on("request", (request) => own.some((start) => request.url().startsWith(start)) || faults.push(`request to ${request.url()}`));
-  page.on("websocket", (socket) => own.some((start) => socket.url().startsWith(start)) || faults.push(`socket to ${socket.url()}`));
+  const origins = [new URL(address).origin, new URL(address).origin.replace("http", "ws"), "data:", `blob:${new URL(address).origin}`];
+  page.on("request", (request) => origins.some((start) => request.url().startsWith(start)) || faults.push(`request to ${request.url()}`));
+  page.on("websocket", (socket) => origins.some((start) => socket.url().startsWith(start)) || faults.push(`socket to ${socket.url()}`));
   await page.goto(hash ? `${address.replace(/#.*/, "")}#${hash}` : address);
+  if (shared) for (const name of LASTING) page[name] = () => assert.fail(`${name} stays with the tab: visit with { own: true }`);
+  if (shared) assert.equal(await page.evaluate(() => localStorage.length + sessionStorage.length), 0);
   const leave = async () => {
-    await place.close();
+    if (shared && !it.tab) it.tab = await vacate(page);
+    else await page.context().close();
     assert.deepEqual(faults.filter((text) => !tolerate?.test(text) && !ofDriver(text)), []);
   };
   return { page, wire, leave };
+}
+
+/** A tab with nothing in it, which shares nothing with others. */
+export async function newTab(browser, context) {
+  const place = await browser.newContext(context);
+  await place.addInitScript(unhurried);
+  const page = await place.newPage();
+  page.setDefaultTimeout(PATIENCE);
+  return page;
+}
+
+/** The tab as it was before its visit. */
+export async function vacate(page) {
+  await page.mouse.move(0, 0);
+  await page.evaluate(() => [localStorage, sessionStorage].forEach((one) => one.clear()));
+  await page.goto("about:blank");
+  for (const event of ["console", "pageerror", "request", "websocket"]) page.removeAllListeners(event);
+  return page;
 }
 
 /**

@@ -142,7 +142,7 @@ test("the cells about the body are the first of the map", upon(it, { hash: "pres
   assert.ok(before < (map.x.count * map.y.count) / 2, `${before} of ${map.x.count * map.y.count} cells came before`);
 }));
 
-test("long numbers along the axes leave room for their titles", upon(it, { hash: "preset=fig5a&x=kappa2:0.80001:0.80012&y=kappa3:0.50001:0.50021", viewport: { width: 1440, height: 900 } }, async ({ page, wire }) => {
+test("long numbers along the axes leave room for their titles", upon(it, { hash: "preset=fig5a&x=kappa2:0.80001:0.80012&y=kappa3:0.50001:0.50021", own: true, viewport: { width: 1440, height: 900 } }, async ({ page, wire }) => {
   await page.addInitScript(() => {
     const { prototype } = CanvasRenderingContext2D;
     const { fillText } = prototype;
