@@ -128,8 +128,12 @@ pub fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
     if !matrix.iter().all(|x| x.is_finite()) {
         return None;
     }
-    let schur = nalgebra::linalg::Schur::try_new(matrix, f64::EPSILON, 100 * dim.max(10))?;
-    let mut values: Vec<ComplexPair> = schur.complex_eigenvalues().iter().map(|z| (z.re, z.im)).collect();
+    // where eigenvalues are equal its steps may not converge
+    let schur = nalgebra::linalg::Schur::try_new(matrix, f64::EPSILON, 100 * dim.max(10));
+    let mut values = match schur {
+        Some(schur) => schur.complex_eigenvalues().iter().map(|z| (z.re, z.im)).collect(),
+        None => motiform_dynamics::eigenvalues::eigenvalues(columns)?,
+    };
     sort_leading(&mut values);
     Some(values)
 }

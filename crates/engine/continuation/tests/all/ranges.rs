@@ -8,7 +8,7 @@ use motiform_dynamics::Equivariant;
 use motiform_models::amplitudes::{Definition, ParameterDefinition, info};
 
 /// The bodies of equations, one for each amplitude, over two parameters.
-fn plane(
+pub(crate) fn plane(
     symmetry: &str,
     equations: &[&str],
 ) -> impl Fn([f64; 2]) -> Result<Box<dyn Equivariant>> + Sync + use<> {
