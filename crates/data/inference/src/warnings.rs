@@ -17,9 +17,9 @@ use crate::fit::refit;
 use crate::identifiability::unbounded;
 use crate::{Fit, PValue, Result, Settings, StageVelocity, Track, observation, stage_velocities};
 use motiform_dynamics::digits::with_error;
+use motiform_dynamics::eigenvalues::eigenvalues;
 use motiform_dynamics::sample::ascending;
 use motiform_dynamics::{Complex, Watch};
-use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 /// Sampling interval times fastest rate from which on the filter's linearisation biases coefficients.
@@ -331,9 +331,10 @@ fn fastest<const SHAPE: usize>(tracks: &[Track], fit: &Fit) -> f64 {
         let frames = fit.scales.frames(track);
         for pair in frames.windows(2).step_by((frames.len() / RATES).max(1)) {
             field.evaluate(&c, &shape(&pair[0], &pair[1]), false, &mut values);
-            let jacobian = DMatrix::from_fn(SHAPE, SHAPE, |i, j| values.jacobian[i][j]);
-            let eigenvalues = jacobian.complex_eigenvalues();
-            rates.push(eigenvalues.iter().map(|z| libm::hypot(z.re, z.im)).fold(0.0, f64::max));
+            let columns: Vec<Vec<f64>> =
+                (0..SHAPE).map(|j| values.jacobian.iter().map(|row| row[j]).collect()).collect();
+            let moduli = eigenvalues(&columns).unwrap_or_default();
+            rates.extend(moduli.iter().map(|value| libm::hypot(value.0, value.1)).reduce(f64::max));
         }
     }
     ascending(&mut rates);

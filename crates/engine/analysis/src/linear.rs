@@ -121,15 +121,16 @@ pub fn sort_leading(values: &mut [ComplexPair]) {
 /// The eigenvalues of a matrix given by its columns, the leading one first. `None` where one is not finite or the iteration does not end.
 pub fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<ComplexPair>> {
     let dim = columns.len();
-    if dim == 0 {
-        return Some(Vec::new());
-    }
     let matrix = DMatrix::from_fn(dim, dim, |i, j| columns[j][i]);
-    if !matrix.iter().all(|x| x.is_finite()) {
-        return None;
+    if dim == 0 || !matrix.iter().all(|x| x.is_finite()) {
+        return (dim == 0).then(Vec::new);
     }
-    let schur = nalgebra::linalg::Schur::try_new(matrix, f64::EPSILON, 100 * dim.max(10))?;
-    let mut values: Vec<ComplexPair> = schur.complex_eigenvalues().iter().map(|z| (z.re, z.im)).collect();
+    // where eigenvalues are equal its steps may not converge
+    let schur = nalgebra::linalg::Schur::try_new(matrix, f64::EPSILON, 100 * dim.max(10));
+    let mut values = match schur {
+        Some(schur) => schur.complex_eigenvalues().iter().map(|z| (z.re, z.im)).collect(),
+        None => motiform_dynamics::eigenvalues::eigenvalues(columns)?,
+    };
     sort_leading(&mut values);
     Some(values)
 }

@@ -24,7 +24,7 @@ use nalgebra::DMatrix;
 
 /// The unit of the shape is at least this part of its own size: a branch that begins small keeps the steps of its beginning until it has
 /// grown to four times that.
-const GROWN: f64 = 0.25;
+pub(super) const GROWN: f64 = 0.25;
 
 /// A shape that vanishes at a rate of turning above this part of the rate of the equations is a wave.
 const TURNS: f64 = 1e-4;

@@ -3,7 +3,7 @@
 mod problem;
 
 use super::classes::Classes;
-use super::equilibria::linearisation;
+use super::equilibria::{GROWN, linearisation};
 use super::family::{Bodies, Neighbours};
 use super::problem::{Border, Equations, Failure, Linear};
 use super::settings::Settings;
@@ -278,7 +278,8 @@ impl Equations for Orbits<'_> {
 
     fn weights(&self, x: &[f64]) -> Vec<f64> {
         let nodes = self.parts * self.dim;
-        let mut weights = vec![1.0 / (self.parts as f64 * self.size * self.size); nodes];
+        let size = self.size.max(GROWN * self.extent(x));
+        let mut weights = vec![1.0 / (self.parts as f64 * size * size); nodes];
         weights.push(1.0 / (x[nodes] * x[nodes]));
         if self.turns {
             weights.push(1.0);

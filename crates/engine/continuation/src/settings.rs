@@ -9,7 +9,8 @@ use motiform_dynamics::steppers::{DOP853, Method};
 /// Settings of the continuation of a branch.
 ///
 /// Lengths along a branch are measured with the parameter in units of the width of the range, shapes in units of the first shape's
-/// size (root mean square over the nodes of an orbit), turning rates and angles in radians, and the period in units of itself.
+/// size (root mean square over the nodes of an orbit) or a quarter of their own, turning rates and angles in radians, and the period in
+/// units of itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The branch ends where the parameter leaves this range; its last point lies exactly at the edge.

@@ -15,6 +15,7 @@ mod control;
 pub mod digits;
 pub mod distributions;
 pub mod drive;
+pub mod eigenvalues;
 pub mod ensemble;
 pub mod equivariant;
 mod error;

@@ -9,6 +9,7 @@ mod common;
 mod connections;
 mod curves;
 mod ends;
+mod equal;
 mod equilibria;
 mod families;
 mod flat;

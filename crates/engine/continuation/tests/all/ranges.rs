@@ -2,13 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use motiform_analysis::{Error, RelativeEquilibrium, Result};
+use motiform_analysis::periodic::PeriodicGuess;
+use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
 use motiform_continuation::{Branch, Degenerate, Family, Family2, Point, Settings, WholeCurve};
 use motiform_dynamics::Equivariant;
 use motiform_models::amplitudes::{Definition, ParameterDefinition, info};
 
 /// The bodies of equations, one for each amplitude, over two parameters.
-fn plane(
+pub(crate) fn plane(
     symmetry: &str,
     equations: &[&str],
 ) -> impl Fn([f64; 2]) -> Result<Box<dyn Equivariant>> + Sync + use<> {
@@ -170,5 +171,28 @@ fn a_hopf_curve_ends_at_a_point_where_the_equations_are_singular() {
             unreachable!("{first} {second}: {found:?}")
         };
         assert!(p.abs() < 1e-8 && q.abs() < 1e-8 * second, "{first} {second}: {found:?}");
+    }
+}
+
+/// `|z|^2 = p`: steps are as long as the orbit is large. While they kept the length of the start there were as many points as sizes of it.
+#[test]
+fn a_growing_orbit_has_few_points() {
+    let family = family("none", "(p - |z1|^2 + 2*i)*z1");
+    let guess = PeriodicGuess { shape: &[0.3, 0.4], time: std::f64::consts::PI, angle: 0.0, mirrored: false };
+    let start = |settings: &Settings| {
+        PeriodicOrbit::find(family(0.25).unwrap().as_ref(), &guess, &settings.flow, &())
+    };
+    let leg = |high: f64| -> Vec<Point> {
+        let settings = Settings::over(-1.0, high);
+        Branch::of_orbits(&family, 0.25, &start(&settings).unwrap(), &settings, &()).unwrap().collect()
+    };
+    let (near, far) = (leg(4.0), leg(100.0));
+    // the size is 20 times that of the start: 200 steps to 4 times, then 2 % of a quarter of it each
+    assert!(far.len() < 600 && near.len() < far.len(), "{} {}", near.len(), far.len());
+    for point in far {
+        let shape = point.motion.shape();
+        assert!(
+            (f64::hypot(shape[0], shape[1]) - point.parameter.sqrt()).abs() < 1e-8 * point.parameter.sqrt()
+        );
     }
 }

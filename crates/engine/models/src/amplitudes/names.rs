@@ -4,12 +4,12 @@
 use super::{Amplitudes, Definition, DefinitionError, Equations, Monomial, ParameterDefinition};
 use crate::registry::{Display, ModelInfo, Source};
 use crate::{Error, ParameterSpec};
+use motiform_dynamics::eigenvalues::eigenvalues;
 use motiform_dynamics::model::{Coordinate, Observable};
 use motiform_dynamics::sample::ascending;
 use motiform_dynamics::tangent::jacobian;
 use motiform_dynamics::{Bundle, Model, Scalar, System, VectorField};
-use nalgebra::linalg::Schur;
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
 use std::fmt::Write;
 use std::sync::{Mutex, PoisonError};
 
@@ -111,9 +111,9 @@ fn rates(model: &Amplitudes) -> Option<Vec<f64>> {
     if model.known.equations.symmetry().rotations {
         return None;
     }
-    let schur = Schur::try_new(at_rest(model), f64::EPSILON, 100 * model.dim())?;
-    let rate = |value: &Complex<f64>| value.re.abs().max(LEAST * libm::hypot(value.re, value.im));
-    Some(schur.complex_eigenvalues().iter().map(rate).collect())
+    let columns: Vec<Vec<f64>> = at_rest(model).column_iter().map(|x| x.iter().copied().collect()).collect();
+    let rate = |value: &(f64, f64)| value.0.abs().max(LEAST * libm::hypot(value.0, value.1));
+    Some(eigenvalues(&columns)?.iter().map(rate).collect())
 }
 
 /// The linear part at the equilibrium that Newton's method finds from the origin; at the origin where it finds none.

@@ -225,12 +225,11 @@ pub fn boundaries(plan: &AtlasPlan, grid: &Grid, lines: &[Line]) -> Vec<Boundary
             None => all.push((pair, vec![name])),
         }
     }
-    let renamed: Vec<[Regime; 2]> = lines.iter().flat_map(|line| line.renamed.iter().copied()).collect();
-    let all = all.into_iter().map(|(between, names)| summed(between, &names, &renamed)).collect();
+    let all = all.into_iter().map(|(between, names)| summed(between, &names, lines)).collect();
     descending(all, |boundary: &Boundary| boundary.edges)
 }
 
-fn summed(between: Pair, names: &[Option<Name<'_>>], renamed: &[[Regime; 2]]) -> Boundary {
+fn summed(between: Pair, names: &[Option<Name<'_>>], lines: &[Line]) -> Boundary {
     let mut kinds: Vec<(String, usize)> = Vec::new();
     for name in names.iter().flatten().map(|name| name.words()) {
         match kinds.iter_mut().find(|kind| kind.0 == name) {
@@ -243,7 +242,7 @@ fn summed(between: Pair, names: &[Option<Name<'_>>], renamed: &[[Regime; 2]]) ->
     let crossing = |name: &Name<'_>| matches!(name, Name::End(EndKind::Crossing(_)));
     let why = (unnamed > 0).then(|| match names.iter().flatten().any(crossing) {
         true => "a crossing of branches without a symmetry that the model states has no curve here: it is known on the lines alone",
-        false => why(&differing(&between), renamed),
+        false => why(&differing(&between), lines),
     });
     Boundary { between, edges: names.len(), kinds, unnamed, why }
 }
@@ -259,9 +258,9 @@ pub(crate) fn descending<T>(items: Vec<T>, size: impl Fn(&T) -> usize) -> Vec<T>
 }
 
 /// Why a part of a boundary has no name.
-fn why(differing: &[Regime], renamed: &[[Regime; 2]]) -> &'static str {
+fn why(differing: &[Regime], lines: &[Line]) -> &'static str {
     let one = |pair: &[Regime; 2]| pair.iter().all(|motion| differing.contains(motion));
-    if differing.len() == 2 && renamed.iter().any(one) {
+    if differing.len() == 2 && lines.iter().flat_map(|line| &line.renamed).any(one) {
         return "a branch that was followed has both names without a bifurcation between them (as where its velocity passes over rest)";
     }
     let has = |regime| differing.contains(&regime);
@@ -277,6 +276,8 @@ fn why(differing: &[Regime], renamed: &[[Regime; 2]]) -> &'static str {
         "kind undetermined: chaotic motion is no branch, found by sampling; it may begin with a cascade, or end in a crisis"
     } else if has(Regime::Rectangular) {
         "kind undetermined: rectangular motion is a heteroclinic cycle, which is no branch, found by sampling"
+    } else if lines.is_empty() {
+        "no line was followed: none was asked for, or no piece of the boundary is long enough for one, as on a coarse grid"
     } else {
         "no special point of a followed branch lies there: another branch may end, or several motions coexist on both sides and the \
          samples found different ones; more lines or initial states tell"
@@ -362,6 +363,8 @@ mod tests {
         assert_eq!(crossing.words(), CurveKind::Pitchfork.name());
         assert!(why(crossing).contains("without a symmetry"));
         assert!(!why(Name::Curve(crossing.words())).contains("without a symmetry"));
+        let unseen = summed(between.clone(), &[None], &[]).why.unwrap();
+        assert!(unseen.starts_with("no line was followed"), "{unseen}");
     }
 
     #[test]

@@ -253,7 +253,7 @@ impl Branching<'_> {
 
     /// Progress of the work: branches, of those that are known to come, and the points of this one.
     fn progress(&self, points: usize) {
-        let part = (points as f64 / TYPICAL).min(1.0);
+        let part = points as f64 / (points as f64 + TYPICAL);
         self.watch.progress((self.done.branches.len() as f64 + part) / self.expected as f64);
     }
 
