@@ -9,6 +9,8 @@ use serde::Serialize;
 const CLEAR: f64 = 8.0;
 /// Least change of lengths.
 const LEAST: f64 = 0.02;
+/// Square of the part of a change by which cells may differ.
+const OF_A_PART: f64 = 1.0 / 9.0;
 /// Fewest cells in common.
 const LEAST_CELLS: usize = 3;
 /// Frames on both sides over which sizes stay as they are.
@@ -27,7 +29,8 @@ pub struct Magnification {
 
 /// The largest change of the mean of ln(area)/2 over three cells and more that are seen in a frame and in one of five before, if it is
 /// above 2 %, 8 times the usual one (1.4826 times the median size) and 8 times its error over cells; medians over five frames after and
-/// before differ by as much, within a half.
+/// before differ by as much, within a half; and its variance over cells exceeds the usual one (median) by less than the square of a third of
+/// it: of a part of the cells that shrinks or swells, and less than nine tenths of them, it exceeds it by more.
 pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Option<Magnification> {
     let sizes: Vec<Vec<Option<f64>>> = cells.iter().map(|cell| sizes(grid, cell)).collect();
     let side = |k: usize| k.saturating_sub(SIDE)..k;
@@ -41,8 +44,13 @@ pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Option<Magnification> {
         all.filter_map(|(k, own)| Some((k, mean(own.iter().copied())?, own))).collect();
     let usual = 1.4826 * median(all.iter().map(|one| one.1.abs()))?;
     let (k, change, own) = all.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-    let squares: f64 = own.iter().map(|one| (one - change) * (one - change)).sum();
-    let error = (squares / (own.len() * (own.len() - 1)) as f64).sqrt();
+    let variance = |change: f64, own: &[f64]| {
+        own.iter().map(|one| (one - change) * (one - change)).sum::<f64>() / (own.len() - 1) as f64
+    };
+    let scatter = variance(*change, own);
+    let is_of_all =
+        scatter < median(all.iter().map(|one| variance(one.1, &one.2)))? + change * change * OF_A_PART;
+    let error = (scatter / own.len() as f64).sqrt();
     let middle = |sizes: &[Option<f64>]| median(sizes.iter().flatten().copied());
     let stays = |own: &Vec<Option<f64>>| {
         let after = own.len().min(k + SIDE);
@@ -50,7 +58,7 @@ pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Option<Magnification> {
     };
     let stays = median(sizes.iter().filter_map(stays))?;
     let clear = change.abs() > libm::log(1.0 + LEAST).max(CLEAR * usual.max(error));
-    (clear && (stays - change).abs() < 0.5 * change.abs()).then(|| Magnification {
+    (clear && is_of_all && (stays - change).abs() < 0.5 * change.abs()).then(|| Magnification {
         frame: grid.frame(*k),
         factor: libm::exp(*change),
         cells: own.len(),

@@ -48,8 +48,8 @@ impl FieldOfView {
         }
         if let Some(change) = self.magnification {
             let words = format!(
-                "lengths of all cells change by a factor of {} at frame {}, and stay: another magnification, or another threshold of the \
-                 segmentation; numbers of the whole record mix both: read the frames before and after by themselves",
+                "lengths of all cells change by a factor of {} at frame {}, and stay: another magnification, another threshold of the \
+                 segmentation, or cells that all shrink or swell; numbers of the whole record mix both: read the frames before and after by themselves",
                 four_digits(change.factor),
                 change.frame
             );

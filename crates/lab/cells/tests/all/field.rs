@@ -212,6 +212,27 @@ fn velocities_that_differ_from_place_to_place_are_seen() {
     }
 }
 
+/// One fast cell far from eleven that hardly move is no flow: of twelve fields hardly one has a gradient, where the test of normal velocities
+/// of one variance alone sees one in eleven.
+#[test]
+fn one_fast_cell_far_away_is_no_flow() {
+    let seen = (0..12).filter(|field_number| {
+        let walker = |k: u64| Walker {
+            frames: 12,
+            speed: if k == 0 { 1.2 } else { 0.06 },
+            shape: Shape::Round,
+            ..WALK
+        };
+        let all = (0..12).map(|k| walker(k).outlines(9000 + 12 * field_number + k)).collect();
+        let mut seen = tracks(all).turning(0.0);
+        let far = seen.cells[0].frames.iter_mut().flat_map(|outline| &mut outline.points);
+        far.for_each(|point| point[0] += 1000.0);
+        field(seen).flows()
+    });
+    let seen = seen.count();
+    assert!(seen <= 2, "{seen}");
+}
+
 /// Another objective from frame 75 on: its factor is found, also where frames are missing there, and in no field without one, whose cells
 /// may grow all the time, or swell for a moment.
 #[test]
@@ -242,6 +263,17 @@ fn a_change_of_the_magnification_is_found() {
         assert_eq!(scaled(cells, &|frame| Some(libm::exp(0.005 * frame as f64))), None);
         assert_eq!(scaled(cells, &|frame| Some(if frame == 75 { 1.3 } else { 1.0 })), None);
     }
+    // three in four cells that swell are no magnification
+    let swelling = |cells: usize| {
+        let walker = Walker { frames: 20, ..WALK };
+        let mut seen = tracks((0..40).map(|seed| walker.outlines(700 + seed)).collect());
+        let later = |outline: &&mut Outline| outline.frame >= 10;
+        let swollen = seen.cells[..cells].iter_mut().flat_map(|cell| &mut cell.frames).filter(later);
+        swollen.flat_map(|outline| &mut outline.points).flatten().for_each(|x| *x *= 1.2);
+        field(seen).magnification
+    };
+    assert!(swelling(40).is_some_and(|found| (found.factor - 1.2).abs() < 0.02));
+    assert_eq!(swelling(30), None);
 }
 
 /// The side of the pixels that outlines follow is found, and rounded digits of smooth outlines are none.
