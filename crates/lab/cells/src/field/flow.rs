@@ -37,7 +37,7 @@ impl Flow {
     /// Least squares of the mean velocity v_c of each of n cells, from the second frame on, on its place in the first one, whose error is
     /// not in v_c. With the squares E that are left and T of all, w = sqrt(det E/det T) has the distribution Beta(n - 4, 2) for normal
     /// v_c, and p = (n - 3) w^(n - 4) - (n - 4) w^(n - 3), exact. Cells that come later come from the sides, and go inwards: they do not
-    /// count. One fast cell far from slow ones is no flow, and normal velocities of one variance do not know it: where velocities less their
+    /// count. One fast cell far from slow ones is no flow, which the test of one variance does not know: where velocities less their
     /// medians, each turned by a random angle, have such a w in 1 % of the draws and more, p is that share.
     ///
     /// Source: Wilks (1932), Biometrika 24, 471.

@@ -29,8 +29,8 @@ pub struct Magnification {
 
 /// The largest change of the mean of ln(area)/2 over three cells and more that are seen in a frame and in one of five before, if it is
 /// above 2 %, 8 times the usual one (1.4826 times the median size) and 8 times its error over cells; medians over five frames after and
-/// before differ by as much, within a half; and its variance over cells exceeds the usual one (median) by less than the square of a third of
-/// it: of a part of the cells that shrinks or swells, and less than nine tenths of them, it exceeds it by more.
+/// before differ by as much, within a half; and its variance over cells exceeds the usual one (median) by less than the square of a
+/// third of it: of a part of the cells that shrinks or swells, and less than nine tenths of them, it exceeds it by more.
 pub(super) fn find(grid: &Grid, cells: &[CellModes]) -> Option<Magnification> {
     let sizes: Vec<Vec<Option<f64>>> = cells.iter().map(|cell| sizes(grid, cell)).collect();
     let side = |k: usize| k.saturating_sub(SIDE)..k;

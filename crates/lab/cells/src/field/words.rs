@@ -49,7 +49,8 @@ impl FieldOfView {
         if let Some(change) = self.magnification {
             let words = format!(
                 "lengths of all cells change by a factor of {} at frame {}, and stay: another magnification, another threshold of the \
-                 segmentation, or cells that all shrink or swell; numbers of the whole record mix both: read the frames before and after by themselves",
+                 segmentation, or cells that all shrink or swell; numbers of the whole record mix both: read the frames before and after \
+                 by themselves",
                 four_digits(change.factor),
                 change.frame
             );

@@ -212,8 +212,8 @@ fn velocities_that_differ_from_place_to_place_are_seen() {
     }
 }
 
-/// One fast cell far from eleven that hardly move is no flow: of twelve fields hardly one has a gradient, where the test of normal velocities
-/// of one variance alone sees one in eleven.
+/// One fast cell far from eleven that hardly move is no flow: of twelve fields hardly one has a gradient (by the test of normal
+/// velocities of one variance alone nearly all).
 #[test]
 fn one_fast_cell_far_away_is_no_flow() {
     let seen = (0..12).filter(|field_number| {
