@@ -62,7 +62,6 @@ pub(crate) fn text(said: &Said) -> String {
 }
 
 /// The message that refuses a request for this reason.
-#[must_use]
 pub fn refusal(why: &str) -> Answer {
     Answer::Text(text(&Refused { id: None, why: why.to_owned() }.into()))
 }

@@ -212,7 +212,6 @@ impl Catalogue {
 }
 
 /// The name of a file without its folders.
-#[must_use]
 pub fn file_name(path: &str) -> String {
     Path::new(path).file_name().map_or_else(|| path.to_owned(), |name| name.to_string_lossy().into_owned())
 }

@@ -23,7 +23,6 @@ impl Greeting {
     }
 
     /// The message.
-    #[must_use]
     pub fn text(&self) -> &str {
         &self.0
     }

@@ -47,7 +47,6 @@ impl Session {
     }
 
     /// Sends a request; `false` if the queue is full, or the session has ended.
-    #[must_use]
     pub fn ask(&self, request: Request) -> bool {
         self.asks.as_ref().is_some_and(|asks| asks.try_send(request.0).is_ok())
     }

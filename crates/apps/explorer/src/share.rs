@@ -59,7 +59,6 @@ pub(crate) fn command(start: &Subject, study: &Study) -> Result<String, Error> {
 }
 
 /// A path for the shell.
-#[must_use]
 pub fn quoted(path: &str) -> String {
     let plain = path.chars().all(|c| c.is_ascii_alphanumeric() || "/._-+".contains(c));
     if plain { path.to_owned() } else { format!("'{}'", path.replace('\'', "'\\''")) }

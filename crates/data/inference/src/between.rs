@@ -42,7 +42,6 @@ impl BetweenCells {
     /// The coefficients in which cells differ by more than one law with its errors lets them, each with its p-value: of
     /// `(K - 1) (error between cells)^2/(error of one law)^2` against chi-square with K - 1 degrees of freedom, the larger one of the
     /// expected and the robust error. Significant are those below 1 % over their number.
-    #[must_use]
     pub fn differing(&self, fit: &Fit) -> Vec<(String, f64)> {
         let p = |(between, one): (&f64, &crate::Coefficient)| {
             let law = one.estimate.error.max(one.estimate.robust);

@@ -11,7 +11,6 @@ use std::collections::BTreeMap;
 /// Parameters have the paper's names where a term has one, with the paper's factors: `b1/4*z1^2`; see [`crate::paper`].
 ///
 /// # Checked by  `tests/all/definition.rs`: the model's vector field is the library's, to 1e-15
-#[must_use]
 pub fn equations(library: &Library, handed: bool, coefficients: &[f64]) -> Definition {
     let terms = library.terms.len();
     let mut parameters = Vec::new();
@@ -50,7 +49,6 @@ pub fn equations(library: &Library, handed: bool, coefficients: &[f64]) -> Defin
 
 impl Fit {
     /// The fitted equations as a model file has them: see [`equations()`].
-    #[must_use]
     pub fn definition(&self) -> Definition {
         equations(&self.library, self.handed, &self.parameters().coefficients)
     }

@@ -7,7 +7,6 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 /// `count` sets of coefficients in the units of the data, normal about the estimate with the expected covariance.
 ///
 /// The same seed gives the same draws. See [`equations()`](crate::equations()).
-#[must_use]
 pub fn draws(fit: &Fit, count: usize, seed: u64) -> Vec<Vec<f64>> {
     let root = root(fit.covariance());
     let mut normal = Normal::new(seed, 0);

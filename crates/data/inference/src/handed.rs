@@ -39,13 +39,11 @@ motiform_dynamics::named! {
 impl Handedness {
     /// Returns `true` if the likelihood ratio speaks against mirror symmetry: exceeded in less than
     /// [`DOUBTED_RATE`] of mirror-symmetric cells.
-    #[must_use]
     pub fn is_doubted(&self) -> bool {
         self.p_value < DOUBTED_RATE
     }
 
     /// The imaginary parts that the intervals exclude, as a clause.
-    #[must_use]
     pub fn excluded_parts(&self) -> String {
         if !(self.excluded > 0.0 && self.excluded < 1.0) {
             return "imaginary parts as large as the coefficients themselves are not excluded".to_owned();

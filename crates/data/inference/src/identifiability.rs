@@ -69,13 +69,11 @@ pub struct EquationKnowledge {
 
 impl EquationKnowledge {
     /// Number of fixed combinations.
-    #[must_use]
     pub fn fixed(&self) -> usize {
         self.count(Knowledge::Fixed)
     }
 
     /// Number of combinations that are known this well.
-    #[must_use]
     pub fn count(&self, knowledge: Knowledge) -> usize {
         self.combinations.iter().filter(|combination| combination.knowledge == knowledge).count()
     }
@@ -95,7 +93,6 @@ pub struct Identifiability {
 /// The combinations of coefficients that a fit fixes.
 ///
 /// # Checked by  `tests/all/identifiability.rs`: circular, straight and motionless cells
-#[must_use]
 pub fn identifiability(fit: &Fit) -> Identifiability {
     let covariance = fit.covariance();
     let equations: Vec<EquationKnowledge> = (0..fit.library.modes)

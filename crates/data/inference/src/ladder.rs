@@ -83,13 +83,11 @@ pub struct Rung {
 
 impl Rung {
     /// Returns `true` if it predicts as well as the best model, within two standard errors of their difference.
-    #[must_use]
     pub fn is_as_good(&self) -> bool {
         matches!((self.behind, self.error), (Some(behind), Some(error)) if behind <= 2.0 * error)
     }
 
     /// Its prediction against that of the best model, in words.
-    #[must_use]
     pub fn in_words(&self) -> String {
         match (self.behind, self.error) {
             (Some(0.0), _) => "predicts best".to_owned(),
@@ -114,13 +112,11 @@ pub struct Ladder {
 
 impl Ladder {
     /// The model that predicts best.
-    #[must_use]
     pub fn best(&self) -> Option<&Rung> {
         self.rungs.iter().find(|rung| rung.behind == Some(0.0))
     }
 
     /// Which model predicts best, and which simpler one as well, as a sentence.
-    #[must_use]
     pub fn sentence(&self) -> String {
         let Some(best) = self.best() else {
             return "no model predicts frames that its fit did not see: all filters diverge".to_owned();
@@ -133,7 +129,6 @@ impl Ladder {
     }
 
     /// The model of fewest coefficients that predicts as well as the best one: what others have beyond it is not in these data.
-    #[must_use]
     pub fn simplest(&self) -> Option<&Rung> {
         self.rungs.iter().filter(|rung| rung.is_as_good()).min_by_key(|rung| rung.coefficients)
     }

@@ -7,7 +7,6 @@ use motiform_models::amplitudes::tensor_parameter;
 ///
 /// `|z1|^2 z1` has the coefficient -1 in the paper; here it is `d11`. Terms that the paper does not have are named by equation and powers:
 /// `c2_z1_z2c_z3`. Imaginary parts have `_i` after the name.
-#[must_use]
 pub fn paper(term: &Term, imaginary: bool) -> (String, f64) {
     let key = format!("z{}: {}", term.equation + 1, term.expression());
     let (name, factor) = match tensor_parameter(&key) {

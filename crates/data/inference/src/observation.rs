@@ -29,7 +29,6 @@ pub struct Observation {
 
 impl Observation {
     /// Lower triangle `L` with `L L^T` the covariance of the first `numbers` of `y`; `None` unless that is positive definite.
-    #[must_use]
     pub fn covariance_root(&self, numbers: usize) -> Option<Vec<Vec<f64>>> {
         let own = DMatrix::from_fn(numbers, numbers, |i, j| self.covariance[i][j]);
         let root = Cholesky::new(own)?.unpack();
@@ -43,7 +42,6 @@ pub struct Track(pub Vec<Observation>);
 
 impl Track {
     /// The interval between frames that occurs most: their median.
-    #[must_use]
     pub fn interval(&self) -> f64 {
         let mut gaps: Vec<f64> = self.0.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
         ascending(&mut gaps);
@@ -51,13 +49,11 @@ impl Track {
     }
 
     /// Every `n`-th of its frames.
-    #[must_use]
     pub fn thinned(&self, n: usize) -> Self {
         Self(self.0.iter().step_by(n.max(1)).cloned().collect())
     }
 
     /// The same motion seen in a mirror: `y -> -y`, `z -> conj(z)`.
-    #[must_use]
     pub fn mirrored(&self) -> Self {
         let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         let mirrored = |row: &Vec<f64>| row.iter().enumerate().map(|(i, x)| sign(i) * x).collect();

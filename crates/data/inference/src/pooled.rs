@@ -33,7 +33,6 @@ pub struct Pooled {
 /// Source: White (1982), Econometrica 50, 1 (errors from scores); Cochran (1954), Biometrics 10, 101 (differences).
 ///
 /// # Checked by  tests/all/pooled.rs: coverage over many short records of a linear process; cells that differ; units
-#[must_use]
 pub fn pooled(estimates: &[(Vec<f64>, Vec<Vec<f64>>)]) -> Option<Pooled> {
     let (cells, n) = (estimates.len(), estimates.first()?.0.len());
     if cells < 2 || estimates.iter().any(|(values, _)| values.len() != n) {
@@ -79,7 +78,6 @@ fn inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 }
 
 /// [`pooled`] of fits with the same coefficients; `None` where they have others.
-#[must_use]
 pub fn pooled_fits(fits: &[&Fit]) -> Option<Pooled> {
     let names =
         |fit: &Fit| fit.coefficients.iter().map(|c| (c.name.clone(), c.imaginary)).collect::<Vec<_>>();

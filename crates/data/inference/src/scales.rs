@@ -58,7 +58,6 @@ fn square(y: &[f64], first: usize) -> f64 {
 
 impl Scales {
     /// The natural units of these tracks, for a model of so many amplitudes.
-    #[must_use]
     pub fn of(tracks: &[Track], modes: usize) -> Self {
         let shapes = modes - 1;
         let centres = tracks.iter().flat_map(|track| &track.0).map(|frame| 0.5 * variance(frame, 0));
@@ -97,7 +96,6 @@ impl Scales {
 
     /// The factor from a coefficient in natural units to one in the units of the data:
     /// `A_n / (T prod A_m^degree)`.
-    #[must_use]
     pub fn coefficient(&self, term: &Term) -> f64 {
         let product = |(m, a): (usize, &f64)| libm::pow(*a, f64::from(term.degree(m)));
         let product: f64 = self.amplitudes.iter().enumerate().map(product).product();
@@ -106,7 +104,6 @@ impl Scales {
 
     /// The factors from process noise of the velocity and of the shape in natural units to the units of the
     /// data.
-    #[must_use]
     pub fn noise(&self) -> [f64; 2] {
         let [l2, l3] = self.reference();
         [self.amplitudes[0], (l2 * l3).sqrt()].map(|size| size / self.time.sqrt())
@@ -119,7 +116,6 @@ impl Scales {
 
     /// Variances of the process noise of each mode in natural units, for amplitudes 1: in the units of the
     /// data all modes of the shape have the same noise.
-    #[must_use]
     pub fn noise_of_modes(&self) -> Vec<f64> {
         let [l2, l3] = self.reference();
         let of = |(n, l): (usize, &f64)| if n == 0 { 1.0 } else { (l2 / l) * (l3 / l) };
@@ -127,7 +123,6 @@ impl Scales {
     }
 
     /// Unit of lengths of the path: that of the speed times that of time.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.amplitudes[0] * self.time
     }

@@ -40,7 +40,6 @@ pub struct HandedCell {
 
 impl Senses {
     /// `true` if cells of both senses are handed.
-    #[must_use]
     pub fn are_both(&self) -> bool {
         self.handed.iter().any(|one| one.opposite)
     }

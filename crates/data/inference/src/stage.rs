@@ -300,7 +300,6 @@ fn moved(problem: &Problem, beside: Beside, by: &[f64]) -> Problem {
 
 impl Track {
     /// The same track without a motion of the stage of this velocity.
-    #[must_use]
     pub fn without_velocity(&self, velocity: [f64; 2]) -> Self {
         self.without(Beside::Stage, &velocity)
     }

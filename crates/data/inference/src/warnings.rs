@@ -310,7 +310,6 @@ fn errors_differ(fit: &Fit) -> Option<Warning> {
 /// Largest modulus of the eigenvalues of the field's Jacobian, median over frames (inverse time of the data).
 ///
 /// The velocity of a frame is that from it to the next.
-#[must_use]
 pub fn fastest_rate(tracks: &[Track], fit: &Fit) -> f64 {
     match fit.library.modes {
         2 => fastest::<4>(tracks, fit),

@@ -31,19 +31,16 @@ impl Measured {
     }
 
     /// Lower end; NaN without an interval (an empty field in tables).
-    #[must_use]
     pub fn lower(&self) -> f64 {
         self.interval.map_or(f64::NAN, |ends| ends[0])
     }
 
     /// Upper end; NaN without an interval.
-    #[must_use]
     pub fn upper(&self) -> f64 {
         self.interval.map_or(f64::NAN, |ends| ends[1])
     }
 
     /// Half the width of the interval; 0 without one.
-    #[must_use]
     pub fn half_width(&self) -> f64 {
         self.interval.map_or(0.0, |[lower, upper]| 0.5 * (upper - lower))
     }
@@ -64,13 +61,11 @@ pub enum Answer {
 
 impl Answer {
     /// No value, for this reason.
-    #[must_use]
     pub fn unknown(reason: impl Into<String>) -> Self {
         Self::Unknown { reason: reason.into() }
     }
 
     /// The value, if there is one.
-    #[must_use]
     pub fn known(&self) -> Option<Measured> {
         match self {
             Self::Known(measured) => Some(*measured),
@@ -111,7 +106,6 @@ impl Answer {
     }
 
     /// The reason why there is no value, if there is none.
-    #[must_use]
     pub fn reason(&self) -> Option<&str> {
         match self {
             Self::Known(_) => None,

@@ -43,7 +43,6 @@ pub struct DisplacementPoint {
 ///
 /// # Units     (model length)^2
 /// # Checked by  tests/all/displacement.rs: Ornstein-Uhlenbeck, active Brownian (chiral and not), circle, line; Fourier sums
-#[must_use]
 pub fn mean_square(tracks: &Tracks) -> MeanSquare {
     let lags = spaced(tracks.longest_lag());
     let sums = square_sums(tracks, &lags);
@@ -66,7 +65,6 @@ pub struct PathPiece<'p> {
 /// Lags: about 16 per decade, up to half of the longest piece, and one interval at least.
 ///
 /// # Checked by  tests/all/gaps.rs: that of the same tracks
-#[must_use]
 pub fn mean_square_of_paths(dt: f64, pieces: &[PathPiece<'_>], groups: usize) -> MeanSquare {
     let longest = pieces.iter().map(|piece| piece.position.len()).max().unwrap_or(0);
     let lags = spaced((longest / 2).max(usize::from(longest > 1)));
@@ -120,19 +118,16 @@ fn spaced(longest: usize) -> Vec<usize> {
 
 impl MeanSquare {
     /// Number of lags.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.lags.len()
     }
 
     /// Returns `true` if there is no lag.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.lags.is_empty()
     }
 
     /// The lag of a place (model time).
-    #[must_use]
     pub fn lag(&self, place: usize) -> f64 {
         self.lags[place] as f64 * self.dt
     }
@@ -145,7 +140,6 @@ impl MeanSquare {
     }
 
     /// The value at a place, without one group if asked.
-    #[must_use]
     pub(crate) fn value(&self, place: usize, left_out: Option<usize>) -> f64 {
         self.sums[place].mean(left_out)
     }
@@ -161,19 +155,16 @@ impl MeanSquare {
     }
 
     /// Tells if a displacement over the lag of a place is known.
-    #[must_use]
     pub fn is_known(&self, place: usize) -> bool {
         self.sums[place].count() > 0.0
     }
 
     /// The value at a place with its interval, on its logarithm (squares of late displacements are skew) where it is above 0.
-    #[must_use]
     pub fn measured(&self, place: usize) -> Measured {
         self.shown(self.sums[place].skew())
     }
 
     /// d ln MSD / d ln lag between lags some places away on both sides; `None` where nothing moved.
-    #[must_use]
     pub fn exponent(&self, place: usize) -> Option<Measured> {
         let (from, to) = (place.saturating_sub(REACH), (place + REACH).min(self.len() - 1));
         if from == to {
@@ -199,7 +190,6 @@ impl MeanSquare {
     }
 
     /// All points.
-    #[must_use]
     pub fn points(&self) -> Vec<DisplacementPoint> {
         let point = |place| DisplacementPoint {
             lag: self.lag(place),

@@ -41,7 +41,6 @@ pub struct Histogram {
 /// Source: Kish (1965), Survey Sampling, ch. 8 (design effect); Wilson (1927).
 ///
 /// # Checked by  tests/all/distributions.rs: independent and repeated samples, a normal velocity; tests/all/coverage.rs
-#[must_use]
 pub fn histogram(samples: &[(usize, f64)], groups: usize, (from, to): (f64, f64), bins: usize) -> Histogram {
     let width = (to - from) / bins as f64;
     let mut counts = vec![vec![0_usize; groups]; bins];

@@ -6,7 +6,6 @@ use crate::{Answer, MeanSquare};
 /// The exponent d ln MSD / d ln lag at the shortest lag (`first`) or over the last octave.
 ///
 /// # Checked by  tests/all/displacement.rs
-#[must_use]
 pub fn local_exponent(curve: &MeanSquare, first: bool) -> Answer {
     let last = curve.len().saturating_sub(1);
     let (from, to) = if first { (0, 1.min(last)) } else { (place(curve, 0.5), last) };

@@ -28,32 +28,27 @@ impl GappedVectors {
     }
 
     /// Number of frames, missing ones included.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.at.len()
     }
 
     /// Returns `true` if there is no frame.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.at.is_empty()
     }
 
     /// The vector of a frame.
-    #[must_use]
     pub fn get(&self, frame: usize) -> Option<[f64; 2]> {
         (*self.there.get(frame)? > 0.0).then(|| self.at[frame])
     }
 
     /// The lengths of the vectors that are there.
-    #[must_use]
     pub fn lengths(&self) -> Vec<f64> {
         let there = self.at.iter().zip(&self.there).filter(|(_, there)| **there > 0.0);
         there.map(|(at, _)| libm::hypot(at[0], at[1])).collect()
     }
 
     /// Displacements over so many frames, divided by `time`: that of each frame to the later one, where both are there.
-    #[must_use]
     pub fn displacements(&self, frames: usize, time: f64) -> Self {
         let velocity = |at: usize| {
             let (a, b) = (self.get(at)?, self.get(at + frames)?);
@@ -64,7 +59,6 @@ impl GappedVectors {
 
     /// Twice the angle of each vector, as a vector of length 1, mirrored at the x axis: with it [`GappedVectors::mean_dot`] is the mean of
     /// `Re z exp(2 i angle)`.
-    #[must_use]
     pub fn doubled(&self) -> Self {
         let at = self.at.iter().map(|v| {
             let square = dot(*v, *v).max(f64::MIN_POSITIVE);
@@ -74,7 +68,6 @@ impl GappedVectors {
     }
 
     /// Angles from each vector to that of so many frames later (rad, anticlockwise positive).
-    #[must_use]
     pub fn turns(&self, frames: usize) -> Vec<f64> {
         let angle = |at: usize| {
             let (a, b) = (self.get(at)?, self.get(at + frames)?);
@@ -85,13 +78,11 @@ impl GappedVectors {
 
     /// The mean of `a . b` over all frames `a` of this series and `b` of another, `lag` frames later, that are both there; NaN where there
     /// are none.
-    #[must_use]
     pub fn mean_dot(&self, other: &Self, lag: isize) -> f64 {
         self.mean_with(other, lag, dot)
     }
 
     /// The mean square of the change over `lag` frames; NaN where no two frames are so far apart.
-    #[must_use]
     pub fn mean_square(&self, lag: usize) -> f64 {
         self.mean_with(self, lag.cast_signed(), |a, b| {
             let [x, y] = [b[0] - a[0], b[1] - a[1]];
@@ -100,7 +91,6 @@ impl GappedVectors {
     }
 
     /// `<a(t) . a(t + lag)> / <a^2>` at each of these lags (frames).
-    #[must_use]
     pub fn correlations(&self, lags: &[usize]) -> Vec<f64> {
         let product = |lag: usize| self.mean_dot(self, lag.cast_signed());
         let square = product(0);

@@ -15,13 +15,11 @@ const LEAST: usize = 8;
 /// Source: Tukey (1958), Ann. Math. Stat. 29, 614; Efron (1982), The Jackknife, the Bootstrap and Other Resampling Plans, ch. 3.
 ///
 /// # Checked by  tests/all/coverage.rs; for a mean it is the usual standard error (tests/all/quantiles.rs)
-#[must_use]
 pub fn jackknife(value: f64, without: &[f64]) -> Measured {
     Measured { value, interval: spread(without, None).map(|half| [value - half, value + half]) }
 }
 
 /// [`jackknife`] of the logarithm: for values above 0, whose interval then stays above 0.
-#[must_use]
 pub(crate) fn jackknife_ratio(value: f64, without: &[f64]) -> Measured {
     ratio(value, without, None)
 }

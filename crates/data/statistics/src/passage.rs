@@ -22,7 +22,6 @@ pub struct Passage {
 
 /// Radii for which there is something to see: from the root-mean-square displacement of four samples to that
 /// of a quarter of the longest lag, with equal ratios; none where nothing moved.
-#[must_use]
 pub fn radii(curve: &MeanSquare) -> Vec<f64> {
     let last = curve.len().saturating_sub(1);
     let at = |part: f64| {
@@ -48,7 +47,6 @@ pub fn radii(curve: &MeanSquare) -> Vec<f64> {
 /// or before a gap are watched for less long, which [`mean_time`] accounts for.
 ///
 /// # Checked by  tests/all/passage.rs: Brownian motion, r^2/(4 D); straight and circular motion
-#[must_use]
 pub fn first_passages(tracks: &Tracks, radii: &[f64]) -> Vec<Passage> {
     let mut found: Vec<Vec<Duration>> = vec![Vec::new(); radii.len()];
     for (unit, track) in tracks.units().iter().enumerate() {

@@ -37,7 +37,6 @@ pub struct Walk {
 /// P = 1/Dr, and of an Ornstein-Uhlenbeck velocity with S^2 = <v^2>.
 ///
 /// Source: Fuerth (1920), Z. Phys. 2, 244.
-#[must_use]
 pub fn furth(square: f64, persistence: f64, t: f64) -> f64 {
     let x = t / persistence;
     // x - 1 + e^-x, without cancellation where x is small
@@ -58,7 +57,6 @@ pub fn furth(square: f64, persistence: f64, t: f64) -> f64 {
 /// deviation (root mean square) above 5 % and twice the errors.
 ///
 /// # Checked by  tests/all/displacement.rs: exact processes; tests/all/coverage.rs: intervals over 200 data sets
-#[must_use]
 pub fn persistent_walk(curve: &MeanSquare) -> Walk {
     let places = with_errors(curve);
     let points: Vec<[f64; 3]> = places.iter().map(|&place| point(curve, place)).collect();
@@ -92,7 +90,6 @@ pub fn persistent_walk(curve: &MeanSquare) -> Walk {
 
 impl Walk {
     /// No numbers, for this reason.
-    #[must_use]
     pub fn unknown(reason: &str) -> Self {
         let unknown = || Answer::unknown(reason);
         Self { persistence: unknown(), speed: unknown(), diffusion: unknown(), curve: None, deviation: 0.0 }

@@ -77,7 +77,6 @@ impl Series {
 
 impl Quantity {
     /// Its name in tables.
-    #[must_use]
     pub fn name(&self) -> &str {
         match self {
             Self::Velocity => "velocity",
@@ -89,13 +88,11 @@ impl Quantity {
 
     /// Returns `true` if it is a number, whose mean is subtracted from its fluctuations; a vector has the
     /// mean 0 by isotropy.
-    #[must_use]
     pub fn is_number(&self) -> bool {
         matches!(self, Self::Speed)
     }
 
     /// Its series along a track.
-    #[must_use]
     pub fn of(&self, track: &Track) -> Series {
         let vector = |pairs: &[[f64; 2]]| {
             Series::new((0..2).map(|k| pairs.iter().map(|pair| pair[k]).collect()).collect())
@@ -114,7 +111,6 @@ impl Quantity {
     }
 
     /// Its size along a track: the speed, or the amplitude of a mode; NaN where it is missing.
-    #[must_use]
     pub fn size(&self, track: &Track) -> Vec<f64> {
         let pairs = match self {
             Self::Mode(number, _) => &track.modes[*number],

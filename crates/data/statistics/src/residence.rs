@@ -39,7 +39,6 @@ pub struct Residence {
 /// Under noise, stays shorter than the time between samples are not seen, and the mean time depends on that time.
 ///
 /// # Checked by  tests/all/passage.rs: a sine, whose stays are known, seen 4 to 600 times a period
-#[must_use]
 pub fn residence(tracks: &Tracks, quantity: &Quantity, threshold: Option<f64>) -> Residence {
     let sizes: Vec<Vec<f64>> = tracks.units().iter().map(|track| quantity.size(track)).collect();
     let threshold = threshold.unwrap_or_else(|| {

@@ -50,7 +50,6 @@ pub struct MeanTime {
 /// Source: Kaplan and Meier (1958), J. Am. Stat. Assoc. 53, 457; Brown, Hollander, Korwar (1974), exponential completion of the tail.
 ///
 /// # Checked by  tests/all/passage.rs: exponential durations with censoring, all seen, none seen
-#[must_use]
 pub fn mean_time(durations: &[Duration], groups: usize) -> Option<MeanTime> {
     let count = durations.len();
     if count == 0 {

@@ -166,50 +166,42 @@ impl Tracks {
     }
 
     /// Time between samples.
-    #[must_use]
     pub fn dt(&self) -> f64 {
         self.dt
     }
 
     /// The bodies.
-    #[must_use]
     pub fn bodies(&self) -> &[Track] {
         &self.bodies
     }
 
     /// The units: bodies, or blocks of them.
-    #[must_use]
     pub fn units(&self) -> &[Track] {
         self.blocks.as_ref().unwrap_or(&self.bodies)
     }
 
     /// The units that errors refer to.
-    #[must_use]
     pub fn errors(&self) -> Errors {
         self.errors
     }
 
     /// Number of groups of units, each left out once: at most 64.
-    #[must_use]
     pub fn groups(&self) -> usize {
         self.units().len().min(GROUPS)
     }
 
     /// The group of a unit.
-    #[must_use]
     pub fn group(&self, unit: usize) -> usize {
         unit % self.groups()
     }
 
     /// Longest lag in samples: half of the longest unit; a whole one where windows may end in the next one.
-    #[must_use]
     pub fn longest_lag(&self) -> usize {
         let longest = self.units().iter().map(|unit| unit.position.len()).max().unwrap_or(0);
         if self.pieces.is_some() { longest } else { longest / 2 }
     }
 
     /// Velocity, heading, speed and the modes.
-    #[must_use]
     pub fn quantities(&self) -> Vec<Quantity> {
         let modes = self.names.iter().enumerate().map(|(number, name)| Quantity::Mode(number, name.clone()));
         [Quantity::Velocity, Quantity::Heading, Quantity::Speed].into_iter().chain(modes).collect()

@@ -23,7 +23,6 @@ pub struct Turning {
 /// least, one sample at most: closer ones tell nothing new.
 ///
 /// # Checked by  tests/all/distributions.rs: circle, Brownian motion (uniform)
-#[must_use]
 pub fn turning_angles(tracks: &Tracks) -> Vec<Turning> {
     let longest = (tracks.longest_lag() / 4).max(1);
     let between = (longest as f64).sqrt().round() as usize;

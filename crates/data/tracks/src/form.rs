@@ -29,7 +29,6 @@ pub struct Form {
 /// Source: Steger (1996), On the calculation of arbitrary moments of polygons, FGBV-96-05; hull: Andrew (1979), Inf. Process. Lett. 9, 216.
 ///
 /// # Checked by  tests/all/form.rs: ellipses and their limits, rectangles, rods, crosses
-#[must_use]
 pub fn form(points: &[[f64; 2]]) -> Option<Form> {
     let (size, length) = (area(points).abs(), perimeter(points));
     let hull = area(&hull(points)).abs();

@@ -33,13 +33,11 @@ motiform_dynamics::named! {
 
 impl Format {
     /// The names of all formats, for messages.
-    #[must_use]
     pub fn list() -> String {
         Self::ALL.map(Self::name).join(", ")
     }
 
     /// Returns `true` if the y axis of this format points down, as in images. The others do not say.
-    #[must_use]
     pub fn is_of_images(self) -> bool {
         matches!(
             self,

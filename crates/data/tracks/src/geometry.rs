@@ -1,7 +1,6 @@
 //! Polygons: area, centroid, length.
 
 /// Signed area by the shoelace formula: positive where the vertices go round anticlockwise in (x, y).
-#[must_use]
 pub fn area(points: &[[f64; 2]]) -> f64 {
     let Some(&[x0, y0]) = points.first() else { return 0.0 };
     let cross = |([ax, ay], [bx, by]): ([f64; 2], [f64; 2])| (ax - x0) * (by - y0) - (bx - x0) * (ay - y0);
@@ -11,7 +10,6 @@ pub fn area(points: &[[f64; 2]]) -> f64 {
 /// Centroid of the enclosed area; that of the vertices where there is no area.
 ///
 /// # Not   the centre of the modes: the first harmonic of the radius about it is not 0 (docs/cells.md)
-#[must_use]
 pub fn centroid(points: &[[f64; 2]]) -> [f64; 2] {
     let Some(&[x0, y0]) = points.first() else { return [0.0; 2] };
     let mut sums = [0.0; 3];
@@ -31,7 +29,6 @@ pub fn centroid(points: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// Length of the polygon.
-#[must_use]
 pub fn perimeter(points: &[[f64; 2]]) -> f64 {
     edges(points).map(|(a, b)| libm::hypot(b[0] - a[0], b[1] - a[1])).sum()
 }

@@ -61,7 +61,6 @@ pub enum Note {
 
 impl Note {
     /// The cells that it names; none where it is about a file or a track.
-    #[must_use]
     pub fn cells(&self) -> Vec<&str> {
         match self {
             Self::ImplausibleArea { cell, .. }

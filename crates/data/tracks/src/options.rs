@@ -40,7 +40,6 @@ pub struct Columns {
 
 impl Columns {
     /// Those with these names (cell, frame, i, x, y, wkt) and headers; other names are left out.
-    #[must_use]
     pub fn named(columns: &[(String, String)]) -> Self {
         let of =
             |name: &str| columns.iter().rev().find(|(own, _)| own == name).map(|(_, header)| header.clone());

@@ -22,37 +22,31 @@ enum At {
 
 impl Place {
     /// The whole file.
-    #[must_use]
     pub fn file(file: &Path) -> Self {
         Self { file: Arc::new(file.to_owned()), entry: None, at: At::Whole }
     }
 
     /// An entry of an archive.
-    #[must_use]
     pub fn entry(&self, name: &str) -> Self {
         Self { entry: Some(name.to_owned()), ..self.clone() }
     }
 
     /// A line, from 1.
-    #[must_use]
     pub fn line(&self, line: u64) -> Self {
         Self { at: At::Line(line), ..self.clone() }
     }
 
     /// A row of a table without lines, from 0.
-    #[must_use]
     pub fn row(&self, row: u64) -> Self {
         Self { at: At::Row(row), ..self.clone() }
     }
 
     /// A byte, from 0.
-    #[must_use]
     pub fn byte(&self, byte: u64) -> Self {
         Self { at: At::Byte(byte), ..self.clone() }
     }
 
     /// The file.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.file
     }

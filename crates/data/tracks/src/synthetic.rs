@@ -16,14 +16,12 @@ pub struct Synthetic {
 
 impl Synthetic {
     /// `count` vertices at evenly spaced angles from `first` on, anticlockwise; exact to round-off.
-    #[must_use]
     pub fn vertices(&self, count: usize, first: f64) -> Vec<[f64; 2]> {
         let angle = |k: usize| first + std::f64::consts::TAU * k as f64 / count as f64;
         (0..count).map(|k| self.vertex(angle(k))).collect()
     }
 
     /// The vertex in this direction.
-    #[must_use]
     pub fn vertex(&self, theta: f64) -> [f64; 2] {
         let (sin, cos) = libm::sincos(theta);
         let r = radius(self.r0, &self.z, [cos, sin]);
@@ -31,7 +29,6 @@ impl Synthetic {
     }
 
     /// Least radius over directions, and largest |R'/R|: whether the outline is a simple curve, and how hard it is to measure.
-    #[must_use]
     pub fn margin(&self) -> (f64, f64) {
         let mut margin = (f64::INFINITY, 0.0_f64);
         for k in 0..720 {
@@ -55,7 +52,6 @@ pub fn blur(points: &mut [[f64; 2]], sigma: f64, mut normal: impl FnMut() -> f64
 /// Empty where no pixel lies inside. Holes and further parts are not there: the outline around the first pixel found is returned.
 ///
 /// # Panics    never; sizes that give more than 4096 x 4096 pixels give an empty outline
-#[must_use]
 pub fn pixelated(points: &[[f64; 2]], pixel: f64) -> Vec<[f64; 2]> {
     let low = [0, 1].map(|k| points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min));
     let high = [0, 1].map(|k| points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max));

@@ -65,13 +65,11 @@ pub struct Outline {
 
 impl Tracks {
     /// Number of outlines of all cells.
-    #[must_use]
     pub fn outlines(&self) -> usize {
         self.cells.iter().map(|cell| cell.frames.len()).sum()
     }
 
     /// Number of cells and outlines, in words: `1 cell, 400 outlines`.
-    #[must_use]
     pub fn size(&self) -> String {
         let what = if self.cells.iter().all(Cell::has_positions_alone) { "position" } else { "outline" };
         format!("{}, {}", counted(self.cells.len(), "cell"), counted(self.outlines(), what))
@@ -80,7 +78,6 @@ impl Tracks {
 
 impl Cell {
     /// `true` if each frame has one point: the position of the cell, which has no outline.
-    #[must_use]
     pub fn has_positions_alone(&self) -> bool {
         self.frames.iter().all(|outline| outline.points.len() == 1 && outline.missing == 0)
     }

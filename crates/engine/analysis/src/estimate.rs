@@ -15,13 +15,11 @@ pub struct Estimate {
 
 impl Estimate {
     /// Returns `true` if `x` lies in the interval.
-    #[must_use]
     pub fn covers(&self, x: f64) -> bool {
         (self.value - x).abs() <= self.error
     }
 
     /// Returns `true` if there is an error.
-    #[must_use]
     pub fn has_error(&self) -> bool {
         self.error.is_finite()
     }

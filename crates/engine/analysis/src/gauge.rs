@@ -16,19 +16,16 @@ pub struct Gauge {
 
 impl Gauge {
     /// That of a body.
-    #[must_use]
     pub fn of(body: &dyn Equivariant) -> Self {
         Self { form: (!body.symmetry().rotations).then(|| general(body)) }
     }
 
     /// The size.
-    #[must_use]
     pub fn size(&self, shape: &[f64]) -> f64 {
         self.form.as_ref().map_or_else(|| norm(shape), |form| dot(form, shape))
     }
 
     /// A function that vanishes where the size of an orbit has its extremes, smooth everywhere: `u . f(u)`, or `l . f(u)`.
-    #[must_use]
     pub fn rate(&self, body: &dyn Equivariant, shape: &[f64]) -> f64 {
         let rate = body.rates(shape);
         dot(self.form.as_deref().unwrap_or(shape), &rate)

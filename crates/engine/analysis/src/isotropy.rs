@@ -26,7 +26,6 @@ impl Isotropy {
     /// The isotropy of `shape`, where an image counts as equal up to `tolerance` of the shape's size.
     ///
     /// # Checked by  tests/all/isotropy.rs: pure modes, bodies with an axis in any direction, the circle, general shapes
-    #[must_use]
     pub fn of(body: &dyn Equivariant, shape: &[f64], tolerance: f64) -> Self {
         let size = norm(shape);
         let symmetry = body.symmetry();
@@ -38,7 +37,6 @@ impl Isotropy {
     }
 
     /// Returns `true` if nothing but the identity leaves the shape unchanged.
-    #[must_use]
     pub fn is_trivial(&self) -> bool {
         !self.circle && self.folds == 1 && self.mirror.is_none()
     }
@@ -58,7 +56,6 @@ fn folds(body: &dyn Equivariant, shape: &[f64], tolerance: f64) -> usize {
 
 /// The mean of the images of `shape` under the rotations by multiples of `2 pi / count`. With more of them than the shape has modes
 /// only what no rotation changes is left. What is below the rounding error of the sum is 0.
-#[must_use]
 pub fn mean_over_rotations(body: &dyn Equivariant, shape: &[f64], count: usize) -> Vec<f64> {
     let mut sum = vec![0.0; shape.len()];
     for k in 0..count {

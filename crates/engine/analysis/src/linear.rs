@@ -107,7 +107,6 @@ fn largest(svd: &SVD<f64, Dyn, Dyn>) -> f64 {
 
 /// The order of eigenvalues: largest real part first, then largest modulus of the imaginary part, so that conjugates stay together where
 /// several real parts are the same.
-#[must_use]
 pub(crate) fn leading_first(a: &ComplexPair, b: &ComplexPair) -> std::cmp::Ordering {
     b.0.total_cmp(&a.0).then(b.1.abs().total_cmp(&a.1.abs())).then(b.1.total_cmp(&a.1))
 }

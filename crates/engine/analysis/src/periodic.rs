@@ -115,7 +115,6 @@ impl Flow {
     }
 
     /// The relative accuracy of states and maps over a period.
-    #[must_use]
     pub fn accuracy(&self) -> f64 {
         match self.control {
             StepControl::Adaptive { rtol, .. } => 1e3 * rtol,
@@ -135,7 +134,6 @@ impl PeriodicOrbit {
     /// Source: Lust, Roose, Spence, Champneys (1998), SIAM J. Sci. Comput. 19, 1188.
     ///
     /// # Checked by  tests/all/periodic.rs: van der Pol's period, Hopf's multiplier (both exact), the tensor model's zigzag
-    #[must_use]
     pub fn find(
         body: &dyn Equivariant,
         guess: &PeriodicGuess<'_>,
@@ -148,7 +146,6 @@ impl PeriodicOrbit {
 
     /// The orbit near `shape` that comes back, mirrored or not, after nearly `time`: Newton's method with the
     /// rotation that brings the shape after that time closest to itself.
-    #[must_use]
     pub fn near(
         body: &dyn Equivariant,
         shape: &[f64],
@@ -219,37 +216,31 @@ impl PeriodicOrbit {
 
     /// The time after which the shape is back without a mirror, turned by [`PeriodicOrbit::net_rotation`].
     /// (The period of a motion also depends on its form: see [`crate::regime`].)
-    #[must_use]
     pub fn period(&self) -> f64 {
         if self.mirrored { 2.0 * self.time } else { self.time }
     }
 
     /// Net rotation per period (rad, in -pi..pi): exactly 0 where the orbit is its own mirror image.
-    #[must_use]
     pub fn net_rotation(&self) -> f64 {
         if self.mirrored { 0.0 } else { self.angle }
     }
 
     /// The largest modulus of a multiplier: below 1 if stable.
-    #[must_use]
     pub fn growth(&self) -> f64 {
         self.multipliers.first().map_or(0.0, |m| libm::hypot(m.0, m.1))
     }
 
     /// Returns `true` if every deviation decays, beyond the errors of the multipliers.
-    #[must_use]
     pub fn is_stable(&self) -> bool {
         self.growth() < 1.0 - self.growth_error()
     }
 
     /// Returns `true` if some deviation grows, beyond the errors of the multipliers.
-    #[must_use]
     pub fn is_unstable(&self) -> bool {
         self.growth() > 1.0 + self.growth_error()
     }
 
     /// Bound on the error of [`PeriodicOrbit::growth`].
-    #[must_use]
     pub fn growth_error(&self) -> f64 {
         let moduli = self.multipliers.iter().map(|m| libm::hypot(m.0, m.1));
         // one that is nearly the largest may be the largest
@@ -258,7 +249,6 @@ impl PeriodicOrbit {
 
     /// Floquet exponents `ln |multiplier| / T`, largest first: round-off where a multiplier is below the
     /// accuracy of the matrix of a period.
-    #[must_use]
     pub fn exponents(&self) -> Vec<f64> {
         self.multipliers.iter().map(|m| libm::log(libm::hypot(m.0, m.1)) / self.time).collect()
     }

@@ -18,7 +18,6 @@ const SEPARATE: f64 = 1e-12;
 /// rotations within groups of eigenvalues of similar modulus. The groups are then separate diagonal blocks, in every factor.
 ///
 /// Source: the periodic QR iteration: Bojanczyk, Golub, Van Dooren (1992), Proc. SPIE 1770, 31.
-#[must_use]
 pub fn logarithms_of_product(factors: &[DMatrix<f64>]) -> Option<Vec<(f64, f64)>> {
     let dim = factors.first()?.nrows();
     let Frames { before, last: frame, triangles } = frames(factors, dim)?;

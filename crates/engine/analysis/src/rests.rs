@@ -23,7 +23,6 @@ pub struct Rests {
 impl Rests {
     /// Duration of each rest over that of the one before it: about 1 for a periodic motion or with noise; above 1 near an
     /// attracting heteroclinic cycle without noise, where it falls slowly to [`Rests::growth`].
-    #[must_use]
     pub fn ratios(&self) -> Vec<f64> {
         self.rests.windows(2).map(|pair| pair[1].duration / pair[0].duration).collect()
     }
@@ -34,7 +33,6 @@ impl Rests {
     /// eigenvalues. The constant, which holds the choice of the threshold and the passage between rests, drops out.
     ///
     /// Source: Armbruster, Guckenheimer and Holmes (1988), Physica D 29, 257 (the law); the quotient: Aitken (1926).
-    #[must_use]
     pub fn growth(&self) -> Vec<f64> {
         let steps: Vec<f64> = self.rests.windows(2).map(|pair| pair[1].duration - pair[0].duration).collect();
         let growing = steps.windows(2).filter(|pair| pair[0] > 0.0 && pair[1] > 0.0);

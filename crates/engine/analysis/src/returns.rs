@@ -24,7 +24,6 @@ const LOCAL: i32 = 1;
 const LEAST_OCTAVES: f64 = 1.5;
 
 /// Pairs (x_n, x_(n+1)): the graph of the return map.
-#[must_use]
 pub fn return_pairs(values: &[f64]) -> Vec<[f64; 2]> {
     values.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }

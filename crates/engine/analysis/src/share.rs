@@ -24,7 +24,6 @@ pub struct Share {
 
 impl Share {
     /// The share of `count` in `of` trials; `None` without trials, or for more than all of them.
-    #[must_use]
     pub fn new(count: usize, of: usize) -> Option<Self> {
         if of == 0 || count > of {
             return None;

@@ -22,7 +22,6 @@ const SWEEPS: usize = 60;
 /// Source: Hestenes (1958), J. SIAM 6, 51; Demmel and Veselic (1992), SIAM J. Matrix Anal. Appl. 13, 1204.
 ///
 /// # Checked by  unit tests: matrices of which the library gives another one's vectors; equal and vanishing values
-#[must_use]
 pub fn svd(matrix: DMatrix<f64>) -> Option<SVD<f64, Dyn, Dyn>> {
     if !matrix.iter().all(|x| x.is_finite()) {
         return None;

@@ -22,7 +22,6 @@ pub struct Spectrum {
 
 impl Spectrum {
     /// Distance of neighbouring frequencies, 1/(N dt).
-    #[must_use]
     pub fn spacing(&self) -> f64 {
         self.frequencies.get(1).copied().unwrap_or(0.0)
     }
@@ -33,7 +32,6 @@ impl Spectrum {
     /// squared window (Parseval); over the peak of a sine of amplitude A it is A^2/2.
     ///
     /// # Checked by  tests/all/welch.rs
-    #[must_use]
     pub fn variance_between(&self, from: f64, to: f64) -> f64 {
         let inside = self.frequencies.iter().zip(&self.power).filter(|(f, _)| (from..=to).contains(f));
         inside.map(|(_, p)| p).sum::<f64>() * self.spacing()

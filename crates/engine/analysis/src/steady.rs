@@ -37,7 +37,6 @@ impl SteadyMotion {
     /// At this equilibrium.
     ///
     /// # Checked by  tests/all/steady.rs: the cell on both sides of its drift pitchfork with 14 to 64 modes; the tensor model; spinning
-    #[must_use]
     pub fn of(body: &dyn Equivariant, found: &RelativeEquilibrium) -> Self {
         let uncertainty = found.uncertainty(body);
         let size = norm(&found.shape);
@@ -63,25 +62,21 @@ impl SteadyMotion {
     }
 
     /// Returns `true` if the shape has a mirror axis, within its error.
-    #[must_use]
     pub fn has_axis(&self) -> bool {
         self.symmetry.circle || self.symmetry.mirror.is_some()
     }
 
     /// Returns `true` if the centre of mass moves.
-    #[must_use]
     pub fn moves(&self) -> bool {
         self.speed.value > CLEAR * self.speed.error
     }
 
     /// Returns `true` if the shape turns.
-    #[must_use]
     pub fn turns(&self) -> bool {
         self.turning_rate.value.abs() > CLEAR * self.turning_rate.error
     }
 
     /// Its name.
-    #[must_use]
     pub fn regime(&self) -> Regime {
         match (self.moves(), self.turns()) {
             (false, false) => Regime::Motionless,
@@ -93,7 +88,6 @@ impl SteadyMotion {
 
     /// The distance of the speed and the turning rate from the values at which the name would change, in
     /// units of what decides: below 1 the name is not decided.
-    #[must_use]
     pub fn margin(&self) -> f64 {
         let resolved = SEEN * self.growth.abs() / (CLEAR * self.turning_rate.error);
         let turning = if self.turns() || !self.asymmetric { f64::MAX } else { resolved };
@@ -101,20 +95,17 @@ impl SteadyMotion {
     }
 
     /// The speed of the motion (model length per model time): 0 at rest.
-    #[must_use]
     pub fn pace(&self) -> f64 {
         if self.moves() { self.speed.value } else { 0.0 }
     }
 
     /// Its direction at this equilibrium, as far as the symmetry of the body distinguishes directions.
-    #[must_use]
     pub fn direction(&self, body: &dyn Equivariant, found: &RelativeEquilibrium) -> Direction {
         let drift = if self.moves() { found.velocity } else { [0.0; 2] };
         Direction::of(body, self.turns().then_some(found.turning_rate), drift)
     }
 
     /// The turning rate of the motion (rad per model time): 0 for straight motion; `None` at rest, where nothing has a heading.
-    #[must_use]
     pub fn turning(&self) -> Option<f64> {
         match (self.moves(), self.turns()) {
             (_, true) => Some(self.turning_rate.value),

@@ -30,7 +30,6 @@ pub struct Alignment {
 /// maxima on a grid fine enough for every mode of the state, then Newton steps on `c'`, and the best of them.
 ///
 /// # Checked by  tests/all/symmetry.rs: exact on the group orbit (nearly symmetric shapes too), a metric
-#[must_use]
 pub fn align(body: &dyn Equivariant, reference: &[f64], shape: &[f64], mirrored: bool) -> Alignment {
     let mut base = shape.to_vec();
     if mirrored {
@@ -148,13 +147,11 @@ fn refine(body: &dyn Equivariant, reference: &[f64], base: &[f64], start: f64, c
 }
 
 /// The same angle in -pi..pi.
-#[must_use]
 pub fn wrap(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }
 
 /// The turning rate of the shape: `omega = Gu . f / |Gu|^2` makes `|f - omega Gu|` least; 0 for a circle.
-#[must_use]
 pub fn turning_of_shape(body: &dyn Equivariant, shape: &[f64], rate: &[f64]) -> f64 {
     let spin = body.spun(shape);
     let size = dot(&spin, &spin);
@@ -162,7 +159,6 @@ pub fn turning_of_shape(body: &dyn Equivariant, shape: &[f64], rate: &[f64]) -> 
 }
 
 /// `|f - omega Gu|` with the best omega: how fast the reduced shape changes.
-#[must_use]
 pub fn reduced_speed(body: &dyn Equivariant, shape: &[f64], rate: &[f64]) -> f64 {
     let spin = body.spun(shape);
     speed_beside(&spin, rate)

@@ -14,7 +14,6 @@ pub struct Allowance {
 
 impl Allowance {
     /// So many steps.
-    #[must_use]
     pub const fn of(steps: u64) -> Self {
         Self { left: AtomicU64::new(steps) }
     }
@@ -25,13 +24,11 @@ impl Allowance {
     }
 
     /// The rest of it.
-    #[must_use]
     pub fn left(&self) -> u64 {
         self.left.load(Ordering::Relaxed)
     }
 
     /// Returns `true` if nothing is left.
-    #[must_use]
     pub fn is_spent(&self) -> bool {
         self.left() == 0
     }

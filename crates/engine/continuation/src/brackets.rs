@@ -184,7 +184,7 @@ fn number(value: f64) -> Number {
 
 /// Slopes of orbits below so many times the accuracy of the solutions may be noise: towards a connection the parameter converges and the
 /// branch goes on.
-const LEVEL: f64 = 10.0;
+pub(super) const LEVEL: f64 = 10.0;
 
 /// Returns `true` if the parameter of orbits hardly changes at a place: the sign of the slope there may be that of round-off.
 pub(super) fn is_level<P: Problem>(problem: &P, place: &Place<P::Local>) -> bool {

@@ -81,7 +81,6 @@ impl<'f> Branch<'f> {
     }
 
     /// Why the branch ended; `None` while it goes on.
-    #[must_use]
     pub fn end(&self) -> Option<&End> {
         self.tracer.end()
     }

@@ -19,7 +19,6 @@ const PLACES: usize = 200;
 /// `tolerance` of their size.
 ///
 /// # Checked by  tests/all/continuation.rs: copies of one orbit, and different ones of the same period
-#[must_use]
 pub fn same_motion(body: &dyn Equivariant, a: &Motion, b: &Motion, flow: &Flow, tolerance: f64) -> bool {
     match (a, b) {
         (Motion::Equilibrium(a), Motion::Equilibrium(b)) => same_shape(body, a, b, tolerance),

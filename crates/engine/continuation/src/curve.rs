@@ -104,13 +104,11 @@ impl<'f> Curve<'f> {
     }
 
     /// Why the curve ended; `None` while it goes on.
-    #[must_use]
     pub fn end(&self) -> Option<&End> {
         self.end.as_ref().filter(|_| self.queue.is_empty())
     }
 
     /// The kinds of points of codimension two that are looked for: those that do not come were not found.
-    #[must_use]
     pub fn sought(&self) -> Vec<Degenerate> {
         self.tracer.sought()
     }

@@ -40,7 +40,6 @@ pub enum Degenerate {
 
 impl Degenerate {
     /// Its name in files.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Cusp => "cusp",
@@ -59,7 +58,6 @@ impl Degenerate {
     }
 
     /// The points that are sought along curves of this kind: one that does not come was not found.
-    #[must_use]
     pub fn sought(special: Special, orbits: bool) -> Vec<Self> {
         match (special, orbits) {
             (Special::Hopf(_), _) => {

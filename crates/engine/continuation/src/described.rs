@@ -67,7 +67,11 @@ impl<P: Problem> Tracer<'_, P> {
             arclength: place.arclength,
             motion: self.problem.motion(&place.x, &place.local, &place.levels),
             unstable: if located { self.beside_critical(place) } else { unstable(&place.levels) },
-            neutral: if special.is_some() { 0 } else { neutral(&self.problem, place) },
+            neutral: if special.is_some() {
+                0
+            } else {
+                neutral(&self.problem, place).max(usize::from(self.is_family(place)))
+            },
             family: self.problem.family().len(),
             critical,
             slope: place.slope(),

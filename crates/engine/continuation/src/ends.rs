@@ -1,5 +1,6 @@
 //! Where and why a branch ends.
 
+use super::brackets::{LEVEL, is_level};
 use super::certificate::TestFunction;
 use super::classes::GAINED;
 use super::copies::same_motion;
@@ -22,6 +23,9 @@ use motiform_analysis::{Isotropy, PeriodicOrbit};
 
 /// Least part of a shape by which a motion differs from the start of a branch.
 const SAME: f64 = 1e-6;
+
+/// So many points for one value of the parameter from the start on are a family.
+const FAMILY: usize = 100;
 
 /// Where a branch ends on a step, and why.
 pub(super) type Limit<L> = Option<(Place<L>, End)>;
@@ -215,6 +219,12 @@ impl<P: Problem> Tracer<'_, P> {
         Some(End::Shrinks { parameter: at.parameter(), time: at.x[time] })
     }
 
+    /// Returns `true` if the parameter of orbits has not changed from the start of the branch to this place by more than its error.
+    pub(super) fn is_family(&self, at: &Place<P::Local>) -> bool {
+        let error = LEVEL * self.problem.accuracy() * self.settings.width();
+        is_level(&self.problem, at) && (at.parameter() - self.first.parameter).abs() <= error
+    }
+
     /// Ends a branch of orbits that ends at the present place.
     pub(super) fn ends(&mut self) -> Result<(), End> {
         let Some(time) = self.problem.time().map(|place| (self.place.x[place], self.place.tangent[place]))
@@ -222,6 +232,9 @@ impl<P: Problem> Tracer<'_, P> {
             return Ok(());
         };
         let parameter = self.place.parameter();
+        if self.count >= FAMILY && self.is_family(&self.place) {
+            return Err(End::Family { parameter });
+        }
         let unit = prefix(self.settings.width());
         self.periods.push(time, (parameter, self.place.slope()));
         if let Some(certain) = self.periods.connection(unit).and_then(|found| self.certain(found)) {

@@ -114,7 +114,6 @@ impl Connection {
     }
 
     /// The limit of the orbit: from its law, and from the leading eigenvalues of the saddle.
-    #[must_use]
     pub fn kind(&self) -> ConnectionKind {
         if self.joins == Some(Joins::Different) {
             return ConnectionKind::Cycle;
@@ -131,7 +130,6 @@ impl Connection {
     }
 
     /// The name of such an end: `homoclinic` or `heteroclinic`; `connection` where the orbit is not seen to pass the saddles.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match (self.joins, self.law) {
             (Some(Joins::Images | Joins::Different), _) => "heteroclinic",
@@ -142,7 +140,6 @@ impl Connection {
 
     /// The slowest eigenvalues `(re, |im|)` of the saddle that grow and that decay, in the directions that keep the symmetry of the orbit's
     /// shapes.
-    #[must_use]
     pub fn sides(&self) -> Option<[(f64, f64); 2]> {
         leading_sides(&self.rates)
     }
@@ -151,7 +148,6 @@ impl Connection {
     /// a saddle-node, and for a cycle of several saddles ([`Passed::quantity`]).
     /// Where the leading eigenvalues are real and their sum is negative, one stable orbit meets the connection; where it is positive, the
     /// orbit is unstable. Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2.
-    #[must_use]
     pub fn quantity(&self) -> Option<f64> {
         let of_one = !matches!(self.kind(), ConnectionKind::SaddleNode | ConnectionKind::Cycle);
         let [grows, decays] = self.sides().filter(|_| of_one)?;
@@ -159,7 +155,6 @@ impl Connection {
     }
 
     /// Bound of the error of the saddle quantity: it changes up to the connection, and the saddle's rates have errors of their own.
-    #[must_use]
     pub fn quantity_error(&self) -> Option<f64> {
         self.quantity()?;
         Some(self.quantity_change.abs() + rounding(self.sides()?))
@@ -167,7 +162,6 @@ impl Connection {
 
     /// The saddle's leading eigenvalue: of `rates`, the one whose real part is closest to 0. The fitted rate of a
     /// logarithmic law is its modulus.
-    #[must_use]
     pub fn leading(&self) -> Option<f64> {
         let all = &self.saddle.as_ref()?.eigenvalues;
         let values = if self.rates.is_empty() { all } else { &self.rates };
@@ -260,7 +254,6 @@ impl Connection {
     /// For a cycle the product of `-decaying / growing` over its saddles: above 1 the orbits that meet it are stable.
     ///
     /// Source: Kuznetsov, Elements of Applied Bifurcation Theory, section 6.2 (planar cycles).
-    #[must_use]
     pub fn attraction(&self) -> Option<f64> {
         let ratio = |passed: &Passed| -passed.sides[1].0 / passed.sides[0].0;
         (!self.passed.is_empty()).then(|| self.passed.iter().map(ratio).product())

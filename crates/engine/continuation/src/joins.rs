@@ -40,13 +40,11 @@ pub struct Passed {
 
 impl Passed {
     /// The saddle quantity: the sum of the real parts of the slowest eigenvalues.
-    #[must_use]
     pub fn quantity(&self) -> f64 {
         self.sides[0].0 + self.sides[1].0
     }
 
     /// Bound of its error.
-    #[must_use]
     pub fn quantity_error(&self) -> f64 {
         rounding(self.sides)
     }

@@ -17,7 +17,6 @@ pub struct Coefficient {
 
 impl Coefficient {
     /// Returns `Some(true)` if it is below 0; `None` where it is not three times its error.
-    #[must_use]
     pub fn is_negative(self) -> Option<bool> {
         (self.value.abs() > CLEAR * self.error).then_some(self.value < 0.0)
     }
@@ -75,7 +74,6 @@ pub enum NormalForm {
 
 impl NormalForm {
     /// The coefficient, where it is known.
-    #[must_use]
     pub const fn coefficient(self) -> Option<Coefficient> {
         match self {
             Self::Coefficient(coefficient) | Self::Cubic(coefficient) => Some(coefficient),

@@ -29,7 +29,6 @@ pub struct OrbitPath {
 /// own node. `None` where the flow fails, the watch stops it, or an orbit has no nodes.
 ///
 /// # Checked by  tests/all/path.rs: the flow of a stable zigzag over a whole period, circles in closed form
-#[must_use]
 pub fn path(body: &dyn Equivariant, motion: &Motion, flow: &Flow, watch: &dyn Watch) -> Option<OrbitPath> {
     match motion {
         Motion::Equilibrium(found) => Some(arc(found)),

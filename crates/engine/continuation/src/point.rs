@@ -24,7 +24,6 @@ pub enum Motion {
 
 impl Motion {
     /// The relative equilibrium, if it is one.
-    #[must_use]
     pub fn equilibrium(&self) -> Option<&RelativeEquilibrium> {
         match self {
             Self::Equilibrium(equilibrium) => Some(equilibrium),
@@ -33,7 +32,6 @@ impl Motion {
     }
 
     /// The periodic orbit, if it is one.
-    #[must_use]
     pub fn orbit(&self) -> Option<&PeriodicOrbit> {
         match self {
             Self::Equilibrium(_) => None,
@@ -42,7 +40,6 @@ impl Motion {
     }
 
     /// A shape of the motion.
-    #[must_use]
     pub fn shape(&self) -> &[f64] {
         match self {
             Self::Equilibrium(equilibrium) => &equilibrium.shape,
@@ -51,7 +48,6 @@ impl Motion {
     }
 
     /// Its shapes: one, or the nodes of an orbit.
-    #[must_use]
     pub fn shapes(&self) -> Vec<&[f64]> {
         match self {
             Self::Equilibrium(equilibrium) => vec![&equilibrium.shape],
@@ -105,14 +101,12 @@ const fn is_zero(count: &usize) -> bool {
 
 impl Point {
     /// Returns `true` where branches cross in a pitchfork of a symmetry that the model does not state.
-    #[must_use]
     pub fn is_unstated_pitchfork(&self) -> bool {
         let form = self.certificate.and_then(|certificate| certificate.normal_form);
         self.special == Some(Special::BranchPoint) && matches!(form, Some(NormalForm::Cubic(_)))
     }
 
     /// Returns `true` if small deviations die out.
-    #[must_use]
     pub fn is_stable(&self) -> bool {
         self.unstable == 0 && self.neutral == 0 && self.special.is_none()
     }
@@ -168,6 +162,12 @@ pub enum End {
         /// The period reached.
         period: f64,
     },
+    /// The parameter has not changed since the start: the orbits of the branch are a family for one value of it, as those of a linear
+    /// centre or of a conservative system.
+    Family {
+        /// The parameter.
+        parameter: f64,
+    },
     /// The motion gains a symmetry: the branch meets its own images at a motion of more symmetry. The last point, a pitchfork of that
     /// motion, lies there.
     Meets {
@@ -187,7 +187,6 @@ pub enum End {
 
 impl End {
     /// The parameter at which the branch ends, where that is a place of its own beyond the last point that is computed, or at it.
-    #[must_use]
     pub fn parameter(&self) -> Option<f64> {
         match self {
             Self::Homoclinic(connection) => Some(connection.parameter),
@@ -254,6 +253,13 @@ impl std::fmt::Display for End {
                     "the period grew to {period:.1} and the place did not change any more, as beside a connection"
                 )
             }
+            Self::Family { parameter } => {
+                write!(
+                    f,
+                    "the parameter stays at {}: the orbits are a family for this value",
+                    nine(*parameter)
+                )
+            }
             Self::Meets { parameter, gains } => {
                 let (meets, beyond) = match gains {
                     Broken::Mirror => ("the motion becomes its own mirror image", "its mirror image"),
@@ -276,7 +282,6 @@ impl std::fmt::Display for End {
 }
 
 /// A parameter to nine decimals, and 0 without a sign.
-#[must_use]
 pub fn nine(parameter: f64) -> String {
     let text = format!("{parameter:.9}");
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0.000000000".to_owned() } else { text }

@@ -39,7 +39,6 @@ pub struct Settings {
 
 impl Settings {
     /// Settings for a parameter between `from` and `to`: at least 50 points from one end of the range to the other.
-    #[must_use]
     pub fn over(from: f64, to: f64) -> Self {
         Self {
             range: (from.min(to), from.max(to)),

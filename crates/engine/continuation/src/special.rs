@@ -103,14 +103,12 @@ const fn whole() -> f64 {
 
 impl Hopf {
     /// Period of the relative periodic orbits that begin: rotations are divided out.
-    #[must_use]
     pub fn period(&self) -> f64 {
         std::f64::consts::TAU / self.frequency * self.part
     }
 
     /// Returns `Some(true)` if the orbits that begin are stable within the directions that are critical; `None` where the coefficient's
     /// error does not say so.
-    #[must_use]
     pub fn is_supercritical(&self) -> Option<bool> {
         self.first_lyapunov.coefficient()?.is_negative()
     }
@@ -118,7 +116,6 @@ impl Hopf {
 
 impl Special {
     /// Its name in files.
-    #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Fold => "fold",

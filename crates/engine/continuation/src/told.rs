@@ -77,7 +77,6 @@ fn places<const DECIMALS: usize>(x: f64) -> String {
 }
 
 /// A value with its error, to the decimals that the error leaves.
-#[must_use]
 pub fn stated(value: f64, error: f64) -> String {
     value_and_error(value, error, 1).join(" +- ")
 }

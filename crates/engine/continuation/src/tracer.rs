@@ -239,6 +239,10 @@ impl<'f, P: Problem> Tracer<'f, P> {
             self.step = SHORTER * examined.1.abs(); // the branch leaves the range on the way
         };
         changes.found.retain(|(at, special)| self.is_within(at) && !self.has_touched(at, *special, length));
+        if self.is_family(&self.place) && self.is_family(&new) {
+            changes.found.retain(|(_, special)| *special != Special::Fold); // the slope is that of round-off
+            changes.missed.retain(|seen| *seen != Special::Fold.name());
+        }
         if let Some(again) = changes.found.iter().position(|(at, special)| self.has_passed(at, *special)) {
             changes.found.truncate(again);
             self.hand_out_special(changes.found, (&new, length));

@@ -16,13 +16,11 @@ const FAR: f64 = 10.0;
 const MOST: i32 = 15;
 
 /// A number with four digits at most, for sentences.
-#[must_use]
 pub fn four_digits(x: f64) -> String {
     at_most(x, 4)
 }
 
 /// A number that was given, or follows from given ones, without the digits of round-off: 0.475 for 0.47500000000000003.
-#[must_use]
 pub fn given(x: f64) -> String {
     at_most(x, 10)
 }
@@ -36,41 +34,35 @@ fn at_most(x: f64, digits: usize) -> String {
 }
 
 /// A number with six decimals, or with six digits after the first one where those would show less than four of it.
-#[must_use]
 pub fn six_decimals(x: f64) -> String {
     decimals(x, 6)
 }
 
 /// The same with so many of them.
-#[must_use]
 pub fn decimals(x: f64, count: usize) -> String {
     let plain = x == 0.0 || PLAIN.contains(&x.abs());
     if plain { unsigned_zero(format!("{x:.count$}")) } else { format!("{x:.count$e}") }
 }
 
 /// `0.123 ± 0.012`: the error to two digits, the value to the same place.
-#[must_use]
 pub fn with_error(value: f64, error: f64) -> String {
     let [value, error] = two_digits(value, error);
     format!("{value} ± {error}")
 }
 
 /// The value of [`with_error`] alone.
-#[must_use]
 pub fn to_error(value: f64, error: f64) -> String {
     let [value, _] = two_digits(value, error);
     value
 }
 
 /// `6.2 (1.3 to 460)`: a value and the ends of its interval.
-#[must_use]
 pub fn with_interval(value: f64, ends: [f64; 2]) -> String {
     let [value, low, high] = to_interval(value, ends);
     format!("{value} ({low} to {high})")
 }
 
 /// The ends of [`with_interval`] alone: `1.3 to 460`.
-#[must_use]
 pub fn interval(value: f64, ends: [f64; 2]) -> String {
     let [_, low, high] = to_interval(value, ends);
     format!("{low} to {high}")
@@ -99,7 +91,6 @@ fn two_digits(value: f64, error: f64) -> [String; 2] {
 
 /// A value and its error: the error to so many digits (1 or 2), the value to the same place. An error that is 0 or not finite limits
 /// nothing: both to four digits.
-#[must_use]
 pub fn value_and_error(value: f64, error: f64, digits: u8) -> [String; 2] {
     let more = usize::from(digits.saturating_sub(1)); // digits after the first
     let rounded: f64 = format!("{error:.more$e}").parse().unwrap_or(error);

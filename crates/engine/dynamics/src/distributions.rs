@@ -29,7 +29,6 @@ const FEW: [f64; 16] = [
 /// 97.5 % quantile of Student's t with `freedom` degrees of freedom, to 1e-6; infinite for 0.
 ///
 /// Source: a table below 17, and from there on Abramowitz and Stegun 26.7.5 (expansion in 1/freedom).
-#[must_use]
 pub fn student_quantile(freedom: usize) -> f64 {
     if freedom == 0 {
         return f64::INFINITY;
@@ -52,7 +51,6 @@ pub fn student_quantile(freedom: usize) -> f64 {
 /// groups, and few where few groups have most of the terms.
 ///
 /// Source: Satterthwaite (1946), Biometrics Bull. 2, 110, for terms whose number is the inverse of the variance of their mean.
-#[must_use]
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -66,14 +64,12 @@ pub fn unequal_freedom(sizes: impl Iterator<Item = f64>) -> usize {
 
 /// The factor by which an error of so many degrees of freedom makes an interval of 95 % wider than a known one: [`student_quantile`] over
 /// that of the normal distribution.
-#[must_use]
 pub fn student_factor(freedom: usize) -> f64 {
     student_quantile(freedom) / NORMAL_95
 }
 
 /// Probability that a chi-square variable with `freedom` degrees of freedom (which need not be whole) exceeds `x`:
 /// `Q(freedom/2, x/2)`; 1 for no freedom.
-#[must_use]
 pub fn chi_square_tail(x: f64, freedom: f64) -> f64 {
     if freedom <= 0.0 || x <= 0.0 { 1.0 } else { gamma_shares(0.5 * freedom, 0.5 * x)[1] }
 }
@@ -81,7 +77,6 @@ pub fn chi_square_tail(x: f64, freedom: f64) -> f64 {
 /// Quantile of chi-square: x with P(freedom/2, x/2) = `share`, by bisection of the regularised incomplete gamma function, to 1e-10.
 ///
 /// # Units    `freedom` above 0, need not be whole; `share` between 0 and 1
-#[must_use]
 pub fn chi_square_quantile(share: f64, freedom: f64) -> f64 {
     let below = |x: f64| x <= 0.0 || gamma_shares(0.5 * freedom, 0.5 * x)[0] < share;
     let mut high = freedom.max(1.0);
@@ -153,7 +148,6 @@ fn fraction(a: f64, x: f64) -> f64 {
 /// The shares that a score test does not refuse: within 0..1, and not empty where none or all trials have the outcome.
 ///
 /// Source: Wilson (1927), J. Am. Stat. Assoc. 22, 209.
-#[must_use]
 pub fn wilson(share: f64, trials: f64) -> [f64; 2] {
     let square = NORMAL_95 * NORMAL_95 / trials;
     let middle = (share + 0.5 * square) / (1.0 + square);

@@ -36,7 +36,6 @@ const UNBOUND: f64 = 1e6;
 
 impl Request<'_> {
     /// A plain run to `t_end` on a state with `dim` entries: no samples, no sections, no watch, generous bounds.
-    #[must_use]
     pub fn until(t_end: f64, dim: usize) -> Self {
         Self {
             t_end,
@@ -52,7 +51,6 @@ impl Request<'_> {
     }
 
     /// The same from a shape of any size: it has escaped when it is many times as large.
-    #[must_use]
     pub fn around(t_end: f64, shape: &[f64]) -> Self {
         Self { escape_norm: UNBOUND * norm(shape).max(1.0), ..Self::until(t_end, shape.len()) }
     }

@@ -12,7 +12,6 @@ const SLOW: u32 = 10;
 /// converge as others do: `a^2 - (a + b) a + a b` is round-off where `a` and `b` are nearly equal.
 ///
 /// Source: Martin, Peters, Wilkinson (1970), Numer. Math. 14, 219 (procedure hqr).
-#[must_use]
 pub fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     if !columns.iter().flatten().all(|x| x.is_finite()) {
         return None;

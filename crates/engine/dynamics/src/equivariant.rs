@@ -26,7 +26,6 @@ impl Symmetry {
     ];
 
     /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, symmetry)| *symmetry == self).map_or("none", |(name, _)| name)
     }

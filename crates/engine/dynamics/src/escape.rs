@@ -56,7 +56,6 @@ impl GrowthLaw {
     ///
     /// `None` for fewer than two of them, where their exponents differ, and for exponents outside 0.05..20
     /// (slower growth shows as a ratio that hardly shrinks).
-    #[must_use]
     pub fn singularity(&self) -> Option<Singularity> {
         let points = &self.points[..self.count];
         let mut exponents = points.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[0].0 - pair[1].0));
@@ -82,7 +81,6 @@ fn extrapolate_to_zero(points: &[(f64, f64)]) -> f64 {
 }
 
 /// Euclidean norm.
-#[must_use]
 pub fn norm(u: &[f64]) -> f64 {
     u.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

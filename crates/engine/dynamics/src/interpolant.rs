@@ -92,7 +92,6 @@ pub struct DenseStep<'o> {
 
 impl DenseStep<'_> {
     /// Start and end of the step.
-    #[must_use]
     pub fn span(&self) -> (f64, f64) {
         (self.t_old, self.t)
     }

@@ -142,7 +142,6 @@ pub trait Model: Equivariant {
 }
 
 /// Velocity and its time derivative along the flow, exactly (duals): `(v, v')`.
-#[must_use]
 pub fn velocity_and_acceleration<M: Shape<f64> + Shape<Dual<f64, 1>> + ?Sized>(
     model: &M,
     shape: &[f64],
@@ -157,7 +156,6 @@ const LIFTED: usize = 256;
 
 /// Velocity and its derivative along `rate`, exactly (duals): `(v, v')`. Allocates nothing for states of up to 256
 /// entries.
-#[must_use]
 pub fn drift<M: Shape<Dual<f64, 1>> + ?Sized>(
     model: &M,
     shape: &[f64],
@@ -180,7 +178,6 @@ pub fn drift<M: Shape<Dual<f64, 1>> + ?Sized>(
 }
 
 /// Turning rate `(vx vy' - vy vx') / |v|^2` (rad per model time); `None` if the body is at rest.
-#[must_use]
 pub fn turning_rate(velocity: [f64; 2], acceleration: [f64; 2]) -> Option<f64> {
     let speed_squared = velocity[0] * velocity[0] + velocity[1] * velocity[1];
     let rate = (velocity[0] * acceleration[1] - velocity[1] * acceleration[0]) / speed_squared;
@@ -257,7 +254,6 @@ impl<T: Scalar, M: Shape<T> + ?Sized> Shape<T> for &M {
 }
 
 /// The velocity over `f64`, without naming the scalar.
-#[must_use]
 pub fn velocity<M: Shape<f64> + ?Sized>(model: &M, shape: &[f64]) -> [f64; 2] {
     Shape::<f64>::velocity(model, shape)
 }

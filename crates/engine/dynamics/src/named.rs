@@ -5,7 +5,6 @@ const WRITTEN: [&str; 7] =
     ["quasi-periodic", "blow-up", "Hopf", "zero-Hopf", "double Hopf", "Bogdanov-Takens", "Bautin"];
 
 /// A name of tables and options as people write it: `pulsating straight` for `pulsating-straight`, `zero-Hopf` for `zero-hopf`.
-#[must_use]
 pub fn in_words(name: &str) -> String {
     let known = WRITTEN.into_iter().find(|known| known.to_lowercase().replace(' ', "-") == name);
     known.map_or_else(|| name.replace('-', " "), str::to_owned)
@@ -41,13 +40,11 @@ macro_rules! named {
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$Variant),*];
 
             #[doc = concat!("Its ", stringify!($text), ".")]
-            #[must_use]
             pub const fn $text(self) -> &'static str {
                 match self { $(Self::$Variant => $name,)* }
             }
 
             #[doc = concat!("The one of this ", stringify!($text), ".")]
-            #[must_use]
             pub fn find(text: &str) -> Option<Self> {
                 Self::ALL.into_iter().find(|one| one.$text() == text)
             }

@@ -22,7 +22,6 @@ pub struct Normal {
 
 impl Normal {
     /// The deviates number 0, 1, 2, ... of this seed and stream.
-    #[must_use]
     pub fn new(seed: u64, stream: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -76,7 +75,6 @@ pub struct ModelNoise {
 
 impl ModelNoise {
     /// Returns `true` if there is no noise.
-    #[must_use]
     pub fn is_none(&self) -> bool {
         self.diffusion.is_none() && self.amplitudes.iter().all(|amplitude| *amplitude == 0.0)
     }
@@ -104,7 +102,6 @@ impl Noise {
     /// itself. The plane's rotations turn pairs of coordinates, so its law does not change with them.
     ///
     /// # Checked by  engine/models/tests/all/noise.rs: rotation invariance, for both models
-    #[must_use]
     pub fn on<M: Model + ?Sized>(model: &M, velocity: f64, shape: f64, step: f64) -> Self {
         let dim = model.dim();
         let (mut rates, mut variances) = (vec![0.0; dim], vec![0.0; dim]);
@@ -130,7 +127,6 @@ impl Noise {
     ///
     /// Growth is always resolved, decay up to twenty times faster than that; faster decay is left to the exact
     /// linear part. A power of 2, so that times carry no rounding.
-    #[must_use]
     pub fn step_for(rates: &[f64], slow: f64) -> f64 {
         let fastest = rates.iter().fold(0.0, |fastest: f64, rate| fastest.max(rate.abs()));
         let growth = rates.iter().fold(5.0 / slow, |growth, &rate| growth.max(rate));

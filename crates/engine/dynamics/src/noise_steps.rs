@@ -94,7 +94,6 @@ impl NoiseSteps {
     }
 
     /// End of the present step; the start, before the first one. From the number of steps, so that it carries no accumulated rounding.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.start + self.step * self.steps as f64
     }

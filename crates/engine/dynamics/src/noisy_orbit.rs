@@ -62,7 +62,6 @@ impl<O: Integration> NoisyOrbit<O> {
     }
 
     /// `orbit` with this noise, which starts where it is.
-    #[must_use]
     pub fn of(mut orbit: O, noise: NoiseSteps) -> Self {
         let (state, kicked) = (orbit.state().to_vec(), orbit.state().to_vec());
         orbit.roughen();

@@ -125,7 +125,6 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
     }
 
     /// The data that an orbit or a lane needs, beside time and state, to continue from here.
-    #[must_use]
     pub fn pace(&self) -> Pace {
         Pace { h: self.h, previous: self.controller.previous() }
     }

@@ -70,7 +70,6 @@ pub enum Outcome {
 
 impl Outcome {
     /// Returns `true` if the run reached its requested end.
-    #[must_use]
     pub fn is_complete(&self) -> bool {
         matches!(self, Self::Completed { .. } | Self::Stopped { .. })
     }
@@ -94,7 +93,6 @@ impl Outcome {
     }
 
     /// The time of the last state, which is before that of a singularity.
-    #[must_use]
     pub fn t_last(&self) -> f64 {
         match *self {
             Self::Escaped { t_last, .. } => t_last,
@@ -103,7 +101,6 @@ impl Outcome {
     }
 
     /// The time of the outcome.
-    #[must_use]
     pub fn t(&self) -> f64 {
         match *self {
             Self::Completed { t }

@@ -50,7 +50,6 @@ pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
 /// q(p) = x_k + (h - k) (x_(k+1) - x_k),   h = p (n - 1), k = floor(h), x_0 the smallest of n numbers
 ///
 /// Source: Hyndman and Fan (1996), Am. Stat. 50, 361, definition 7.
-#[must_use]
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let place = share * sorted.len().checked_sub(1)? as f64;
     let low = sorted[place as usize];

@@ -27,7 +27,6 @@ impl<F: VectorField<Dual<f64, 1>> + VectorField<Dual<f64, 6>> + ?Sized> Differen
 
 impl<'f, F: System + ?Sized> Tangent<'f, F> {
     /// The tangent flow of `field` with `count` vectors.
-    #[must_use]
     pub fn new(field: &'f F, count: usize) -> Self {
         Self { field, count, follow: false }
     }
@@ -36,7 +35,6 @@ impl<'f, F: System + ?Sized> Tangent<'f, F> {
     ///
     /// The vectors then are as accurate as those steps make them, which Newton's method does not mind. Vectors that have grown by a large
     /// factor would ask for the digits of their smallest entries, in steps a hundred times shorter.
-    #[must_use]
     pub fn following(field: &'f F, count: usize) -> Self {
         Self { field, count, follow: true }
     }
@@ -192,7 +190,6 @@ impl<F: Semilinear<Number> + Differentiable + ?Sized> Semilinear<f64> for Tangen
 }
 
 /// The Jacobian `Df(u)`, column by column: entry `(i, j)` is at `j * dim + i`.
-#[must_use]
 pub fn jacobian<F: Differentiable + ?Sized>(field: &F, u: &[f64]) -> Vec<f64> {
     let dim = u.len();
     let mut state = vec![0.0; dim * (1 + dim)];

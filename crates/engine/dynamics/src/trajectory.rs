@@ -27,31 +27,26 @@ pub struct CrossingPoint {
 
 impl Trajectory {
     /// An empty trajectory of states with `dim` entries.
-    #[must_use]
     pub fn new(dim: usize) -> Self {
         Self { dim, ..Self::default() }
     }
 
     /// Number of samples.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.times.len()
     }
 
     /// Returns `true` if there is no sample.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.times.is_empty()
     }
 
     /// The sample times, growing.
-    #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
     /// The state of sample `index`.
-    #[must_use]
     pub fn state(&self, index: usize) -> &[f64] {
         &self.states[index * self.dim..(index + 1) * self.dim]
     }
@@ -62,7 +57,6 @@ impl Trajectory {
     }
 
     /// The crossings in the order they happened.
-    #[must_use]
     pub fn crossings(&self) -> &[CrossingPoint] {
         &self.crossings
     }

@@ -31,7 +31,6 @@ fn kernel(body: &(dyn Model + 'static), settings: &LyapunovSettings) -> Option<K
 
 /// Returns `true` if [`exponents_of_body`] is applicable: all exponents, of a model within a kernel's terms,
 /// by a method that has lanes.
-#[must_use]
 pub fn has_exponents(body: &(dyn Model + 'static), settings: &LyapunovSettings) -> bool {
     kernel(body, settings).is_some()
 }

@@ -24,7 +24,6 @@ pub const MOST_MODES: usize = 4;
 
 impl Kernel {
     /// The kernel that computes this model; `None` if it does not run in lanes.
-    #[must_use]
     pub fn of(model: &dyn Model) -> Option<Self> {
         if let Some(tensor) = model.as_any()?.downcast_ref::<Tensor>()
             && tensor.listed().is_none()
@@ -55,7 +54,6 @@ impl Kernel {
     }
 
     /// Returns `true` if it computes this model.
-    #[must_use]
     pub fn computes(self, model: &dyn Model) -> bool {
         Self::of(model) == Some(self)
     }

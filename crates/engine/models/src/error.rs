@@ -61,13 +61,11 @@ pub enum Error {
 }
 
 /// ` (did you mean NAME?)`, if there is a similar name.
-#[must_use]
 pub fn hint(nearest: &Option<&'static str>) -> String {
     nearest.map_or_else(String::new, |name| format!(" (did you mean {name}?)"))
 }
 
 /// The candidate most similar to `name`, if it is similar enough to be a typing error.
-#[must_use]
 pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let lower = name.to_lowercase();
     candidates

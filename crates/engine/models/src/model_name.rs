@@ -48,7 +48,6 @@ impl ModelName {
     }
 
     /// Its name for messages and titles: `amplitudes` for equations given as text.
-    #[must_use]
     pub fn as_str(&self) -> &str {
         match self {
             Self::BuiltIn(name) | Self::Own { own: name, .. } => name,
@@ -57,7 +56,6 @@ impl ModelName {
     }
 
     /// The equations, if they are given as text.
-    #[must_use]
     pub fn definition(&self) -> Option<&Definition> {
         match self {
             Self::BuiltIn(_) | Self::Own { .. } => None,

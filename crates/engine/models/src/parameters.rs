@@ -73,7 +73,6 @@ pub fn index_of(specs: &[ParameterSpec], model: &'static str, name: &str) -> Res
 
 /// The range given after `within`, or any number of sensible size.
 #[doc(hidden)]
-#[must_use]
 pub const fn allowed(within: &[(f64, f64)]) -> (f64, f64) {
     match within {
         [range, ..] => *range,
@@ -83,7 +82,6 @@ pub const fn allowed(within: &[(f64, f64)]) -> (f64, f64) {
 
 /// Returns `true` if a parameter was declared as a whole number.
 #[doc(hidden)]
-#[must_use]
 pub const fn is_whole(kind: &[&str]) -> bool {
     !kind.is_empty()
 }

@@ -8,7 +8,6 @@ use motiform_dynamics::Outline;
 pub type Mode = (u32, [f64; 2]);
 
 /// `dR(theta) = sum_n 2 Re(z_n e^{i n theta})`.
-#[must_use]
 pub fn radius_change(modes: impl Iterator<Item = Mode>, theta: f64) -> f64 {
     let part = |(n, [re, im]): Mode| {
         let (sin, cos) = libm::sincos(f64::from(n) * theta);
@@ -18,7 +17,6 @@ pub fn radius_change(modes: impl Iterator<Item = Mode>, theta: f64) -> f64 {
 }
 
 /// `points` points of the closed curve `R(theta) (cos theta, sin theta)`, or where and by how much `R <= 0`.
-#[must_use]
 pub fn outline(modes: &(impl Iterator<Item = Mode> + Clone), radius: f64, points: usize) -> Outline {
     let angles = (0..points).map(|i| std::f64::consts::TAU * i as f64 / points as f64);
     let rays: Vec<(f64, f64)> =
@@ -39,7 +37,6 @@ pub fn outline(modes: &(impl Iterator<Item = Mode> + Clone), radius: f64, points
 }
 
 /// `sum_n 2 |z_n|`: a bound of `|dR|` over all directions, reached to within a few per cent.
-#[must_use]
 pub fn deformation(modes: impl Iterator<Item = Mode>) -> f64 {
     modes.map(|(_, [re, im])| 2.0 * libm::hypot(re, im)).sum()
 }

@@ -169,7 +169,6 @@ impl ModelInfo {
     }
 
     /// The look of a body with these parameters, in registry order: that of equations given as text follows their rates.
-    #[must_use]
     pub fn look_at(&self, values: &[f64]) -> f64 {
         match self.inner {
             Source::Amplitudes(known) => amplitudes::look(known, values),
@@ -178,7 +177,6 @@ impl ModelInfo {
     }
 
     /// Default maximum model time for classifying the motion of a body with these parameters.
-    #[must_use]
     pub fn budget_at(&self, values: &[f64]) -> f64 {
         self.budget / self.look * self.look_at(values)
     }
@@ -192,13 +190,11 @@ impl ModelInfo {
     /// of a run.
     ///
     /// # Checked by  lab/lab/tests/all/tolerances.rs: the global error against the request, for both models
-    #[must_use]
     pub fn absolute_tolerance(&self, rtol: f64) -> f64 {
         rtol / self.tolerance_ratio
     }
 
     /// Its registry of parameters.
-    #[must_use]
     pub fn parameters(&self) -> &'static [ParameterSpec] {
         match self.inner {
             Source::BuiltIn { parameters, .. } => parameters(),
@@ -208,7 +204,6 @@ impl ModelInfo {
     }
 
     /// The names of its shape state, for parameters with these values (in registry order; the number of modes is one).
-    #[must_use]
     pub fn coordinates(&self, values: &[f64]) -> &'static [Coordinate] {
         match self.inner {
             Source::BuiltIn { coordinates, .. } => coordinates(values),
@@ -256,13 +251,11 @@ impl ModelInfo {
     }
 
     /// `true` for the models of this library.
-    #[must_use]
     pub fn is_built_in(&self) -> bool {
         matches!(self.inner, Source::BuiltIn { .. })
     }
 
     /// The equations, if they were given as text.
-    #[must_use]
     pub fn definition(&self) -> Option<&'static Definition> {
         match self.inner {
             Source::BuiltIn { .. } | Source::Own(_) => None,
@@ -271,7 +264,6 @@ impl ModelInfo {
     }
 
     /// Digits that change with the equations of a model of one's own; `None` for others, whose equations have the version of this library.
-    #[must_use]
     pub fn field(&self) -> Option<&'static str> {
         match self.inner {
             Source::Own(own) => Some(&own.field),

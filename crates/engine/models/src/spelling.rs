@@ -31,7 +31,6 @@ const GREEK: [(char, &str); 24] = [
 ];
 
 /// A name with its Greek letters spelled and its subscripts as digits: `κ₂`, `κ_2` and `κ2` are `kappa2`. Other names stay as they are.
-#[must_use]
 pub fn ascii(name: &str) -> String {
     if name.is_ascii() {
         return name.to_owned();
@@ -49,7 +48,6 @@ pub fn ascii(name: &str) -> String {
 }
 
 /// The name of the parameter that a name means: itself, or that whose symbol in the paper it is (`L` for `length`).
-#[must_use]
 pub fn canonical<'s>(specs: &'s [ParameterSpec], name: &'s str) -> &'s str {
     let plain = |symbol: &str| symbol.replace(['*', '_', '{', '}'], "");
     let known = specs.iter().any(|spec| spec.name == name);

@@ -37,7 +37,6 @@ pub struct NearBifurcation {
 
 impl NearBifurcation {
     /// `kappa2 = 0.51 ± 0.01: pitchfork (breaks the mirror symmetry) at 0.55, 0.04 away (3.1 standard errors)`.
-    #[must_use]
     pub fn sentence(&self) -> String {
         let Self { parameter, value, error, at, kind, breaks } = self;
         let breaks = breaks.as_ref().map_or_else(String::new, |what| format!(" (breaks {what})"));

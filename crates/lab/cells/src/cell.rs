@@ -51,7 +51,6 @@ impl Sample {
     }
 
     /// Computes the modes of outlines that were read or given.
-    #[must_use]
     pub fn of_tracks(tracks: Tracks, modes_options: &ModeOptions) -> Self {
         let modes = modes(&tracks, modes_options);
         let field = FieldOfView::of(&tracks, &modes);
@@ -70,7 +69,6 @@ impl Sample {
     }
 
     /// Mean radius of a cell, or of all cells where none has this name (fits of several cells together).
-    #[must_use]
     pub fn radius(&self, cell: &str) -> f64 {
         let of = |own: &dyn Fn(&&CellTrack) -> bool| {
             let radii: Vec<f64> = self.cells.iter().filter(own).map(|cell| cell.radius).collect();
@@ -93,7 +91,6 @@ impl Sample {
     }
 
     /// Notes about the files, as sentences.
-    #[must_use]
     pub fn notes(&self) -> Vec<String> {
         self.tracks.notes.iter().map(ToString::to_string).collect()
     }
@@ -106,7 +103,6 @@ impl CellTrack {
     }
 
     /// The frames of a cell that count. The noise of a vertex is pooled over the cell: that of a frame is uncertain by itself.
-    #[must_use]
     fn new(modes: CellModes, field: &FieldOfView, units: &Units) -> Self {
         let (mut frames, mut breaks, mut parted) = (Vec::new(), Vec::new(), false);
         let mut sum = 0.0;
@@ -143,7 +139,6 @@ impl CellTrack {
     }
 
     /// The pieces of the track between jumps of the stage that are long enough for a fit.
-    #[must_use]
     pub fn pieces(&self) -> Vec<Track> {
         let ends = self.breaks.iter().copied().chain([self.track.0.len()]);
         let starts = std::iter::once(0).chain(self.breaks.iter().copied());
@@ -162,7 +157,6 @@ impl CellTrack {
     }
 
     /// The track where its jumps were subtracted, or else its longest piece: where displacements count.
-    #[must_use]
     pub fn path(&self) -> Track {
         if self.bridged || self.breaks.is_empty() {
             return self.track.clone();
@@ -171,7 +165,6 @@ impl CellTrack {
     }
 
     /// Number of frames with each flag, by its name.
-    #[must_use]
     pub fn flags(&self) -> BTreeMap<&'static str, usize> {
         let mut counts = BTreeMap::new();
         for flag in self.modes.frames.iter().flat_map(|frame| &frame.flags) {
@@ -181,13 +174,11 @@ impl CellTrack {
     }
 
     /// Number of frames that count.
-    #[must_use]
     pub fn frames(&self) -> usize {
         self.track.0.len()
     }
 
     /// Frames without modes of the radius, or left out, by number.
-    #[must_use]
     pub fn left_out(&self) -> Vec<i64> {
         let used: Vec<i64> = self.modes.used().map(|frame| frame.frame).collect();
         self.modes.frames.iter().map(|frame| frame.frame).filter(|frame| !used.contains(frame)).collect()

@@ -24,13 +24,11 @@ impl Checks {
     }
 
     /// A coefficient by the weak form, by its number in the model; `None` where [`Checks::no_weak`] says why.
-    #[must_use]
     pub fn weak(&self, place: usize) -> Option<f64> {
         *self.weak.as_ref()?.coefficients.get(place)?
     }
 
     /// The reasons of the coefficients that have no estimate by the weak form.
-    #[must_use]
     pub fn no_weak(&self) -> Vec<String> {
         let handed = || vec!["the model is handed, and the weak form is one of real coefficients".to_owned()];
         self.weak.as_ref().map_or_else(handed, |weak| weak.reasons.clone())

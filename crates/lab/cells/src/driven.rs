@@ -49,7 +49,6 @@ impl Driven {
     }
 
     /// The share of the motion that the equations make, as a clause.
-    #[must_use]
     pub fn in_words(&self) -> String {
         let percent = |share: f64| format!("{:.0}", 100.0 * share);
         let [low, high] = self.interval.map(percent);

@@ -99,7 +99,6 @@ pub struct CellFit {
 
 impl CellFit {
     /// Reasons to doubt the fit, in sentences.
-    #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let of_fit = self.fitted.iter().flat_map(|fitted| fitted.warnings.iter().map(ToString::to_string));
         of_fit.chain(self.prediction.as_ref().and_then(Prediction::warning)).collect()

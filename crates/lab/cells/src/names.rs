@@ -2,7 +2,6 @@
 
 /// A name for the files of each cell: `cell-` and letters, digits, `-`, `_` of the cell's name; a number where it is taken, also in
 /// other case: some disks ignore it.
-#[must_use]
 pub fn file_names<'n>(cells: impl Iterator<Item = &'n str>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for cell in cells {

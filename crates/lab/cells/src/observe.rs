@@ -87,7 +87,6 @@ pub struct Observation {
 }
 
 /// Observes a cell. Noise and chaos cannot be told apart by such a record: motion that neither is steady nor repeats is undecided.
-#[must_use]
 pub fn observe(cell: &CellTrack) -> Observation {
     let frames = cell.frames();
     let bare = |why: String| Observation {
@@ -191,7 +190,6 @@ fn beside_drift(cell: &CellTrack, motion: Motion) -> Motion {
 
 /// Statistics over cells, each with the weight of its length: intervals are those over cells where there are 8 and more. Cells of
 /// another sampling interval than most are left out; `None` without a cell that is long enough.
-#[must_use]
 pub fn population_statistics(found: &[Observation]) -> Option<(usize, MotionStatistics)> {
     let all: Vec<_> = found.iter().filter_map(|one| Some(&one.measures.as_ref()?.series)).collect();
     let mut intervals: Vec<f64> = all.iter().map(|series| series.dt).collect();

@@ -99,7 +99,6 @@ pub struct FittedPopulation {
 
 impl FittedPopulation {
     /// The fits whose coefficients are compared, in words.
-    #[must_use]
     pub fn of_which_fits(&self) -> &'static str {
         match self.handed {
             true => "of the handed models, terms that all of them have",
@@ -110,7 +109,6 @@ impl FittedPopulation {
 
 impl PopulationCoefficient {
     /// The coefficient in words.
-    #[must_use]
     pub fn name(&self) -> String {
         format!("{}{}", if self.imaginary { "imaginary part of " } else { "" }, self.term)
     }
@@ -148,7 +146,6 @@ fn shares(names: impl Iterator<Item = &'static str>) -> Vec<NameShare> {
 }
 
 /// A number over cells, whatever their order; `None` without any.
-#[must_use]
 pub fn over_cells(values: &[f64]) -> Option<OverCells> {
     let mut values = values.to_vec();
     ascending(&mut values);
@@ -198,7 +195,6 @@ fn most_frequent<T: Ord>(all: impl Iterator<Item = T>) -> Option<T> {
 /// Results over fitted cells.
 ///
 /// # Checked by  `tests/all/population.rs`: coverage of the intervals, shares
-#[must_use]
 pub fn fitted_population(fits: &[CellFit]) -> FittedPopulation {
     let name = |fit: &CellFit| fit.fitted.as_ref().map_or(UNDECIDED, |fitted| fitted.motion_name());
     let counts = |fitted: &&Fitted| compared(fitted).converged() && compared(fitted).is_bounded();
@@ -274,7 +270,6 @@ fn compared(fitted: &Fitted) -> &Fit {
 }
 
 /// Results over observed cells.
-#[must_use]
 pub fn observed_population(found: &[Observation]) -> ObservedPopulation {
     let name = |one: &Observation| one.motion.regime.map_or(UNDECIDED, |regime| regime.name());
     let measured = || found.iter().filter_map(|one| one.measures.as_ref());

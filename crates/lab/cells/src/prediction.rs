@@ -69,13 +69,11 @@ pub struct Prediction {
 
 impl Prediction {
     /// `true` if too many simulated cells blow up for a comparison: the model does not describe the cell.
-    #[must_use]
     pub fn is_unstable(&self) -> bool {
         self.lost as f64 > MOST_LOST * (self.cells + self.lost) as f64
     }
 
     /// Why the fit does not describe the cell, if so: simulated cells blow up, or a third of the statistics differ from those of the cell.
-    #[must_use]
     pub fn contradiction(&self) -> Option<String> {
         if self.is_unstable() {
             return Some(
@@ -91,7 +89,6 @@ impl Prediction {
 
     /// That the cell differs from simulated ones in more than one statistic, as a clause; `None` where that contradicts the fit, which says
     /// it.
-    #[must_use]
     pub fn warning(&self) -> Option<String> {
         let differ = self.count(Agreement::Differs);
         (differ > 1 && self.contradiction().is_none()).then(|| {
@@ -104,7 +101,6 @@ impl Prediction {
     }
 
     /// The number of statistics with this verdict.
-    #[must_use]
     pub fn count(&self, agreement: Agreement) -> usize {
         self.comparisons.iter().filter(|one| one.envelope.agreement == agreement).count()
     }
@@ -119,7 +115,6 @@ impl Prediction {
 /// Source: Besag and Clifford (1991), Biometrika 78, 301 (sequential Monte Carlo p-values).
 ///
 /// # Checked by  tests/all/prediction.rs: p-values of the true model are uniform; wrong models are found
-#[must_use]
 pub fn predict(track: &Track, fit: &Fit, companions: Companions, watch: &dyn Watch) -> Option<Prediction> {
     let observed = Record::of(track, fit.library.modes)?;
     let asked = statistics::Asked::of(&observed, track);

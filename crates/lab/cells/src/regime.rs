@@ -63,13 +63,11 @@ pub struct FittedRegime {
 
 impl FittedRegime {
     /// `true` if the best model blows up: then it is no model of a cell that was tracked.
-    #[must_use]
     pub fn blows_up(&self) -> bool {
         self.best == Regime::BlowUp
     }
 
     /// Why there is no name although models were classified; `None` where there is one, or where noise carries the cell.
-    #[must_use]
     pub fn why_unnamed(&self) -> Option<String> {
         if self.regime.is_some() || self.carried {
             return None;
@@ -95,7 +93,6 @@ impl FittedRegime {
     /// `true` if the equations make next to nothing of the motion, although the cell moves: then the displacement is that of the noise, and
     /// the motion is no rest. They rest without their noise, or have at most a fifth of the mean square speed (upper end of [`Driven`])
     /// while nine of ten models rest or have no name: a velocity that decays as a power of time has none.
-    #[must_use]
     pub fn is_carried(&self) -> bool {
         self.carried
     }
@@ -104,7 +101,6 @@ impl FittedRegime {
     /// stays next to one point of the shape, and what noise moves it off that point is known with errors of the same size, which the
     /// likelihood takes for information. In a record of less than three e-foldings of a linear rate this and a nonlinear term do the same:
     /// the set with one of them alone has small errors, and both are wrong.
-    #[must_use]
     pub fn no_intervals(&self) -> Option<&'static str> {
         if self.slow {
             return Some(

@@ -11,7 +11,6 @@ use serde_json::{Map, Value, json};
 const MOST_SETS: usize = 100;
 
 /// Fits of all cells: `{"cells": [..], "units": .., "notes": [..]}`.
-#[must_use]
 pub fn fits_json(sample: &Sample, fits: &[CellFit]) -> Value {
     let cell = |fit: &CellFit| {
         let track = sample.cells.iter().find(|cell| cell.name == fit.name);
@@ -25,7 +24,6 @@ pub fn fits_json(sample: &Sample, fits: &[CellFit]) -> Value {
 }
 
 /// Observed motions of all cells.
-#[must_use]
 pub fn observations_json(sample: &Sample, observations: &[Observation]) -> Value {
     let cell = |found: &Observation| {
         let mut object = serde_json::to_value(found).unwrap_or_default();
@@ -66,7 +64,6 @@ fn with_quality(mut object: Value, cell: Option<&CellTrack>) -> Value {
 }
 
 /// The fit of one cell.
-#[must_use]
 pub fn cell_json(fit: &CellFit) -> Value {
     let mut object = json!({ "cell": fit.name, "frames": fit.frames });
     match &fit.fitted {
@@ -170,7 +167,6 @@ fn add(object: &mut Value, fitted: &Fitted) {
 
 impl Fitted {
     /// Why the motion has its name, or none, as a clause.
-    #[must_use]
     pub fn why(&self) -> String {
         match &self.regime {
             None if !self.is_identifiable() => {

@@ -22,7 +22,6 @@ const MODES: [&Quantity; 8] = [
 
 /// The modes of all frames: cell, frame, time, centre, mean radius, z2 to z5 with the standard errors of z2 and z3, area, and what is
 /// wrong.
-#[must_use]
 pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
     let rows: Vec<(&CellTrack, &FrameModes)> =
         cells.iter().flat_map(|cell| cell.modes.frames.iter().map(move |frame| (cell, frame))).collect();
@@ -74,7 +73,6 @@ pub fn mode_columns(cells: &[CellTrack]) -> Vec<Column> {
 }
 
 /// The coefficients of all fits, in the units of the data.
-#[must_use]
 pub fn coefficient_columns(fits: &[CellFit]) -> Vec<Column> {
     let rows: Vec<_> = fits
         .iter()

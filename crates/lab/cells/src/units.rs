@@ -18,13 +18,11 @@ pub struct Units {
 
 impl Units {
     /// Those of a data set.
-    #[must_use]
     pub fn of(sample: &Sample) -> Self {
         Self::of_tracks(&sample.tracks)
     }
 
     /// Those of outlines.
-    #[must_use]
     pub fn of_tracks(tracks: &Tracks) -> Self {
         Self {
             length: tracks.length_unit.clone(),
@@ -40,25 +38,21 @@ impl Units {
     }
 
     /// The unit of times after a number: `s`, `frames`.
-    #[must_use]
     pub fn times(&self) -> &str {
         if self.time == "frame" { "frames" } else { &self.time }
     }
 
     /// A time with its unit, from the number as it is written: `1 frame`, `2.5 frames`, `1 s`.
-    #[must_use]
     pub fn of_time(&self, number: &str) -> String {
         format!("{number} {}", if number == "1" { &self.time } else { self.times() })
     }
 
     /// The unit of lengths after a number: `um`, `pixels`.
-    #[must_use]
     pub fn lengths(&self) -> &str {
         if self.length == "pixel" { "pixels" } else { &self.length }
     }
 
     /// The unit of a dimension after a number.
-    #[must_use]
     pub fn behind(&self, dimension: Dimension) -> String {
         match dimension {
             Dimension::TIME => self.times().to_owned(),
@@ -68,20 +62,17 @@ impl Units {
     }
 
     /// The unit of a dimension; empty where there is none.
-    #[must_use]
     pub fn unit(&self, dimension: Dimension) -> String {
         dimension.unit([&self.length, &self.time])
     }
 
     /// A label with its unit.
-    #[must_use]
     pub fn label(&self, label: &str, dimension: Dimension) -> String {
         let unit = self.unit(dimension);
         if unit.is_empty() { label.to_owned() } else { format!("{label} ({unit})") }
     }
 
     /// The label of a quantity with its unit.
-    #[must_use]
     pub fn axis(&self, quantity: &Quantity) -> String {
         self.label(quantity.symbol, quantity.dimension)
     }

@@ -63,13 +63,11 @@ impl Verification {
     }
 
     /// Returns `true` if everything is as it was written, and the same when computed again.
-    #[must_use]
     pub fn is_intact(&self) -> bool {
         self.audit.changed.is_empty() && self.audit.missing.is_empty() && self.found.different.is_empty()
     }
 
     /// The findings, with stable keys.
-    #[must_use]
     pub fn json(&self) -> Value {
         let Self { audit, checked, found } = self;
         json!({

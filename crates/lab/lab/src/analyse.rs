@@ -99,7 +99,6 @@ pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
 }
 
 /// The classifier's settings: looks and budget (if that is 0) are those of the model at these parameters, the rest is that of the plan.
-#[must_use]
 pub fn settings_of(
     (info, values): (&ModelInfo, &[f64]),
     method: Method,

@@ -10,13 +10,11 @@ pub struct Moment(Duration);
 
 impl Moment {
     /// Now.
-    #[must_use]
     pub fn now() -> Self {
         Self(system::now())
     }
 
     /// The time since.
-    #[must_use]
     pub fn elapsed(self) -> Duration {
         system::now().saturating_sub(self.0)
     }

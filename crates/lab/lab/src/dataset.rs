@@ -77,7 +77,6 @@ fn require<'n>(table: &Table, path: &Path, names: impl IntoIterator<Item = &'n s
 }
 
 /// The file of a table in a folder, if it has one.
-#[must_use]
 pub fn table_path(folder: &Path, name: &str) -> Option<PathBuf> {
     let files = [Format::Parquet, Format::Csv].map(|format| folder.join(format.file(name)));
     files.into_iter().find(|path| path.is_file())

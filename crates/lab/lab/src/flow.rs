@@ -13,14 +13,12 @@ pub struct Flow<M> {
 
 impl<M: AsRef<dyn Model>> Flow<M> {
     /// The flow of `model`.
-    #[must_use]
     pub fn new(model: M) -> Self {
         let dim = model.as_ref().dim();
         Self { model, shape: vec![0.0; dim], rate: vec![0.0; dim] }
     }
 
     /// Number of coordinates of the shape.
-    #[must_use]
     pub fn dim(&self) -> usize {
         self.shape.len()
     }

@@ -131,7 +131,6 @@ pub fn on_threads(threads: usize, work: impl Fn() + Sync) {
 }
 
 /// Threads of the machine.
-#[must_use]
 pub fn all_cores() -> usize {
     std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }

@@ -39,7 +39,6 @@ pub(crate) fn columns(model: &dyn Model) -> Table {
 
 /// The dimension of a column of a trajectory; that of a number for other names. A shape is a deviation of the outline and has that of
 /// its size.
-#[must_use]
 pub fn dimension(model: &dyn Model, column: &str) -> Dimension {
     if let Some(known) = state::ALL.iter().find(|known| known.name == column) {
         return known.dimension;
@@ -95,7 +94,6 @@ impl<'m> Readings<'m> {
 /// shape under noise.
 ///
 /// # Checked by  tests/all/noise.rs: noise on the velocity, on the shape alone, of the equations
-#[must_use]
 pub(crate) fn turns(model: &dyn Model, c: &Computation) -> bool {
     let Some(settings) = c.noise else { return true };
     let additive = Noise::on(model, settings.velocity, settings.shape, settings.step).amplitudes;

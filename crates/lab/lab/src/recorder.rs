@@ -203,7 +203,6 @@ fn position(u: &[f64]) -> [f64; 2] {
 }
 
 /// The last time of the grid that a run from 0 to `end` samples, as [`motiform_dynamics::drive::Run`] finds it.
-#[must_use]
 pub fn last_sample(end: f64, every: f64) -> f64 {
     let near = (end / every).round() * every;
     if (near - end).abs() <= 1e-9 * every { end } else { (end / every).floor() * every }

@@ -45,7 +45,6 @@ pub struct Saddle {
 
 impl Saddle {
     /// Returns `true` if the exponent is that of a chaotic saddle: it is above its error, and runs leave.
-    #[must_use]
     pub fn is_one(&self) -> bool {
         self.exponent.is_some() && self.missing.is_empty()
     }

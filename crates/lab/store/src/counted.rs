@@ -1,7 +1,6 @@
 //! Numbers of things in words.
 
 /// A number with the word for one or for many: `1 curve`, `3 curves`, `2 branches`, `0 bodies`.
-#[must_use]
 pub fn counted(count: usize, one: &str) -> String {
     match one.strip_suffix('y') {
         _ if count == 1 => format!("1 {one}"),

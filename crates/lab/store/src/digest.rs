@@ -7,7 +7,6 @@ use std::io::{Read, Result};
 use std::path::Path;
 
 /// SHA-256 in hexadecimal.
-#[must_use]
 pub fn sha256_hex(bytes: &[u8]) -> String {
     hex(&Sha256::digest(bytes))
 }

@@ -71,19 +71,16 @@ pub enum Error {
 
 impl Error {
     /// Returns `true` if the input was valid but the machine failed.
-    #[must_use]
     pub fn is_machine_failure(&self) -> bool {
         matches!(self, Self::WriteFailed { .. })
     }
 
     /// [`Error::Unreadable`] of a path, with the reason as text.
-    #[must_use]
     pub fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
         Self::Unreadable { path: path.to_owned(), reason: reason.to_string() }
     }
 
     /// [`Error::WriteFailed`] of a path, with the reason as text.
-    #[must_use]
     pub fn write_failed(path: &Path, reason: impl std::fmt::Display) -> Self {
         Self::WriteFailed { path: path.to_owned(), reason: reason.to_string() }
     }
@@ -106,7 +103,6 @@ pub(crate) fn is_shortage(error: &std::io::Error) -> bool {
 }
 
 /// The remedy for a failed write: it depends on the system's reason, which ends with its number.
-#[must_use]
 pub fn advice(reason: &str) -> &'static str {
     const ADVICE: [(&[&str], &str); 3] = [
         (&["(os error 28)", "(os error 122)", "(os error 27)"], "free some space and run again"),

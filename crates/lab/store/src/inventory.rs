@@ -45,7 +45,6 @@ pub struct Inventory {
 
 impl Inventory {
     /// The inventory of a result without files.
-    #[must_use]
     pub(crate) fn new(kind: Kind) -> Self {
         Self { version: VERSION.to_owned(), kind: kind.name().to_owned(), ..Self::default() }
     }
@@ -131,7 +130,6 @@ impl Inventory {
     }
 
     /// The inventory as text.
-    #[must_use]
     pub(crate) fn text(&self) -> String {
         let mut head = json!({ "motiform": self.version, "kind": self.kind, "format": FORMAT, "complete": self.complete });
         if let Some(target) = &self.staging_for {
@@ -145,7 +143,6 @@ impl Inventory {
     }
 
     /// The kind of the result, in words.
-    #[must_use]
     pub fn words(&self) -> String {
         Kind::of_name(&self.kind).map_or_else(|| self.kind.clone(), |kind| kind.words().to_owned())
     }
@@ -157,7 +154,6 @@ pub(crate) fn file_line(name: &str, digest: &str) -> String {
 }
 
 /// Returns `true` if a file is a figure, by its name: it can be drawn again.
-#[must_use]
 pub fn is_figure(name: &str) -> bool {
     let end = name.rsplit_once('.').map_or("", |(_, end)| end);
     ["svg", "png", "pdf", "gif", "mp4"].contains(&end)

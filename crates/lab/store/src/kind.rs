@@ -17,7 +17,6 @@ macro_rules! kinds {
             const ALL: &'static [Self] = &[$(Self::$kind),*];
 
             /// Its name in inventories.
-            #[must_use]
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$kind => $name,)*
@@ -25,7 +24,6 @@ macro_rules! kinds {
             }
 
             /// The kind in words: `a scan`.
-            #[must_use]
             pub fn words(self) -> &'static str {
                 match self {
                     $(Self::$kind => $words,)*
@@ -33,7 +31,6 @@ macro_rules! kinds {
             }
 
             /// Returns `true` if its command continues it with `--resume`.
-            #[must_use]
             pub fn resumes(self) -> bool {
                 match self {
                     $(Self::$kind => !<[&str]>::is_empty(&[$(stringify!($resumes))?]),)*
@@ -61,14 +58,12 @@ kinds! {
 
 impl Kind {
     /// The kind of a name.
-    #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|kind| kind.name() == name)
     }
 }
 
 /// The kind of a folder, by its inventory. An interrupted replacement is finished before.
-#[must_use]
 pub fn kind_of(folder: &Path) -> Option<Kind> {
     let _ = mend(folder); // reading says what is wrong
     Kind::of_name(&Inventory::read(folder).ok()??.kind)

@@ -24,19 +24,16 @@ impl StagedFile {
     }
 
     /// Leftovers of killed runs that were removed.
-    #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.0.notes
     }
 
     /// The path to write to.
-    #[must_use]
     pub fn path(&self) -> PathBuf {
         self.0.place.result().join(name_of(&self.0.target.path))
     }
 
     /// The same failure with the final name of the output.
-    #[must_use]
     pub fn shown(&self, error: Error) -> Error {
         self.0.shown(error, |_| self.0.target.shown.clone())
     }

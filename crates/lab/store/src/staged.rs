@@ -37,25 +37,21 @@ impl Staged {
     }
 
     /// The remarks on the place: leftovers of killed runs, and files that stay.
-    #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.draft.notes
     }
 
     /// The path to write to.
-    #[must_use]
     pub fn path(&self) -> PathBuf {
         self.draft.place.result()
     }
 
     /// The path of the finished output, as given.
-    #[must_use]
     pub fn target(&self) -> &Path {
         &self.draft.target.shown
     }
 
     /// The same failure with the final name of the output.
-    #[must_use]
     pub fn shown(&self, error: Error) -> Error {
         self.draft.shown(error, |name| self.target().join(name))
     }

@@ -48,7 +48,6 @@ pub fn axis(text: &str) -> Result<Axis, Error> {
 }
 
 /// Initial states of each cell: those asked for, or those of the study.
-#[must_use]
 pub fn samples(study: &Study, asked: Option<u64>) -> u64 {
     match (asked, study.scan.samples) {
         (Some(asked), _) => asked,
@@ -175,13 +174,11 @@ impl AtlasPlan {
     }
 
     /// The scan of its finest grid: a cell of the atlas has the rows of this scan.
-    #[must_use]
     pub fn scan(&self) -> ScanPlan {
         ScanPlan::of(&self.name, &self.title, self.computation.scan.clone())
     }
 
     /// The plane, across and upwards.
-    #[must_use]
     pub fn plane(&self) -> [Along; 2] {
         [0, 1].map(|side| along(&self.computation.scan.axes[side]))
     }

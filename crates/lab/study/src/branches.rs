@@ -57,7 +57,6 @@ pub struct BranchSettings {
 
 impl BranchSettings {
     /// The defaults: the motion that the start settles on and what begins on its branch, to both sides.
-    #[must_use]
     pub fn over(along: Along) -> Self {
         let stride = Stride::default();
         Self { along, origin: None, points: 2000, branches: 8, samples: 0, stride, given: None }
@@ -142,7 +141,6 @@ impl Along {
 
 impl Along {
     /// It for people: `kappa2 = 0.3 to 1.6`.
-    #[must_use]
     pub fn words(&self) -> String {
         let [from, to] = [self.from, self.to].map(motiform_dynamics::digits::given);
         format!("{} = {from} to {to}", self.name)
@@ -231,13 +229,11 @@ impl BranchPlan {
     }
 
     /// The value of the varied parameter at the start.
-    #[must_use]
     pub fn start_value(&self) -> f64 {
         self.computation.start.parameters.get(&self.computation.along.name).unwrap_or(f64::NAN)
     }
 
     /// The parameters with the varied one at `value`, in registry order.
-    #[must_use]
     pub fn parameters_at(&self, value: f64) -> Vec<f64> {
         let c = &self.computation;
         c.parameters_with(|name| (name == c.along.name).then_some(value))

@@ -19,13 +19,11 @@ pub struct NoiseSettings {
 
 impl NoiseSettings {
     /// The larger amplitude.
-    #[must_use]
     pub fn largest(&self) -> f64 {
         self.velocity.max(self.shape)
     }
 
     /// The parts of a body that it acts on, with its amplitude there: the velocity where that is an unknown, the shape where there is one.
-    #[must_use]
     pub fn parts(&self, body: &dyn Model) -> Vec<(&'static str, f64)> {
         let velocities = body.velocities();
         let shape = (body.dim() > velocities).then_some(("shape", self.shape));
@@ -33,7 +31,6 @@ impl NoiseSettings {
     }
 
     /// `amplitude 0.001 on the shape, 0 on the velocity, steps of 0.0625`.
-    #[must_use]
     pub fn words(&self, body: &dyn Model) -> String {
         let steps = given(self.step);
         if self.largest() == 0.0 {
@@ -56,7 +53,6 @@ pub enum Control {
 
 impl Control {
     /// The absolute tolerance; 0 for fixed steps.
-    #[must_use]
     pub fn absolute_tolerance(self) -> f64 {
         match self {
             Self::Adaptive { atol, .. } => atol,

@@ -172,26 +172,22 @@ impl CurvePlan {
     }
 
     /// The branches whose special points are followed.
-    #[must_use]
     pub fn branches(&self) -> BranchPlan {
         BranchPlan::of(&self.name, &self.title, self.computation.branches.clone())
     }
 
     /// Which side of the plane the branches are followed along: 0 or 1.
-    #[must_use]
     pub fn varied(&self) -> usize {
         usize::from(self.computation.plane[1].name == self.computation.branches.along.name)
     }
 
     /// The other side's value at the start.
-    #[must_use]
     pub fn fixed_value(&self) -> f64 {
         let name = &self.computation.plane[1 - self.varied()].name;
         self.computation.branches.start.parameters.get(name).unwrap_or(f64::NAN)
     }
 
     /// All parameters with those of the plane at `values` (across, upwards), in registry order.
-    #[must_use]
     pub fn parameters_at(&self, values: [f64; 2]) -> Vec<f64> {
         let [across, upwards] = &self.computation.plane;
         self.computation.branches.parameters_with(|name| match name {

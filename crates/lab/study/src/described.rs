@@ -100,19 +100,16 @@ pub struct Key {
 
 impl Key {
     /// Its name in study files.
-    #[must_use]
     pub const fn name(&self) -> &'static str {
         self.name
     }
 
     /// Its meaning, with its default.
-    #[must_use]
     pub fn meaning(&self) -> String {
         joined(self.meaning)
     }
 
     /// The type of its value in the words of JSON: `number`, `integer`, `string` or `boolean`.
-    #[must_use]
     pub fn kind(&self) -> String {
         (self.kind)()["type"].as_str().unwrap_or_default().to_owned()
     }

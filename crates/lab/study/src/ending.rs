@@ -26,19 +26,16 @@ pub enum Part {
 
 impl Ending {
     /// The end of a transient that began at the time `-length`, counted from there.
-    #[must_use]
     pub fn of_transient(outcome: Outcome, length: f64) -> Self {
         Self { outcome: outcome.later(length), during: Some(Part::Transient) }
     }
 
     /// Returns `true` if the run came to its end.
-    #[must_use]
     pub fn is_complete(&self) -> bool {
         self.outcome.is_complete()
     }
 
     /// The time at which it ended.
-    #[must_use]
     pub fn t_last(&self) -> f64 {
         self.outcome.t_last()
     }

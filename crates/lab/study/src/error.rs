@@ -154,7 +154,6 @@ pub enum Error {
 
 impl Error {
     /// Returns `true` if the input was valid but the machine failed.
-    #[must_use]
     pub fn is_machine_failure(&self) -> bool {
         match self {
             Self::Store(error) => error.is_machine_failure(),
@@ -168,13 +167,11 @@ impl Error {
     }
 
     /// A file that cannot be read, with the reason as text.
-    #[must_use]
     pub fn unreadable(path: &Path, reason: impl std::fmt::Display) -> Self {
         motiform_store::Error::unreadable(path, reason).into()
     }
 
     /// A file that cannot be written, with the reason as text.
-    #[must_use]
     pub fn write_failed(path: &Path, reason: impl std::fmt::Display) -> Self {
         motiform_store::Error::write_failed(path, reason).into()
     }

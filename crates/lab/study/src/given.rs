@@ -23,7 +23,6 @@ pub enum Given {
 
 impl Given {
     /// Returns `true` if it is a motion, which is not simulated.
-    #[must_use]
     pub const fn is_motion(self) -> bool {
         !matches!(self, Self::State)
     }

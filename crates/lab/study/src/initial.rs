@@ -50,7 +50,6 @@ pub struct Uniform(Normal);
 
 impl Uniform {
     /// The stream of this number of the generator with this seed.
-    #[must_use]
     pub fn new(seed: u64, stream: u64) -> Self {
         Self(Normal::new(seed, stream))
     }

@@ -8,19 +8,16 @@ pub struct Named(pub Vec<(String, f64)>);
 
 impl Named {
     /// The values alone.
-    #[must_use]
     pub fn values(&self) -> Vec<f64> {
         self.0.iter().map(|entry| entry.1).collect()
     }
 
     /// Returns `true` if it is empty.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// The value of a name.
-    #[must_use]
     pub fn get(&self, name: &str) -> Option<f64> {
         self.0.iter().find(|entry| entry.0 == name).map(|entry| entry.1)
     }

@@ -71,7 +71,6 @@ pub fn model_or_nearest(name: &str) -> Result<&'static ModelInfo, Error> {
 }
 
 /// The names of a model's presets.
-#[must_use]
 pub fn names_of(model: &str) -> Vec<&'static str> {
     all().filter(|preset| preset.model == model).map(|preset| preset.name).collect()
 }

@@ -44,7 +44,6 @@ impl Random {
     }
 
     /// The default distribution of several starts: from a hundredth of the typical size of a model to the full size.
-    #[must_use]
     pub const fn basins(size: f64) -> Self {
         Self::Sizes { min: size / 100.0, max: size }
     }
@@ -83,7 +82,6 @@ impl Random {
     }
 
     /// The largest size.
-    #[must_use]
     pub fn largest(&self) -> f64 {
         match *self {
             Self::Within(size) => size,
@@ -92,7 +90,6 @@ impl Random {
     }
 
     /// The distribution as text: `uniform within ±0.01`, `of size 0.01 to 1, log-uniform`.
-    #[must_use]
     pub fn words(&self) -> String {
         match *self {
             Self::Within(size) => format!("uniform within ±{}", given(size)),

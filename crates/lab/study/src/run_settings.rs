@@ -46,7 +46,6 @@ settings! {
 
 impl RunSettings {
     /// The larger amplitude of its noise; 0 if there is none.
-    #[must_use]
     pub fn largest_noise(&self) -> f64 {
         self.noise.max(self.noise_velocity.unwrap_or(0.0))
     }

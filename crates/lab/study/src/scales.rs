@@ -29,7 +29,6 @@ pub struct Scales {
 
 impl Scales {
     /// The scales of a field, measured from its values alone.
-    #[must_use]
     pub fn of(body: &dyn Equivariant) -> Self {
         let Units { length, rate } = Units::of(body);
         Self { length, largest: prefix(largest_balance(body)), rate }
@@ -95,13 +94,11 @@ impl Scales {
     }
 
     /// The absolute tolerance of equations whose shapes have the size 1, for these.
-    #[must_use]
     pub fn absolute_tolerance(self, ordinary: f64) -> f64 {
         ordinary * self.length.min(1.0)
     }
 
     /// The norm beyond which a shape has escaped.
-    #[must_use]
     pub fn escape_norm(self) -> f64 {
         1e6 * self.largest.max(1.0)
     }
@@ -112,7 +109,6 @@ impl Scales {
     }
 
     /// The longest model time.
-    #[must_use]
     pub fn longest(self) -> f64 {
         LONGEST / self.rate.min(1.0)
     }

@@ -31,13 +31,11 @@ impl Towards {
     }
 
     /// Returns `true` if larger values are among them.
-    #[must_use]
     pub const fn is_up(self) -> bool {
         !matches!(self, Self::Down)
     }
 
     /// Returns `true` if smaller values are among them.
-    #[must_use]
     pub const fn is_down(self) -> bool {
         !matches!(self, Self::Up)
     }
@@ -97,7 +95,6 @@ const TOLERANCES: (f64, f64) = (1e-13, 1e-7);
 
 impl Stride {
     /// Returns `true` if everything is left to the numerics.
-    #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }

@@ -134,7 +134,6 @@ const MOST_SAMPLES: f64 = 3000.0;
 
 impl DisplaySettings {
     /// The default display of a model.
-    #[must_use]
     pub fn of_model(info: &ModelInfo) -> Self {
         let side =
             |&(name, low, high): &(&str, f64, f64)| Axis { name: name.to_owned(), values: vec![low, high] };
@@ -143,7 +142,6 @@ impl DisplaySettings {
     }
 
     /// The lowest and the highest speed that the explorer offers (model time per second).
-    #[must_use]
     pub fn speeds(&self) -> [f64; 2] {
         [2.0 * self.sample, MOST_SAMPLES * self.sample]
     }
@@ -151,7 +149,6 @@ impl DisplaySettings {
 
 impl Study {
     /// A study of `model` with its defaults and nothing else.
-    #[must_use]
     pub fn of_model(info: &'static ModelInfo) -> Self {
         Self {
             model: ModelName::from(info),

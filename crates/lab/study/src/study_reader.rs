@@ -238,7 +238,6 @@ fn read_return_map(preset: Option<ReturnMapSettings>, table: Table<'_>) -> Resul
 }
 
 /// The JSON schema of study files.
-#[must_use]
 pub fn schema() -> serde_json::Value {
     let numbers = |names: Vec<(&str, String)>| {
         let entries = names.into_iter().map(|(name, text)| {

@@ -16,13 +16,11 @@ pub struct Ties(BTreeMap<String, String>);
 
 impl Ties {
     /// Returns `true` if there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// The expression that a parameter has the value of.
-    #[must_use]
     pub fn get(&self, name: &str) -> Option<&str> {
         self.0.get(name).map(String::as_str)
     }
@@ -61,7 +59,6 @@ impl Ties {
     }
 
     /// The expression of a tied parameter in the notation of figures (markup): `2 *κ*_2`.
-    #[must_use]
     pub fn symbols(&self, specs: &[ParameterSpec], name: &str) -> Option<String> {
         let mut rest = self.get(name)?;
         let mut written = String::new();
@@ -96,7 +93,6 @@ impl Ties {
     }
 
     /// The ties that say 0 = 0: each with its expression and the first parameter in it, all of which are 0 and none of which is varied.
-    #[must_use]
     pub fn idle(&self, specs: &[ParameterSpec], values: &[f64], varied: &[&str]) -> Vec<[String; 3]> {
         let names = names(specs);
         let first = |text: &str| {

@@ -38,7 +38,6 @@ fn changed(run: &Computation, name: &str) -> Vec<String> {
 
 impl Dataset {
     /// Title of its figures: that of its manifest.
-    #[must_use]
     pub fn title(&self) -> String {
         self.manifest.title()
     }
@@ -46,7 +45,6 @@ impl Dataset {
 
 impl Manifest {
     /// Title of its figures: as typed, otherwise from the regime of its motion, otherwise from its parameters.
-    #[must_use]
     pub fn title(&self) -> String {
         let (plan, regime) = (&self.plan, self.regime.as_deref());
         if plan.title.is_empty() { of_run(&plan.computation, &plan.name, regime) } else { plan.title.clone() }
@@ -54,7 +52,6 @@ impl Manifest {
 }
 
 /// A number as people write it: `0.9`, `-1`, `10^{-9}`, `2.5×10^{6}`.
-#[must_use]
 pub fn number(x: f64) -> String {
     if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
         let text = format!("{x:.6}");
@@ -85,7 +82,6 @@ pub(crate) fn of_motions(model: &str) -> String {
 }
 
 /// The same with a capital letter.
-#[must_use]
 pub fn capital(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

@@ -48,25 +48,21 @@ impl Shown {
     }
 
     /// Returns `true` if they are physical.
-    #[must_use]
     pub fn is_physical(&self) -> bool {
         self.0.is_some()
     }
 
     /// The factor from model units.
-    #[must_use]
     pub fn factor(&self, dimension: Dimension) -> f64 {
         self.0.as_ref().map_or(1.0, |[length, time]| dimension.factor([length.size, time.size]))
     }
 
     /// The name of a unit (markup): µm/min, 1/min, µm^2; `plain` for one of the model.
-    #[must_use]
     pub fn name(&self, dimension: Dimension, plain: &str) -> String {
         self.0.as_ref().map_or_else(|| plain.to_owned(), |[l, t]| dimension.unit([&l.name, &t.name]))
     }
 
     /// The label of an axis with its unit, which numbers and model units have not; radians always have.
-    #[must_use]
     pub fn label(&self, label: &str, dimension: Dimension) -> String {
         let unit = match dimension {
             Dimension::ANGLE => "rad".to_owned(),
@@ -77,13 +73,11 @@ impl Shown {
     }
 
     /// The label of the axis of a quantity.
-    #[must_use]
     pub fn axis(&self, quantity: &Quantity) -> String {
         self.label(quantity.symbol, quantity.dimension)
     }
 
     /// A value in model units as words with its unit; `plain` stands for it where that is of the model.
-    #[must_use]
     pub fn words(&self, value: f64, dimension: Dimension, plain: &str) -> String {
         let shown = number(value * self.factor(dimension));
         match self.is_physical() {
@@ -93,7 +87,6 @@ impl Shown {
     }
 
     /// Their sentence in a caption, after the name of the model.
-    #[must_use]
     pub fn caption(&self) -> String {
         match self.0 {
             Some(_) => {

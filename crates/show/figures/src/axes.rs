@@ -34,7 +34,6 @@ pub struct Scale {
 
 impl Scale {
     /// Pixel position of a data point.
-    #[must_use]
     pub fn map(&self, [x, y]: Point) -> Point {
         [
             self.frame.x + (x - self.x.min) / self.x.span() * self.frame.w,
@@ -43,7 +42,6 @@ impl Scale {
     }
 
     /// A scale with one unit for both axes that shows at least `x` and `y`: the shorter axis is widened.
-    #[must_use]
     pub fn equal(frame: Rect, x: Range, y: Range) -> Self {
         let unit = (x.span() / frame.w).max(y.span() / frame.h);
         Self { frame, x: x.with_span(unit * frame.w), y: y.with_span(unit * frame.h) }
@@ -61,13 +59,11 @@ pub enum AxisKind {
 
 impl AxisKind {
     /// Logarithmic or not.
-    #[must_use]
     pub fn of(logarithmic: bool) -> Self {
         if logarithmic { Self::Logarithmic } else { Self::Linear }
     }
 
     /// The place of a value along the axis; `None` if it has none.
-    #[must_use]
     pub fn place(self, value: f64) -> Option<f64> {
         match self {
             Self::Linear => Some(value),
@@ -76,7 +72,6 @@ impl AxisKind {
     }
 
     /// The range of an axis that shows all places, with some room at its ends; `None` without places.
-    #[must_use]
     pub fn range(self, places: impl IntoIterator<Item = f64>, room: f64) -> Option<Range> {
         let range = Range::of(places)?;
         Some(match self {
@@ -101,7 +96,6 @@ impl Axes {
     /// Chooses the ticks. Without `x_label` the x axis has ticks but no text (panels that share an axis).
     ///
     /// The y label is wrapped to the height of the frame.
-    #[must_use]
     pub fn new(scale: Scale, x_label: Option<&str>, y_label: &str) -> Self {
         let width = |text: &str| Label::parse(text).width(TICK_SIZE);
         let Rect { w, h, .. } = scale.frame;
@@ -116,7 +110,6 @@ impl Axes {
     }
 
     /// Axes across and upwards of a kind each; along a logarithmic one the scale is in log10 of its quantity.
-    #[must_use]
     pub fn of_kinds(scale: Scale, kinds: [AxisKind; 2], x_label: &str, y_label: &str) -> Self {
         let width = |text: &str| Label::parse(text).width(TICK_SIZE);
         let mut axes = Self::new(scale, Some(x_label), y_label);
@@ -149,7 +142,6 @@ impl Axes {
     }
 
     /// Pixels that the y axis needs to the left of its frame.
-    #[must_use]
     pub fn left_margin(&self) -> f64 {
         self.tick_label_width() + TICK_LENGTH + 12.0 + LINE * self.y_label.len() as f64
     }

@@ -189,7 +189,6 @@ impl BranchDiagram {
     }
 
     /// Returns `true` if a branch leaves the frame upwards or downwards.
-    #[must_use]
     pub fn leaves(&self, kind: AxisKind) -> bool {
         let ends = |range: Option<Range>| range.map(|range| [range.min, range.max]);
         ends(self.places(kind, false)) != ends(self.values(kind))

@@ -61,7 +61,6 @@ impl Chart {
     }
 
     /// `true` if it shows no data: lines of theory alone are no figure.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.layers.iter().all(|layer| layer.marks().rank() == Rank::Theory)
     }

@@ -4,7 +4,6 @@ use super::fonts;
 use super::svg::escape;
 
 /// The `@font-face` rules that a page with [`embedded`] figures needs, once: WOFF2 data within.
-#[must_use]
 pub fn font_rules() -> &'static str {
     fonts::css()
 }
@@ -14,7 +13,6 @@ pub fn font_rules() -> &'static str {
 /// for those who cannot see it.
 ///
 /// `svg` is a document as the figures of this crate make it.
-#[must_use]
 pub fn embedded(svg: &str, prefix: &str, label: &str) -> String {
     let style = format!("<style>{}</style>\n", fonts::css());
     let prefix = escape(prefix);

@@ -18,13 +18,11 @@ pub struct Rect {
 
 impl Rect {
     /// Right edge.
-    #[must_use]
     pub fn right(&self) -> f64 {
         self.x + self.w
     }
 
     /// Bottom edge.
-    #[must_use]
     pub fn bottom(&self) -> f64 {
         self.y + self.h
     }
@@ -41,7 +39,6 @@ pub struct Range {
 
 impl Range {
     /// Smallest range that holds all values; `None` without values.
-    #[must_use]
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         values.into_iter().fold(None, |range: Option<Self>, v| {
             Some(range.map_or(Self { min: v, max: v }, |r| Self { min: r.min.min(v), max: r.max.max(v) }))
@@ -49,19 +46,16 @@ impl Range {
     }
 
     /// Length of the interval.
-    #[must_use]
     pub fn span(&self) -> f64 {
         self.max - self.min
     }
 
     /// Centre of the interval.
-    #[must_use]
     pub fn middle(&self) -> f64 {
         0.5 * self.min + 0.5 * self.max
     }
 
     /// The range of the given length about the same centre.
-    #[must_use]
     pub fn with_span(&self, span: f64) -> Self {
         Self { min: self.middle() - 0.5 * span, max: self.middle() + 0.5 * span }
     }
@@ -69,7 +63,6 @@ impl Range {
     /// The range widened on both sides by `fraction` of its length, and enough to be an axis: an empty range
     /// becomes one of length 1 (or 20 % of the value, if that is more), one too narrow for distinct
     /// double-precision ticks is widened to 1e-9 of the value.
-    #[must_use]
     pub fn padded(&self, fraction: f64) -> Self {
         let size = self.min.abs().max(self.max.abs());
         let span = if self.span() > 0.0 { self.span() } else { (0.2 * size).max(1.0) };
@@ -80,7 +73,6 @@ impl Range {
 impl Range {
     /// The range of an axis for values whose differences are known from `least` on: as it is where the values differ by so much. Values
     /// that do not are one: the range holds 20 % of it, or is empty where it is 0 as far as is known. A `least` of 0 leaves every range.
-    #[must_use]
     pub fn resolved(&self, least: f64) -> Self {
         if self.span() >= least {
             return *self;

@@ -6,7 +6,6 @@ use super::text::{Label, Script};
 
 impl Label {
     /// The label as HTML text, `<i>`, `<sub>` and `<sup>` for its markup, all else escaped.
-    #[must_use]
     pub fn html(&self) -> String {
         let mut out = String::new();
         for run in self.runs() {
@@ -22,7 +21,6 @@ impl Label {
     }
 
     /// The characters alone.
-    #[must_use]
     pub fn plain(&self) -> String {
         self.runs().into_iter().map(|run| run.text).collect()
     }

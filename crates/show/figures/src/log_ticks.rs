@@ -13,7 +13,6 @@ impl Ticks {
     /// and 5 times each power ("0.2", "2 × 10^{-5}") are labelled, so that a range of one decade or more has at least
     /// three ticks. Between labelled ticks stand minor ones, where there is room: 2 to 9
     /// times each power, or the skipped powers.
-    #[must_use]
     pub fn decades(range: Range, pixels: f64, extent: impl Fn(&str) -> f64) -> Self {
         let (first, last) = Step { mantissa: 1, power: 0 }.multiples(range);
         if last <= first {

@@ -73,13 +73,11 @@ const fn turning(of: RegimeMark, name: &'static str, hand: Hand) -> RegimeMark {
 }
 
 /// The mark of a regime; an unknown name gets that of "undetermined".
-#[must_use]
 pub fn regime_mark(name: &str) -> RegimeMark {
     REGIMES[rank(name)]
 }
 
 /// The mark of a regime whose bodies turn in this sense; that of the regime where it has none by sense.
-#[must_use]
 pub fn turning_mark(name: &str, hand: Option<Hand>) -> RegimeMark {
     let known = regime_mark(name);
     let same = |mark: &RegimeMark| mark.glyph == known.glyph && mark.hand == hand;
@@ -97,19 +95,16 @@ const AROUND: f64 = 1.25;
 
 impl RegimeMark {
     /// Colour of the ground behind a marker: pale.
-    #[must_use]
     pub fn tint(&self) -> Colour {
         WHITE.mix(self.area, 0.28)
     }
 
     /// Returns `true` if the regime is not known; its areas are hatched.
-    #[must_use]
     pub fn is_undetermined(&self) -> bool {
         self.glyph == Glyph::Question
     }
 
     /// Returns `true` if its areas have white falling lines.
-    #[must_use]
     pub fn is_clockwise(&self) -> bool {
         self.hand == Some(Hand::Clockwise)
     }

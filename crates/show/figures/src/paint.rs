@@ -18,13 +18,11 @@ pub struct Paint {
 
 impl Paint {
     /// Filled, no edge.
-    #[must_use]
     pub fn fill(colour: Colour) -> Self {
         Self { fill: Some((colour, 1.0)), stroke: None, dash: None, dash_from: 0.0, opacity: 1.0 }
     }
 
     /// A line of a width in pixels, no filling.
-    #[must_use]
     pub fn stroke(colour: Colour, width: f64) -> Self {
         Self { fill: None, stroke: Some((colour, width)), dash: None, dash_from: 0.0, opacity: 1.0 }
     }

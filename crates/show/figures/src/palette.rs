@@ -101,7 +101,6 @@ impl Colour {
 }
 
 /// Colour of time: `fraction` 0 is the start (dark violet), 1 the end (light green). Clamped.
-#[must_use]
 pub fn time_colour(fraction: f64) -> Colour {
     along(&TIME, fraction)
 }
@@ -110,7 +109,6 @@ pub fn time_colour(fraction: f64) -> Colour {
 ///
 /// Sign is hue, magnitude is lightness, equal for both signs; blue and orange stay apart for every kind of colour
 /// blindness (Okabe & Ito 2008).
-#[must_use]
 pub fn signed_colour(value: f64) -> Colour {
     along(if value < 0.0 { &NEGATIVE } else { &POSITIVE }, value.abs())
 }
@@ -123,7 +121,6 @@ fn along(ramp: &[Colour], fraction: f64) -> Colour {
 }
 
 /// Colour of time `t` within `range`; the start colour if the range is empty.
-#[must_use]
 pub fn time_colour_in(t: f64, range: Range) -> Colour {
     time_colour(if range.span() > 0.0 { (t - range.min) / range.span() } else { 0.0 })
 }

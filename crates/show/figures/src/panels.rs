@@ -102,7 +102,6 @@ impl Drawn {
 
 impl Panels {
     /// Panels in rows of `columns`.
-    #[must_use]
     pub fn new(columns: usize, mut figures: Vec<Box<dyn Figure>>) -> Self {
         let caption = figures.iter_mut().enumerate().map(|(of, figure)| {
             let (title, caption) = figure.words();

@@ -24,7 +24,6 @@ pub struct Returns {
 
 impl Chart {
     /// A return map; the names of x_n and x_(n+1) are also those of the axes.
-    #[must_use]
     pub fn return_map(names: [String; 2], points: Vec<Point>) -> Self {
         let [x_label, y_label] = names.clone();
         Self { x_label, y_label, ..Self::default() }.with([Returns { names, points }])

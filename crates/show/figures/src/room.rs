@@ -26,7 +26,6 @@ impl Room {
     pub const OWN: Self = Self { width: None, height: None, corner: [0.0; 2], panel: 0 };
 
     /// A sheet of this width.
-    #[must_use]
     pub const fn of(width: f64) -> Self {
         Self { width: Some(width), ..Self::OWN }
     }
@@ -57,7 +56,6 @@ impl Room {
     }
 
     /// The width, if one is asked for.
-    #[must_use]
     pub const fn width(self) -> Option<f64> {
         self.width
     }

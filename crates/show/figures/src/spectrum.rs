@@ -38,7 +38,6 @@ pub struct Spectra {
 
 impl Chart {
     /// Power spectra on logarithmic axes.
-    #[must_use]
     pub fn spectra(frequencies: Vec<f64>, curves: Vec<SpectrumCurve>) -> Self {
         let (x_label, y_label) = ("frequency".to_owned(), "power spectral density".to_owned());
         Self { x_label, y_label, logarithmic_x: true, logarithmic_y: true, ..Self::default() }

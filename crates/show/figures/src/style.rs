@@ -55,7 +55,6 @@ const LOWER: [f64; 8] = [300.0, 270.0, 240.0, 215.0, 190.0, 165.0, 140.0, 120.0]
 
 impl Width {
     /// The medium that sheets of this width are laid out for.
-    #[must_use]
     pub fn room(self) -> Room {
         match self {
             Self::Millimetres(size) => Room::of(size / 25.4 * 72.0 * PER_POINT),
@@ -136,7 +135,6 @@ impl Style {
     }
 
     /// Pixels of a PNG per unit of the SVG.
-    #[must_use]
     pub fn png_scale(&self) -> f64 {
         match self.width() {
             None => DEFAULT_SCALE,

@@ -40,7 +40,6 @@ pub struct SurvivalCurve {
 
 impl Chart {
     /// Survival curves on a logarithmic axis, where an exponential law is a straight line.
-    #[must_use]
     pub fn survival(curves: impl IntoIterator<Item = SurvivalCurve>) -> Self {
         let (x_label, y_label) = ("*t*".to_owned(), "share that lasts longer".to_owned());
         Self { x_label, y_label, logarithmic_y: true, ..Self::default() }.with(curves)

@@ -29,7 +29,6 @@ impl Display for Num {
 }
 
 /// `text` with the characters that XML reserves replaced; control characters are dropped.
-#[must_use]
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -73,7 +72,6 @@ pub struct Svg {
 // `write!` into a String cannot fail, so its result is dropped below.
 impl Svg {
     /// An empty white sheet.
-    #[must_use]
     pub fn new(width: f64, height: f64) -> Self {
         Self::in_room(Room::OWN, width, height)
     }
@@ -221,7 +219,6 @@ impl Svg {
     }
 
     /// The document. It stands alone: the fonts are inside.
-    #[must_use]
     pub fn finish(self) -> String {
         let (w, h) = (Num(self.width), Num(self.height));
         format!(

@@ -75,7 +75,6 @@ fn is_number(c: char, script: Script) -> bool {
 }
 
 /// `text` with its markup characters taken literally: for file names and identifiers.
-#[must_use]
 pub fn literal(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -93,7 +92,6 @@ const SPELLED: [(&str, &str); 6] =
 
 /// A sentence of results, as terminals show it, as markup: `lambda_1 = 2.2e-4 +- 3.2e-4` has its letter, its powers of ten and its sign,
 /// and a difference its minus.
-#[must_use]
 pub fn sentence(text: &str) -> String {
     let mut out = powers(&literal(text))
         .replace("+-", "±")
@@ -140,7 +138,6 @@ pub(crate) fn powers(text: &str) -> String {
 
 impl Label {
     /// Reads the markup. Never fails: a mark without partner is dropped, control characters become spaces.
-    #[must_use]
     pub fn parse(markup: &str) -> Self {
         let mut out = Vec::new();
         let (mut face, mut script, mut braced) = (Face::Regular, Script::Base, false);
@@ -174,7 +171,6 @@ impl Label {
     }
 
     /// The text for a terminal: subscripts as `z_1` or `x_{n+1}`, superscripts as `10^-3`, no italics.
-    #[must_use]
     pub fn terminal(&self) -> String {
         let mut groups: Vec<(Script, String)> = Vec::new();
         for run in self.runs() {
@@ -201,25 +197,21 @@ impl Label {
     }
 
     /// Width in pixels at a font size in pixels.
-    #[must_use]
     pub fn width(&self, size: f64) -> f64 {
         size * self.0.iter().map(|s| s.width()).sum::<f64>()
     }
 
     /// Returns `true` if there is no character.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// Breaks at spaces into lines of at most `width` pixels, and a longer word at any of its characters.
-    #[must_use]
     pub fn wrap(&self, size: f64, width: f64) -> Vec<Self> {
         self.lines(size, width, width)
     }
 
     /// Breaks at spaces into lines of at most `width` pixels, and no word: a unit stays whole.
-    #[must_use]
     pub fn wrap_words(&self, size: f64, width: f64) -> Vec<Self> {
         self.lines(size, width, f64::INFINITY)
     }

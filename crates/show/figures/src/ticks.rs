@@ -60,7 +60,6 @@ impl Ticks {
     /// At most `target` ticks (clamped to 3..=10), as many as round steps allow; at least three.
     ///
     /// A range that is empty or reversed is first widened as [`Range::padded`] does.
-    #[must_use]
     pub fn new(range: Range, target: usize) -> Self {
         let range = if range.span() > 0.0 { range } else { range.padded(0.0) };
         let target = target.clamp(FEWEST, MOST);
@@ -91,7 +90,6 @@ impl Ticks {
 
     /// As many ticks as fit: neighbouring labels, `extent` pixels long each, keep their distance on an axis of
     /// `pixels`.
-    #[must_use]
     pub fn fitting(range: Range, pixels: f64, spacing: f64, extent: impl Fn(&str) -> f64) -> Self {
         let most = (pixels / spacing).clamp(FEWEST as f64, 8.0) as usize;
         let fits = |ticks: &Self| {
@@ -118,7 +116,6 @@ impl Ticks {
 
     /// A tick at 0, 1, 2, .. for each of some values, `pixels` apart, with the value as its label, which is left out where it would touch
     /// the one before; `extent` is the length of a label.
-    #[must_use]
     pub fn listed(values: &[f64], pixels: f64, extent: impl Fn(&str) -> f64) -> Self {
         let mut free = f64::NEG_INFINITY;
         let label = |(place, value): (usize, &f64)| {
@@ -150,7 +147,6 @@ impl Ticks {
     }
 
     /// `label` with the power of ten of these ticks put before its unit: "*x* (10^{4} model length)".
-    #[must_use]
     pub fn scaled_label(&self, label: &str) -> String {
         let power = format!("10^{{{}}}", self.exponent);
         match (self.exponent, label.find(" (")) {

@@ -40,7 +40,6 @@ pub(crate) struct Place {
 
 impl Place {
     /// Returns `true` if a motion was found there.
-    #[must_use]
     pub(crate) fn has(&self, regime: Regime) -> bool {
         self.regimes.contains(&regime)
     }

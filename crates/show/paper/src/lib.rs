@@ -93,7 +93,6 @@ const CHAPTERS: &[Chapter] = &[
 const FURTHER: &[Chapter] = &[Chapter { name: "extensions", work: 0.5, rebuild: extensions::section }];
 
 /// The names of what can be rebuilt.
-#[must_use]
 pub fn names() -> Vec<&'static str> {
     CHAPTERS.iter().chain(FURTHER).map(|chapter| chapter.name).collect()
 }

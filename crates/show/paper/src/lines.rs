@@ -197,7 +197,6 @@ impl Track {
 
 impl Continued {
     /// The claims that follow.
-    #[must_use]
     pub(crate) fn claims(&self) -> [Claim; 2] {
         [self.agree(), self.kinds()]
     }

@@ -55,14 +55,12 @@ pub(super) fn sentences() -> Vec<Sentence> {
 }
 
 /// The entries that claims of a chapter check, by their first number.
-#[must_use]
 pub fn checked_in(chapter: &str) -> Vec<u16> {
     let of = |entry: &Entry<'_>| entry.fate.as_ref().is_ok_and(|chapters| chapters.contains(&chapter));
     entries().filter(|(_, entry)| of(entry)).map(|(_, entry)| entry.numbers.0).collect()
 }
 
 /// The first number of the entry that a sentence is in; `None` beyond the last.
-#[must_use]
 pub fn entry_of(sentence: u16) -> Option<u16> {
     let within = |entry: &Entry<'_>| (entry.numbers.0..=entry.numbers.1).contains(&sentence);
     entries().find(|(_, entry)| within(entry)).map(|(_, entry)| entry.numbers.0)

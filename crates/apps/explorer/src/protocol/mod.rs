@@ -207,7 +207,6 @@ impl Request {
 }
 
 /// The messages as TypeScript: the page's `protocol.ts`.
-#[must_use]
 pub fn typescript() -> String {
     let head = format!(
         "/** What the page and the server say to each other, as JSON; see PROTOCOL.md. Made from `src/protocol`: do not edit. */\n\n\

@@ -44,13 +44,11 @@ impl Token {
     }
 
     /// The token as text of the address.
-    #[must_use]
     pub fn text(&self) -> &str {
         &self.0
     }
 
     /// Returns `true` if `other` is the token; takes as long for every wrong one of the same length.
-    #[must_use]
     pub(crate) fn is(&self, other: &str) -> bool {
         let difference = self.0.bytes().zip(other.bytes()).fold(0, |sum, (a, b)| sum | (a ^ b));
         self.0.len() == other.len() && std::hint::black_box(difference) == 0

@@ -125,14 +125,12 @@ impl Server {
     }
 
     /// The address of the page.
-    #[must_use]
     pub fn address(&self) -> String {
         let opens = self.opens.as_ref().map_or_else(String::new, |opens| format!("#{opens}"));
         format!("http://127.0.0.1:{}/{}/{opens}", self.port, self.shared.token.text())
     }
 
     /// Stops the server.
-    #[must_use]
     pub fn handle(&self) -> Handle {
         Handle(Arc::clone(&self.stop))
     }

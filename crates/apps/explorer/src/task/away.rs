@@ -24,7 +24,6 @@ pub struct Errand<'e> {
 
 impl<'e> Errand<'e> {
     /// Reads an errand; `None` if the text is none.
-    #[must_use]
     pub fn parse(text: &'e str) -> Option<Self> {
         let mut lines = text.splitn(3, '\n');
         let (to, order) = (lines.next()?, lines.next()?.parse().ok()?);
@@ -32,7 +31,6 @@ impl<'e> Errand<'e> {
     }
 
     /// The text of an errand.
-    #[must_use]
     pub fn text(&self) -> String {
         format!("{}\n{}\n{}", self.to, self.order, self.json)
     }

@@ -122,20 +122,17 @@ impl Fit {
     }
 
     /// Returns `true` if the search converged.
-    #[must_use]
     pub fn converged(&self) -> bool {
         matches!(self.ending, Ending::Converged { .. })
     }
 
     /// Returns `true` if the data bound all coefficients: none is above 10 in natural units, where they are
     /// of order 1.
-    #[must_use]
     pub fn is_bounded(&self) -> bool {
         crate::identifiability::unbounded(self).is_empty()
     }
 
     /// The estimate of a term's real coefficient, if the term is in the model.
-    #[must_use]
     pub fn coefficient(&self, name: &str) -> Option<&Coefficient> {
         self.coefficients.iter().find(|c| c.name == name && !c.imaginary)
     }
@@ -147,7 +144,6 @@ impl Fit {
     }
 
     /// The covariance of the coefficients in the units of the data, from the expected information, in the order of [`Fit::coefficients`].
-    #[must_use]
     pub fn covariance_of_coefficients(&self) -> Vec<Vec<f64>> {
         let units: Vec<f64> = self.coefficients.iter().map(|c| self.scales.coefficient(&c.term)).collect();
         let row = |(row, a): (&Vec<f64>, &f64)| row.iter().zip(&units).map(|(x, b)| x * a * b).collect();
@@ -160,7 +156,6 @@ impl Fit {
     }
 
     /// Its values in the units of the data.
-    #[must_use]
     pub fn parameters(&self) -> super::Parameters {
         let noise = &self.noise;
         super::Parameters {
@@ -178,7 +173,6 @@ impl Noise {
     /// Returns `true` if the centre has a noise of its own: its variance is above 0 by so many of its errors that none of a thousand cells
     /// without one has that by chance. The error of the variance c^2 is 2 c times that of c. Where the factor of the stated errors is at a
     /// bound or not known within a half, the errors of the contour are not told from it.
-    #[must_use]
     pub fn is_of_centre(&self) -> bool {
         let contour = !self.at_bound[0] && self.s.error < 0.5 * self.s.value;
         contour && self.centre.value > 2.0 * OF_CENTRE * self.centre.error

@@ -21,38 +21,32 @@ pub struct Term {
 
 impl Term {
     /// Number of factors.
-    #[must_use]
     pub fn order(&self) -> u32 {
         self.powers.iter().flatten().map(|&power| u32::from(power)).sum()
     }
 
     /// Number of factors that are `z_m` or its conjugate, m from 0.
-    #[must_use]
     pub fn degree(&self, amplitude: usize) -> i32 {
         self.powers[amplitude].iter().map(|&power| i32::from(power)).sum()
     }
 
     /// The angular index, by which it turns with the plane: `sum_m m (power of z_m - power of conj(z_m))`.
-    #[must_use]
     pub fn angular_index(&self) -> i32 {
         let turns = |(m, &[z, conj]): (i32, &[u8; 2])| m * (i32::from(z) - i32::from(conj));
         (1..).zip(&self.powers).map(turns).sum()
     }
 
     /// Returns `true` if it turns as the amplitude of its equation does.
-    #[must_use]
     pub fn is_covariant(&self) -> bool {
         usize::try_from(self.angular_index()) == Ok(self.equation + 1)
     }
 
     /// As people write it, with its equation: `z1: z1* z2`, `z2: |z2|^2 z2`; a star is the complex conjugate.
-    #[must_use]
     pub fn name(&self) -> String {
         format!("z{}: {}", self.equation + 1, self.factors("*", "", " "))
     }
 
     /// Its factors in the notation of study files: `|z1|^2*z1`, `conj(z1)*z2`.
-    #[must_use]
     pub fn expression(&self) -> String {
         self.factors(")", "conj(", "*")
     }
@@ -105,7 +99,6 @@ impl Library {
     }
 
     /// The terms of the tensor model: three modes, order 3.
-    #[must_use]
     pub fn tensor() -> Self {
         Self { modes: 3, terms: enumerate::covariant(3, 3) }
     }
@@ -148,13 +141,11 @@ impl Library {
     }
 
     /// The names of all terms.
-    #[must_use]
     pub fn names(&self) -> Vec<String> {
         self.terms.iter().map(Term::name).collect()
     }
 
     /// The numbers of the terms in one equation.
-    #[must_use]
     pub fn of_equation(&self, equation: usize) -> Vec<usize> {
         (0..self.terms.len()).filter(|&term| self.terms[term].equation == equation).collect()
     }

@@ -20,7 +20,6 @@ const DEFINED: f64 = 0.9;
 /// where the fit with all terms did not converge.
 ///
 /// # Checked by  `tests/all/place.rs`: draws from fits of tied sets; zigzags whose best set lacks a term
-#[must_use]
 pub fn place_among(whole: &Fit, selection: &Selection, plane: Plane) -> Placement {
     let mut placed = match place(&selection.fit, plane) {
         Placement::Placed(placed) => placed,

@@ -109,7 +109,6 @@ pub enum Placement {
 /// them.
 ///
 /// # Checked by  `tests/all/place.rs`: known models in other units; refusals
-#[must_use]
 pub fn place(fit: &Fit, plane: Plane) -> Placement {
     let mut reasons = identifiability(fit).reasons;
     reasons.extend(obstacles(fit, plane));
@@ -218,7 +217,6 @@ fn with_errors(fit: &Fit, plane: Plane, values: &[f64], found: &Scaled) -> Place
 
 /// The coordinates on a plane of the fitted model with other values of its coefficients, such as those of
 /// [`crate::draws()`]; `None` where a unit of the plane is not defined.
-#[must_use]
 pub fn coordinates(fit: &Fit, plane: Plane, values: &[f64]) -> Option<[f64; 2]> {
     let found = scaled(fit, plane, values)?.numbers();
     Some([found[0], found[1]]).filter(|at| at.iter().all(|x| x.is_finite()))

@@ -51,7 +51,6 @@ pub struct Averaged {
 ///
 /// # Units   of the data
 /// # Checked by  tests/all/average.rs: one set, sets that differ, zigzags whose best set lacks a term
-#[must_use]
 pub fn averaged(whole: &Fit, subsets: &Subsets) -> Vec<Averaged> {
     let scatter = Scatter::of(whole);
     let parts = parts(whole, subsets, |i, set| {

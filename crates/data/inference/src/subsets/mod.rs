@@ -57,14 +57,12 @@ pub struct Subsets {
 
 impl Subsets {
     /// The best set.
-    #[must_use]
     pub fn best(&self) -> Option<&Subset> {
         self.ties.first()
     }
 
     /// The number of the sets within [`TIE`] that have each coefficient which any of them has, the most
     /// frequent first.
-    #[must_use]
     pub fn counts(&self) -> Vec<(String, usize)> {
         let mut counts: Vec<(String, usize)> = Vec::new();
         for name in self.ties.iter().flat_map(|set| &set.names) {
@@ -78,7 +76,6 @@ impl Subsets {
     }
 
     /// Names that are in every set within [`TIE`].
-    #[must_use]
     pub fn certain(&self) -> Vec<String> {
         let Some(best) = self.best() else { return Vec::new() };
         let in_all = |name: &&String| self.ties.iter().all(|set| set.names.contains(name));
@@ -98,7 +95,6 @@ pub struct Selection {
 /// The best subsets of a fit's coefficients.
 ///
 /// # Checked by  `tests/all/subsets.rs`: all sets by brute force; how often the exact set is found
-#[must_use]
 pub fn subsets(fit: &Fit) -> Subsets {
     let penalty = libm::log((fit.observed() * fit.frames.max(1)) as f64);
     let whole = Conditional::new(&fit.natural.coefficients, fit.covariance());

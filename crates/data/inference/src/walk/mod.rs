@@ -67,7 +67,6 @@ pub const SPREAD_SCATTER: f64 = 0.632_455_532_033_675_9;
 
 impl PersistentWalk {
     /// The mean-square displacement after a time `lag`, without the errors of the places.
-    #[must_use]
     pub fn displacement(&self, lag: f64) -> f64 {
         let p = self.persistence.value;
         4.0 * self.diffusion.value * (lag + p * libm::expm1(-lag / p))
@@ -75,13 +74,11 @@ impl PersistentWalk {
 
     /// Returns `true` if the walk describes the places: its innovations are white, isotropic, of one size, turn neither way, their sums
     /// go as far as those of independent ones, and its errors are not larger than the lengths of displacements allow.
-    #[must_use]
     pub fn describes(&self) -> bool {
         self.misfit().is_none()
     }
 
     /// The reason why the walk does not describe the places; `None` where it does.
-    #[must_use]
     pub fn misfit(&self) -> Option<Misfit> {
         self.tests.misfit()
     }
@@ -105,7 +102,6 @@ impl PersistentWalk {
 /// # Units   of the places and times
 /// # Not     for motion that turns one way, has a direction or repeats: [`PersistentWalk::misfit`] says so
 /// # Checked by  tests/all/walk.rs: likelihood against the multivariate normal density; coverage with gaps and errors; limits of P
-#[must_use]
 pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
     let steps: usize = pieces.iter().map(|piece| piece.len().saturating_sub(1)).sum();
     let moves = pieces.iter().any(|piece| piece.windows(2).any(|pair| pair[0].at != pair[1].at));
@@ -160,7 +156,6 @@ pub fn persistent_walk(pieces: &[Vec<Fix>]) -> Option<PersistentWalk> {
 ///
 /// # Units   `persistence`: time; `speed`: length/time; `error`: length
 /// # Checked by  tests/all/walk.rs: the multivariate normal density of the places
-#[must_use]
 pub fn walk_likelihood(pieces: &[Vec<Fix>], persistence: f64, speed: f64, error: f64) -> f64 {
     let variance = 0.5 * speed * speed;
     let law = Law { persistence, error: error * error / variance, diffusion: 0.0 };

@@ -39,7 +39,6 @@ pub struct WalkTogether {
 ///
 /// # Units   of the places and times
 /// # Checked by  tests/all/together_walk.rs: walks of equal and of very different lengths, additional diffusion, means over exposures
-#[must_use]
 pub fn walk_together(cells: &[(&[Vec<Fix>], &PersistentWalk)]) -> Option<WalkTogether> {
     let usual = |of: fn(&PersistentWalk) -> f64| median(cells.iter().map(|(_, walk)| of(walk)));
     let persistence = usual(|walk| walk.persistence.value)?;

@@ -43,7 +43,6 @@ pub struct Drift {
 
 impl Drift {
     /// The coefficients that change by more than 3.5 standard deviations.
-    #[must_use]
     pub fn names(&self) -> Vec<String> {
         let pairs = self.coefficients.iter().zip(&self.changes);
         pairs

@@ -37,7 +37,6 @@ impl Stretch {
     /// The stretch of a track; `None` with fewer than 120 frames, or where all headings are one.
     ///
     /// # Checked by  `tests/all/stretch.rs`: simulated cells with y scaled, and without
-    #[must_use]
     pub fn of(track: &Track) -> Option<Self> {
         let frames = frames(track);
         let order = order(&frames);
@@ -52,13 +51,11 @@ impl Stretch {
 
     /// Returns `true` if there is a stretch, of the only or clearest one of so many cells: significant, not
     /// negligible, and of a cell whose headings take all directions.
-    #[must_use]
     pub fn is_clear(&self, cells: usize) -> bool {
         self.is_possible(cells) && self.order <= MOST_ORDER
     }
 
     /// Returns `true` if there is one, or the directions that the cell keeps look like one.
-    #[must_use]
     pub fn is_possible(&self, cells: usize) -> bool {
         self.p_value * cells as f64 <= LEVEL && self.share > LEAST_SHARE
     }

@@ -25,7 +25,6 @@ pub struct Channel {
 }
 
 /// Autocorrelations of a fit's standardised innovations, with the test of Ljung and Box.
-#[must_use]
 pub fn whiteness(fit: &Fit) -> Vec<Channel> {
     (0..fit.observed()).map(|channel| test(fit, channel)).collect()
 }

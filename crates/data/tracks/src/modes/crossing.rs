@@ -20,7 +20,6 @@ pub enum Crossing {
 /// Looks for two edges that cross in their interiors. Edges that only touch, as outlines of pixels do at corners, do not cross.
 ///
 /// Edges are sorted by their least x; only those that overlap in x are compared, at most 20 million pairs.
-#[must_use]
 pub fn crossing(points: &[[f64; 2]]) -> Crossing {
     let edges: Vec<([f64; 2], [f64; 2])> = edges(points).collect();
     let low = |edge: &([f64; 2], [f64; 2])| edge.0[0].min(edge.1[0]);

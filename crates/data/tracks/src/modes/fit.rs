@@ -40,20 +40,17 @@ pub struct RadiusFit {
 
 impl RadiusFit {
     /// Number of unknowns p = 3 + 2 (N - 1).
-    #[must_use]
     pub fn unknowns(&self) -> usize {
         3 + 2 * self.z.len()
     }
 
     /// Covariance of unknowns j and k for this noise of a vertex; order (X, Y, R0, Re z2, Im z2, ...).
-    #[must_use]
     pub fn covariance(&self, sigma: f64, j: usize, k: usize) -> f64 {
         sigma * sigma * self.unit_covariance[j * self.unknowns() + k]
     }
 
     /// The covariance of (X, Y, Re z2, Im z2, .., Im z_highest) for this noise of a vertex, row by row. Modes
     /// that were not fitted are left out.
-    #[must_use]
     pub fn observed_covariance(&self, sigma: f64, highest: usize) -> Vec<Vec<f64>> {
         let last = (1 + 2 * highest).min(self.unknowns());
         let at = || [0, 1].into_iter().chain(3..last);
@@ -69,7 +66,6 @@ impl RadiusFit {
 /// with R > 0 at every vertex.
 ///
 /// # Checked by  tests/all/modes.rs: exact outlines (1e-13), symmetry (1e-13), pulls
-#[must_use]
 pub fn fit_radius(points: &[[f64; 2]], highest: usize) -> Option<RadiusFit> {
     let unknowns = 3 + 2 * (highest.max(3) - 1);
     if points.len() <= unknowns {

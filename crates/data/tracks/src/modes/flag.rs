@@ -82,7 +82,6 @@ impl Flag {
     ];
 
     /// Its name.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::TooFewVertices { .. } => "too few vertices",
@@ -106,14 +105,12 @@ impl Flag {
 
     /// Returns `true` if no displacement can be taken to this frame from those before: stage, unit or cell is
     /// another one.
-    #[must_use]
     pub fn parts(&self) -> bool {
         matches!(self, Self::AreaStep { .. } | Self::PositionStep { .. } | Self::StageJump { .. })
     }
 
     /// Returns `true` if the frame is no observation of the shape: its modes, if there are any, must not be
     /// used.
-    #[must_use]
     pub fn leaves_out(&self) -> bool {
         if let Self::MissingVertices { count, of } = self {
             return MOST_MISSING * count > *of;

@@ -61,26 +61,22 @@ pub struct FrameModes {
 
 impl FrameModes {
     /// Returns `true` if the frame is no observation of the shape; its flags say why.
-    #[must_use]
     pub fn is_left_out(&self) -> bool {
         self.flags.iter().any(Flag::leaves_out)
     }
 
     /// Returns `true` if it has modes of the radius that count.
-    #[must_use]
     pub fn counts(&self) -> bool {
         self.radius.is_some() && !self.is_left_out()
     }
 
     /// Returns `true` if its place is an observation, and the form of the polygon where there is one, whatever its radius: it encloses an
     /// area, and only modes would ask for more vertices, or the record is one of positions.
-    #[must_use]
     pub fn is_seen(&self) -> bool {
         self.is_seen_but(|_| false)
     }
 
     /// The same without regard to these flags.
-    #[must_use]
     pub fn is_seen_but(&self, without: impl Fn(&Flag) -> bool) -> bool {
         let of_modes = |flag: &Flag| matches!(flag, Flag::TooFewVertices { .. } | Flag::PositionAlone);
         let hides = |flag: &Flag| flag.leaves_out() && !of_modes(flag) && !without(flag);
@@ -90,7 +86,6 @@ impl FrameModes {
 }
 
 /// The shape of one outline, with the flags that can be seen in it alone. `points` are finite.
-#[must_use]
 pub fn outline_modes(points: &[[f64; 2]], options: &ModeOptions) -> FrameModes {
     let points = distinct(points);
     let (least, highest) = (options.least(), options.highest.max(3));

@@ -10,14 +10,12 @@ pub(super) fn powers(cos: f64, sin: f64) -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// `R = R0 + sum_{n=2} 2 Re(z_n e^{i n theta})` in the direction (cos, sin). `z[0]` is z2.
-#[must_use]
 pub fn radius(r0: f64, z: &[[f64; 2]], [cos, sin]: [f64; 2]) -> f64 {
     let part = |([re, im], [c, s]): (&[f64; 2], [f64; 2])| 2.0 * (re * c - im * s);
     r0 + z.iter().zip(powers(cos, sin)).map(part).sum::<f64>()
 }
 
 /// `dR/dtheta = -sum_{n=2} 2 n Im(z_n e^{i n theta})`.
-#[must_use]
 pub fn radius_slope(z: &[[f64; 2]], [cos, sin]: [f64; 2]) -> f64 {
     let part =
         |(k, ([re, im], [c, s])): (usize, (&[f64; 2], [f64; 2]))| -2.0 * (k + 2) as f64 * (re * s + im * c);

@@ -14,7 +14,6 @@ pub struct Fold {
 }
 
 /// Follows the direction arg(P - centre) along the outline. `None` where a vertex lies at the centre.
-#[must_use]
 pub fn fold(points: &[[f64; 2]], centre: [f64; 2]) -> Option<Fold> {
     let seen: Vec<[f64; 2]> = points.iter().map(|p| [p[0] - centre[0], p[1] - centre[1]]).collect();
     let turn =

@@ -30,7 +30,6 @@ pub struct TangentModes {
 /// Source: Zahn and Roskies (1972), IEEE Trans. Comput. C-21, 269, for psi; the scaling is ours.
 ///
 /// # Checked by  tests/all/tangent.rs: first order, rotation, mirror, start, sense
-#[must_use]
 pub fn tangent_modes(points: &[[f64; 2]], highest: usize) -> Option<TangentModes> {
     let enclosed = area(points);
     let mut path = distinct(points);

@@ -27,13 +27,11 @@ impl CellModes {
 
     /// The reason why the record is not that of one cell in one unit: two cells under one name, or a unit
     /// that changes. `None` for a sound record.
-    #[must_use]
     pub fn inconsistent(&self) -> Option<String> {
         reason(&self.frames)
     }
 
     /// The reason why displacements from frame to frame are not those of one cell: nothing about its path follows from this record.
-    #[must_use]
     pub fn mixed(&self) -> Option<String> {
         mixed(&self.frames)
     }
@@ -45,7 +43,6 @@ impl CellModes {
 }
 
 /// Modes and quality of every frame. Frames are never dropped: each says by its flags what is wrong, and whether it is left out.
-#[must_use]
 pub fn modes(tracks: &Tracks, options: &ModeOptions) -> Vec<CellModes> {
     let borders = Borders::find(tracks);
     tracks.cells.iter().map(|cell| cell_modes(cell, &borders, options)).collect()

@@ -20,7 +20,6 @@ const WHOLE: f64 = 0.1;
 /// sign balance: other equations may have roots there. Linear equations have none.
 ///
 /// # Checked by  tests/all/deflation.rs: a field with a known balance, in any units
-#[must_use]
 pub fn balances(body: &dyn Equivariant, directions: &[Vec<f64>]) -> Vec<f64> {
     let mut sizes: Vec<f64> =
         directions.iter().filter(|ray| norm(ray) > 0.0).flat_map(|ray| along(body, ray)).collect();

@@ -79,13 +79,11 @@ struct Known {
 
 impl Deflation {
     /// Without any known equilibrium.
-    #[must_use]
     pub fn of(body: &dyn Equivariant) -> Self {
         Self { known: Vec::new(), unit: Units::of(body).length }
     }
 
     /// Returns `true` if two equilibria are one, up to rotations.
-    #[must_use]
     pub fn is_same(
         &self,
         body: &dyn Equivariant,
@@ -96,7 +94,6 @@ impl Deflation {
     }
 
     /// Returns `true` if a solution is nearer to a root of higher order than a known one of the same root.
-    #[must_use]
     pub fn is_better(
         &self,
         body: &dyn Equivariant,
@@ -120,7 +117,6 @@ impl Deflation {
     ///
     /// A step is limited to the size of the shape, or to the reach where that is larger. Where steps become small against the
     /// distance from the known ones, [`RelativeEquilibrium::find`] completes the result.
-    #[must_use]
     pub fn find(&self, body: &dyn Equivariant, guess: &[f64], reach: f64) -> Option<RelativeEquilibrium> {
         let mut shape = guess.to_vec();
         let rate = body.rates(&shape);
@@ -226,7 +222,6 @@ impl RelativeEquilibrium {
 
     /// Returns `true` if these are one equilibrium of equations with this unit of shapes ([`Units`]), up to
     /// rotations.
-    #[must_use]
     pub fn is_same(&self, body: &dyn Equivariant, other: &Self, unit: f64) -> bool {
         near(body, self.distance(body, &other.shape), &other.shape, unit)
             || is_flat(body, self, (&Copies::of(body, &other.shape), other.turning_rate), unit)

@@ -40,7 +40,6 @@ impl RelativeEquilibrium {
 
     /// Number of eigenvalues that vanish within their errors: those of the family that it lies in, or of a
     /// bifurcation.
-    #[must_use]
     pub fn vanishing_count(&self) -> usize {
         self.vanishing().iter().filter(|&&zero| zero).count()
     }
@@ -73,7 +72,6 @@ impl RelativeEquilibrium {
     }
 
     /// The dimension of the family of equilibria that it lies in; 0 where it is alone.
-    #[must_use]
     pub fn family_dimension(&self, body: &dyn Equivariant) -> usize {
         self.across_family(body).map_or(0, |_| self.vanishing_count())
     }
@@ -82,7 +80,6 @@ impl RelativeEquilibrium {
     /// family: towards `other`, in short steps.
     ///
     /// # Checked by  lab: tests/all/equilibria/families.rs: circles, tori, an ellipse, rotated copies; bifurcations, which are none
-    #[must_use]
     pub fn leads_to(&self, body: &dyn Equivariant, other: &Self) -> bool {
         if self.vanishing_count() == 0 || self.vanishing_count() != other.vanishing_count() {
             return false;
@@ -105,7 +102,6 @@ impl RelativeEquilibrium {
     }
 
     /// As [`RelativeEquilibrium::leads_to`], also by other ways, which begin with some steps in a random direction along the family.
-    #[must_use]
     pub fn is_in_family_of(&self, body: &dyn Equivariant, other: &Self) -> bool {
         let ways = |seed: u64| {
             let begun = self.wandered(body, AROUND * (1 + seed / 2) / (1 + TRIES / 2), &mut SplitMix(seed));

@@ -72,45 +72,38 @@ impl RelativeEquilibrium {
     }
 
     /// The largest real part of an eigenvalue: negative if stable. `-inf` without any eigenvalue.
-    #[must_use]
     pub fn growth(&self) -> f64 {
         self.eigenvalues.first().map_or(f64::NEG_INFINITY, |value| value.0)
     }
 
     /// Bound on the error of [`RelativeEquilibrium::growth`]: a growth rate closer to zero than this has no
     /// sign.
-    #[must_use]
     pub fn growth_error(&self) -> f64 {
         self.errors.first().copied().unwrap_or(0.0)
     }
 
     /// Returns `true` if every perturbation decays, beyond the error of the growth rates.
-    #[must_use]
     pub fn is_stable(&self) -> bool {
         self.growth() < -self.growth_error()
     }
 
     /// Number of directions that grow, beyond the error of their growth rates.
-    #[must_use]
     pub fn growing(&self) -> usize {
         let clear = |(value, error): (&(f64, f64), &f64)| value.0 > *error;
         self.eigenvalues.iter().zip(&self.errors).filter(|&pair| clear(pair)).count()
     }
 
     /// Returns `true` if some direction grows, beyond the error of its growth rate.
-    #[must_use]
     pub fn is_unstable(&self) -> bool {
         self.growing() > 0
     }
 
     /// Speed of the centre of mass.
-    #[must_use]
     pub fn speed(&self) -> f64 {
         libm::hypot(self.velocity[0], self.velocity[1])
     }
 
     /// Distance of `shape` from it, rotations divided out.
-    #[must_use]
     pub fn distance(&self, body: &dyn Equivariant, shape: &[f64]) -> f64 {
         align(body, shape, &self.shape, false).distance
     }

@@ -24,7 +24,6 @@ impl RelativeEquilibrium {
     /// one in other units.
     ///
     /// # Checked by  tests/all/equilibrium.rs: the analytic states of the reduced model, eigenvalues against its formulas
-    #[must_use]
     pub fn find(body: &dyn Equivariant, guess: &[f64]) -> Option<Self> {
         let mut shape = guess.to_vec();
         let rate = body.rates(&shape);
@@ -58,7 +57,6 @@ impl RelativeEquilibrium {
 
     /// The length of the first step of Newton's method from a shape: about the distance of a steady motion, where one is close.
     /// `None` where there is no step.
-    #[must_use]
     pub fn first_step(body: &dyn Equivariant, shape: &[f64]) -> Option<f64> {
         let omega = turning_of_shape(body, shape, &body.rates(shape));
         let (unknowns, target) = equations(body, (shape, omega), Units::of_shape(body, shape).turning());

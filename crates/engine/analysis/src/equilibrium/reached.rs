@@ -17,7 +17,6 @@ impl RelativeEquilibrium {
     /// `shape` is where the orbit is, `size` that of its shapes: distances are small against it, for a circle has no size of its own.
     ///
     /// # Checked by  tests/all/lyapunov.rs: runs that end at circles, straight and circular motion, families; lab's tests/all/naming.rs
-    #[must_use]
     pub fn reached(body: &dyn Equivariant, shape: &[f64], size: f64) -> Option<Self> {
         let found = Self::find(body, shape)?;
         let near = if found.is_stable() { REACHED } else { ON };

@@ -24,7 +24,6 @@ impl Saddle {
     /// the sum.
     ///
     /// Source: Krupa and Melbourne (1995), Ergod. Th. Dynam. Sys. 15, 121.
-    #[must_use]
     pub fn attracts(&self) -> bool {
         self.out > 0.0 && self.out + self.inward < -self.error
     }
@@ -42,7 +41,6 @@ impl RelativeEquilibrium {
     ///
     /// Source: Krupa, Melbourne (1995), Ergod. Theory Dyn. Syst. 15, 121; for 1:2 modes Armbruster, Guckenheimer, Holmes
     /// (1988), Physica D 29, 257.
-    #[must_use]
     pub fn saddle(&self, body: &dyn Equivariant) -> Option<Saddle> {
         let growing = self.growing();
         let pair = growing == 2 && self.eigenvalues[0].1 != 0.0;

@@ -53,7 +53,6 @@ impl RelativeEquilibrium {
 }
 
 /// The sets of unknowns that rotations mix, each as a mask; without rotations every unknown is one.
-#[must_use]
 pub fn modes(body: &dyn Equivariant, dim: usize) -> Vec<Vec<bool>> {
     let mut label: Vec<usize> = (0..dim).collect();
     let (mut unit, mut spin) = (vec![0.0; dim], vec![0.0; dim]);

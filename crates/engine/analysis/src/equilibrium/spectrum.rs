@@ -9,7 +9,6 @@ const MOST: usize = 6;
 
 /// Bound on the errors of the eigenvalues of a decomposition, for a matrix of this dimension with entries up
 /// to `largest`.
-#[must_use]
 pub fn rounding(dim: usize, largest: f64) -> f64 {
     30.0 * EPS * dim as f64 * largest
 }

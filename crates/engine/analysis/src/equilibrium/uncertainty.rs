@@ -92,7 +92,6 @@ impl Uncertainty {
 
 impl RelativeEquilibrium {
     /// Bounds on its distance from the true one.
-    #[must_use]
     pub fn uncertainty(&self, body: &dyn Equivariant) -> Uncertainty {
         Uncertainty::of(body, &self.shape, self.turning_rate, self.neutral > 0)
     }
@@ -100,7 +99,6 @@ impl RelativeEquilibrium {
 
 /// The rounding error of each rate `f - omega Gu`: the largest one at a shape and at some shapes near it. (At a shape whose entries are
 /// short numbers the terms may cancel exactly.)
-#[must_use]
 pub fn round_off(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
     let mut most = rounding_of(body, (shape, omega), &linearisation(body, shape, omega));
     for seed in 0..TRIES {

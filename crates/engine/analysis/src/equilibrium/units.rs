@@ -43,14 +43,12 @@ pub struct Units {
 impl Units {
     /// The units of a field: along rays on which modes decay with the third power of their number, where it has a meaning, the median
     /// of the sizes at which terms balance, and the rate there.
-    #[must_use]
     pub fn of(body: &dyn Equivariant) -> Self {
         Self::among(&[body])
     }
 
     /// The units of several fields that differ in the values of parameters: where a coefficient vanishes at one of them, the others have
     /// it.
-    #[must_use]
     pub fn among(bodies: &[&dyn Equivariant]) -> Self {
         let length = balance(bodies);
         let centre = bodies.first().map_or_else(Vec::new, |body| vec![0.0; body.dim()]);
@@ -58,13 +56,11 @@ impl Units {
     }
 
     /// The same for shapes beside one, with changes of the size `vicinity`.
-    #[must_use]
     pub fn beside(bodies: &[&dyn Equivariant], shape: &[f64], vicinity: f64) -> Self {
         Self { length: prefix(vicinity), rate: prefix(fastest(bodies, shape, vicinity)) }
     }
 
     /// A flow whose absolute tolerance is that of shapes of the unit's size.
-    #[must_use]
     pub fn flow(self, flow: Flow) -> Flow {
         let control = match flow.control {
             StepControl::Adaptive { rtol, atol } => StepControl::Adaptive { rtol, atol: atol * self.length },
@@ -74,7 +70,6 @@ impl Units {
     }
 
     /// The largest speed of the centre of mass of the shapes of the unit's size along those rays.
-    #[must_use]
     pub fn speed(self, body: &dyn Equivariant) -> f64 {
         let speed = |ray: Vec<f64>| {
             let shape: Vec<f64> = ray.iter().map(|w| self.length * w).collect();
@@ -102,7 +97,6 @@ impl Units {
     }
 
     /// The size of a shape, or that of the equations for one that is as good as nothing.
-    #[must_use]
     pub fn size(self, shape: f64) -> f64 {
         if shape > NOTHING * self.length { shape } else { self.length }
     }
@@ -110,7 +104,6 @@ impl Units {
 
 /// The median of the sizes at which terms of some fields balance, along rays on which modes decay with the third power of their number;
 /// 1 where none do.
-#[must_use]
 pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
     let count = |body: &dyn Equivariant| (UNKNOWNS / body.dim().max(1)).max(RAYS);
     let of = |body: &&dyn Equivariant| balances(*body, &rays(*body, count(*body)));
@@ -122,7 +115,6 @@ pub fn balance(bodies: &[&dyn Equivariant]) -> f64 {
 /// The largest of these sizes, also along each of at most 32 coordinates alone; 1 where no terms balance. Equations that do not act on
 /// each other may have sizes of their own, and at the size of one the rates of another exceed it by so much that its terms do not show.
 /// A shape has left every bound only where it is beyond all sizes.
-#[must_use]
 pub fn largest_balance(body: &dyn Equivariant) -> f64 {
     let alone = if body.dim() <= ALONE { body.dim() } else { 0 };
     let axis = |i: usize| (0..body.dim()).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
@@ -136,7 +128,6 @@ pub fn largest_balance(body: &dyn Equivariant) -> f64 {
 ///
 /// Where nothing says that the shape 0 is a particular one, the size of a shape is that of an offset, or of a part that does not act on the
 /// others: distances are not small because they are small against it.
-#[must_use]
 pub fn vicinity(bodies: &[&dyn Equivariant], shape: &[f64]) -> Option<f64> {
     let first = bodies.first().filter(|body| !body.symmetry().rotations && norm(shape) > 0.0)?;
     let mut sizes = vec![Vec::new(); first.dim()];
@@ -156,13 +147,11 @@ pub fn vicinity(bodies: &[&dyn Equivariant], shape: &[f64]) -> Option<f64> {
 }
 
 /// The size that distances from a shape are small against.
-#[must_use]
 pub fn size_beside(body: &dyn Equivariant, shape: &[f64]) -> f64 {
     vicinity(&[body], shape).unwrap_or_else(|| norm(shape))
 }
 
 /// The power of 1000 closest to a number; 1 for what is none.
-#[must_use]
 pub fn prefix(x: f64) -> f64 {
     if x > 0.0 && x.is_finite() { libm::pow(1000.0, (libm::log10(x) / 3.0).round()) } else { 1.0 }
 }

@@ -120,7 +120,6 @@ impl LifeLaws {
     }
 
     /// Both fits, the exponential law first; `None` if there are too few events.
-    #[must_use]
     pub fn fits(&self) -> Option<(&ExponentialLife, &PowerLawLife)> {
         match self {
             Self::PowerLaw { power, exponential, .. }
@@ -132,13 +131,11 @@ impl LifeLaws {
     }
 
     /// The answer in a sentence, with times of the model.
-    #[must_use]
     pub fn words(&self) -> String {
         self.words_in(1.0, "")
     }
 
     /// The answer in a sentence, with times in a unit: its name, and how many of it a time unit of the model is.
-    #[must_use]
     pub fn words_in(&self, factor: f64, unit: &str) -> String {
         let time =
             |time: f64| format!("{:.3e}{}{unit}", factor * time, if unit.is_empty() { "" } else { " " });

@@ -27,14 +27,12 @@ pub struct Goodness {
 
 impl Goodness {
     /// Akaike's criterion, up to a constant that all laws share: `deviance + 2 parameters`.
-    #[must_use]
     pub fn aic(&self) -> f64 {
         self.deviance + 2.0 * self.parameters as f64
     }
 
     /// The probability of a deviance of this size or more if the law holds (chi-square; for at least a few events per value). 1 without
     /// degrees of freedom.
-    #[must_use]
     pub fn probability(&self) -> f64 {
         chi_square_tail(self.deviance, self.values.saturating_sub(self.parameters) as f64)
     }
@@ -100,7 +98,6 @@ impl ExponentialLife {
     }
 
     /// Mean life (model time) at a value of the parameter.
-    #[must_use]
     pub fn life(&self, parameter: f64) -> f64 {
         self.life.value * libm::exp(-self.k.value * (parameter - self.at))
     }
@@ -115,7 +112,6 @@ impl PowerLawLife {
     }
 
     /// Mean life (model time) at a value of the parameter; infinite beyond the crisis.
-    #[must_use]
     pub fn life(&self, parameter: f64) -> f64 {
         let distance = (parameter - self.critical.value) * if self.above { 1.0 } else { -1.0 };
         if distance <= 0.0 {

@@ -21,7 +21,6 @@ impl Lyapunov {
     /// Source: Kaplan, Yorke (1979), Lecture Notes in Mathematics 730, 204; Frederickson et al. (1983), J. Differ. Equ. 49, 185.
     ///
     /// # Checked by  tests/all/lyapunov.rs: the published value of Lorenz-63
-    #[must_use]
     pub fn dimension(&self) -> Option<Estimate> {
         let zeros = self.zeros();
         let exact = |x: &Estimate| if zeros.contains(x) { Estimate { value: 0.0, error: 0.0 } } else { *x };

@@ -29,7 +29,6 @@ pub struct TangentMember<B, F, const N: usize> {
 
 /// Returns `true` if exponents with these settings are computed in lanes: DOP853 with error control, on a
 /// machine that has them.
-#[must_use]
 pub fn runs_in_lanes(settings: &LyapunovSettings) -> bool {
     let Method::Explicit(tableau) = settings.method else { return false };
     has_lanes() && tableau.name == "dop853" && matches!(settings.control, StepControl::Adaptive { .. })

@@ -72,7 +72,6 @@ pub struct Lyapunov {
 
 impl Lyapunov {
     /// The exponents that must be zero, as computed: those closest to zero. A self-check of the run.
-    #[must_use]
     pub fn zeros(&self) -> Vec<Estimate> {
         let mut all = self.exponents.clone();
         sort_by_number(&mut all, |a| a.value.abs());
@@ -81,7 +80,6 @@ impl Lyapunov {
     }
 
     /// The reason why exponents of this run have no error; `None` if all have one.
-    #[must_use]
     pub fn without_error(&self) -> Option<String> {
         if self.exponents.iter().all(Estimate::has_error) {
             return None;
@@ -106,7 +104,6 @@ impl Lyapunov {
     /// `fraction` of its fastest. In a rest at a saddle neighbouring orbits separate at the saddle's rate; the approach, in which
     /// they came together, must be averaged over as well. `None` where less than half of the run, or too little for an error,
     /// remains.
-    #[must_use]
     pub fn moving(&self, fraction: f64) -> Option<Self> {
         let fastest = self.reduced_speeds.iter().copied().fold(0.0, f64::max);
         let moves = |speed: &f64| *speed >= fraction * fastest;
@@ -170,13 +167,11 @@ pub struct SoFar<'r> {
 
 impl SoFar<'_> {
     /// Time averaged over.
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.history.last().map_or(0.0, |last| last.0 - self.begun)
     }
 
     /// The exponents with their errors, as in [`Lyapunov::bounded`]; `None` while there are too few intervals for an error.
-    #[must_use]
     pub fn exponents(&self) -> Option<Vec<Estimate>> {
         let mut all = means(self.history, self.begun, 0.0, self.pace).ok().filter(|all| !all.is_empty())?;
         bounds::bound(&mut all, self.history, self.time());

@@ -12,7 +12,6 @@ pub(crate) const GROWN: f64 = 10.0;
 pub(crate) const SECULAR: f64 = 2.0 * 1.791_759_469_228_055;
 
 /// Growth by less than this over so many runs may be a power of time.
-#[must_use]
 pub fn power_of_time(runs: usize) -> f64 {
     GROWN.max(SECULAR * runs as f64)
 }
@@ -22,7 +21,6 @@ const ERRORS: f64 = 3.0;
 
 /// Returns `true` if an exponent, averaged over `time` in so many runs, is `asked` times as large as a
 /// positive one must be: three times its 95 % error, and growth beyond any power of time.
-#[must_use]
 pub fn separates(exponent: Estimate, time: f64, runs: usize, asked: f64) -> bool {
     let Estimate { value, error } = exponent;
     value > asked * ERRORS * error && value * time >= asked * power_of_time(runs)
@@ -31,7 +29,6 @@ pub fn separates(exponent: Estimate, time: f64, runs: usize, asked: f64) -> bool
 impl Lyapunov {
     /// Returns `true` if its largest exponent is positive beyond its error, and beyond any growth like a
     /// power of time ([`separates`]): chaos, or an unstable motion that the run stays on.
-    #[must_use]
     pub fn separates(&self) -> bool {
         self.exponents.first().is_some_and(|&first| separates(first, self.time, 1, 1.0))
     }

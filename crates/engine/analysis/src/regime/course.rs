@@ -38,7 +38,6 @@ pub struct Direction {
 
 impl Direction {
     /// Of a motion of this turning rate (rad per model time) and this displacement (model length); 0 for none.
-    #[must_use]
     pub fn of(body: &dyn Equivariant, turning: Option<f64>, drift: [f64; 2]) -> Self {
         let symmetry = body.symmetry();
         let heading = (!symmetry.rotations && drift != [0.0; 2]).then(|| libm::atan2(drift[1], drift[0]));
@@ -50,7 +49,6 @@ impl Direction {
 
 impl Course {
     /// Its name in sentences.
-    #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
             Self::Anticlockwise | Self::Clockwise => self.name(),

@@ -38,7 +38,6 @@ motiform_dynamics::named! {
 
 impl Form {
     /// The meaning of the form, as a clause of a verdict.
-    #[must_use]
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::PulsatingAtRest => "the centre of mass rests while the shape repeats",
@@ -58,7 +57,6 @@ impl Form {
     }
 
     /// The regime that it belongs to.
-    #[must_use]
     pub const fn regime(self) -> Regime {
         match self {
             Self::PulsatingAtRest => Regime::Motionless,

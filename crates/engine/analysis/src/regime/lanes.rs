@@ -39,7 +39,6 @@ pub struct Candidate<F, const N: usize> {
 const WAITING: usize = 48;
 
 /// Returns `true` if motions with these settings are classified in lanes.
-#[must_use]
 pub fn classifies_in_lanes(settings: &Settings) -> bool {
     runs_in_lanes(&exponent_settings(settings, 1.0))
 }

@@ -46,7 +46,6 @@ const SAME_TIME: f64 = 1e-3;
 impl Verdict {
     /// The periodic orbit of this motion near `shape`, over its first return, as Newton's method has it;
     /// `None` for a motion that does not repeat.
-    #[must_use]
     pub fn orbit(
         &self,
         body: &dyn Equivariant,

@@ -34,7 +34,6 @@ impl Settings {
     }
 
     /// The same with a tolerance that is tighter by this factor (0 to 1), as far as rounding allows.
-    #[must_use]
     pub fn tighter(&self, factor: f64) -> Self {
         let flow = self.flow().tighter(factor);
         flow.map_or(*self, |flow| Self { control: flow.control, ..*self })

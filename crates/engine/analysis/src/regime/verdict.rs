@@ -44,13 +44,11 @@ motiform_dynamics::named! {
 
 impl Regime {
     /// Its name in sentences, on pages and in figures; [`Self::name`] is that of tables and options.
-    #[must_use]
     pub fn words(self) -> String {
         in_words(self.name())
     }
 
     /// The motion of a body in this regime, in one sentence.
-    #[must_use]
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::Motionless => "A fixed shape at rest: a circle, or a deformed body.",
@@ -207,7 +205,6 @@ impl Verdict {
     }
 
     /// A verdict without evidence beyond `why`.
-    #[must_use]
     pub fn new(regime: Regime, attractor: Attractor, why: String, time: f64) -> Self {
         Self { regime, attractor, why, time, ..Self::default() }
     }

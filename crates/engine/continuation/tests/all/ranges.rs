@@ -4,7 +4,9 @@
 
 use motiform_analysis::periodic::PeriodicGuess;
 use motiform_analysis::{Error, PeriodicOrbit, RelativeEquilibrium, Result};
-use motiform_continuation::{Branch, Degenerate, Family, Family2, Point, Settings, WholeCurve};
+use motiform_continuation::{
+    Branch, Degenerate, End, Family, Family2, Point, Settings, Special, WholeCurve, switch,
+};
 use motiform_dynamics::Equivariant;
 use motiform_models::amplitudes::{Definition, ParameterDefinition, info};
 
@@ -195,4 +197,35 @@ fn a_growing_orbit_has_few_points() {
             (f64::hypot(shape[0], shape[1]) - point.parameter.sqrt()).abs() < 1e-8 * point.parameter.sqrt()
         );
     }
+}
+
+/// Van der Pol's equation at 0 is `x'' = -x`: circles of all sizes, with the period 2 pi. They are a family, not a branch with folds.
+#[test]
+fn circles_of_a_linear_centre_are_one_family() {
+    let family = family("none", "im(z1) + i*(p*(1 - re(z1)^2)*im(z1) - re(z1))");
+    let settings = Settings::over(1.0, -1.0);
+    let guess = PeriodicGuess { shape: &[2.0, 0.0], time: 6.4, angle: 0.0, mirrored: false };
+    let start = PeriodicOrbit::find(family(0.5).unwrap().as_ref(), &guess, &settings.flow, &()).unwrap();
+    let mut branch = Branch::of_orbits(&family, 0.5, &start, &settings, &()).unwrap();
+    let crossing = branch.find(|point| point.special.is_some()).unwrap();
+    assert!(
+        crossing.parameter.abs() < 1e-9 && crossing.special == Some(Special::BranchPoint),
+        "{crossing:?}"
+    );
+    let mut ends = Vec::new();
+    for mut leg in switch(&family, &crossing, &settings, &()).unwrap().into_iter().flatten() {
+        for point in leg.by_ref() {
+            let period = point.motion.orbit().unwrap().period();
+            assert!(
+                (period - std::f64::consts::TAU).abs() < 1e-7 && point.parameter.abs() < 1e-9,
+                "{point:?}"
+            );
+            assert!(point.special.is_none() && point.neutral > 0, "{point:?}");
+        }
+        ends.push(leg.end().unwrap().clone());
+    }
+    assert!(
+        ends.iter().any(|end| matches!(end, End::Family { parameter } if parameter.abs() < 1e-9)),
+        "{ends:?}"
+    );
 }

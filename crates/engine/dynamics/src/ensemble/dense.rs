@@ -57,7 +57,6 @@ impl<B: Bundle, const D: usize> LaneDense<B, D> {
     }
 
     /// The interpolant of one lane.
-    #[must_use]
     pub fn lane(&self, lane: usize) -> LaneDense<f64, D> {
         let one = |from: &[B; D]| {
             let mut to = [0.0; D];

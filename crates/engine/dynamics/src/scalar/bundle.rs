@@ -13,28 +13,24 @@ pub struct Mask(pub u16);
 impl Mask {
     /// Lane `lane` alone.
     #[inline(always)]
-    #[must_use]
     pub fn only(lane: usize) -> Self {
         Self(1 << lane)
     }
 
     /// The first `count` lanes.
     #[inline(always)]
-    #[must_use]
     pub fn first(count: usize) -> Self {
         Self(u16::MAX >> (16 - count))
     }
 
     /// Returns `true` if lane `lane` is set.
     #[inline(always)]
-    #[must_use]
     pub fn has(self, lane: usize) -> bool {
         self.0 >> lane & 1 == 1
     }
 
     /// Returns `true` if any lane is set.
     #[inline(always)]
-    #[must_use]
     pub fn any(self) -> bool {
         self.0 != 0
     }

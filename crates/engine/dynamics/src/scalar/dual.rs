@@ -26,13 +26,11 @@ pub struct Dual<T, const K: usize> {
 impl<T: Scalar, const K: usize> Dual<T, K> {
     /// A constant: `value` with all derivatives zero.
     #[inline(always)]
-    #[must_use]
     pub fn constant_of(value: T) -> Self {
         Self { value, derivative: [value.zero(); K] }
     }
 
     /// The variable number `direction`: derivative one along it, zero along the others.
-    #[must_use]
     pub fn variable(value: T, direction: usize) -> Self {
         let mut out = Self::constant_of(value);
         out.derivative[direction] = value.constant(1.0);

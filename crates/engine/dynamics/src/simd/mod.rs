@@ -61,7 +61,6 @@ pub enum InstructionSet {
 
 impl InstructionSet {
     /// The widest one of this machine.
-    #[must_use]
     pub fn widest() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
@@ -86,7 +85,6 @@ impl InstructionSet {
     }
 
     /// All those of this machine, the narrowest first.
-    #[must_use]
     pub fn available() -> Vec<Self> {
         let widest = Self::widest();
         let elsewhere = |set: &Self| match set {
@@ -153,7 +151,6 @@ pub fn run_wide_on<K: LaneKernel>(set: InstructionSet, kernel: K) -> Option<K::O
 }
 
 /// Returns `true` if this machine has vector registers that lanes are compiled for.
-#[must_use]
 pub fn has_lanes() -> bool {
     InstructionSet::widest() > InstructionSet::Portable
 }

@@ -17,7 +17,6 @@ pub struct PhiValues {
 
 impl PhiValues {
     /// All of them at `z`.
-    #[must_use]
     pub fn at(z: f64) -> Self {
         Self { half: phi(0.5 * z), full: phi(z), weights: etdrk4_weights(z) }
     }
@@ -56,19 +55,16 @@ pub struct ExponentialTableau {
 
 impl ExponentialTableau {
     /// Number of stages (evaluations of `N` per step).
-    #[must_use]
     pub const fn stages(&self) -> usize {
         self.rows.len() + 1
     }
 
     /// Returns `true` if the method can control its step.
-    #[must_use]
     pub const fn is_adaptive(&self) -> bool {
         self.error.is_some()
     }
 
     /// Order of the dense output (cubic Hermite).
-    #[must_use]
     pub const fn dense_order(&self) -> u32 {
         if self.order < 4 { self.order } else { 4 }
     }

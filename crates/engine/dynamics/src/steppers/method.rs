@@ -14,20 +14,17 @@ pub enum Method {
 
 impl Method {
     /// The stepper of this name.
-    #[must_use]
     pub fn find(name: &str) -> Option<Self> {
         find(name).map(Self::Explicit).or_else(|| find_exponential(name).map(Self::Exponential))
     }
 
     /// All names.
-    #[must_use]
     pub fn names() -> Vec<&'static str> {
         let explicit = STEPPERS.iter().map(|tableau| tableau.name);
         explicit.chain(EXPONENTIAL_STEPPERS.iter().map(|tableau| tableau.name)).collect()
     }
 
     /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Explicit(tableau) => tableau.name,
@@ -36,7 +33,6 @@ impl Method {
     }
 
     /// Returns `true` if the method can control its step.
-    #[must_use]
     pub fn is_adaptive(self) -> bool {
         match self {
             Self::Explicit(tableau) => tableau.is_adaptive(),

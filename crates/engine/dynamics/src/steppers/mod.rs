@@ -36,13 +36,11 @@ pub static STEPPERS: [&Tableau; 5] = [&EULER, &HEUN, &RK4, &DOPRI5, &DOP853];
 pub static EXPONENTIAL_STEPPERS: [&ExponentialTableau; 4] = [&IFRK4, &ETDRK4, &HOCHBRUCK4, &KROGSTAD4];
 
 /// The explicit stepper of this name, if there is one.
-#[must_use]
 pub fn find(name: &str) -> Option<&'static Tableau> {
     STEPPERS.into_iter().find(|stepper| stepper.name == name)
 }
 
 /// The exponential stepper of this name, if there is one.
-#[must_use]
 pub fn find_exponential(name: &str) -> Option<&'static ExponentialTableau> {
     EXPONENTIAL_STEPPERS.into_iter().find(|stepper| stepper.name == name)
 }

@@ -19,7 +19,6 @@ const CLOSED: f64 = 16.0;
 const CONTOUR: u32 = 16;
 
 /// `[phi_0, phi_1, phi_2, phi_3]` at `z`.
-#[must_use]
 pub fn phi(z: f64) -> [f64; 4] {
     let exp = libm::exp(z);
     if z.abs() < TAYLOR {
@@ -33,7 +32,6 @@ pub fn phi(z: f64) -> [f64; 4] {
 /// The weights of ETDRK4 at `z`: `[phi1 - 3 phi2 + 4 phi3, phi2 - 2 phi3, 4 phi3 - phi2]`.
 ///
 /// Accurate to 1e-14 relative (beside the zeros at z = -2.7 and 3.0: to 1e-16 absolute).
-#[must_use]
 pub fn etdrk4_weights(z: f64) -> [f64; 3] {
     if z.abs() < TAYLOR {
         // 1/(j+1)! - 3/(j+2)! + 4/(j+3)! = (j+1)^2/(j+3)! and so on

@@ -14,14 +14,12 @@ pub struct Slopes<T> {
 
 impl<T: Scalar> Slopes<T> {
     /// Room for `tableau` on states like `u`.
-    #[must_use]
     pub fn new(tableau: &Tableau, u: &[T]) -> Self {
         let argument: Vec<T> = u.iter().map(|x| x.zero()).collect();
         Self { dim: u.len(), values: argument.repeat(tableau.slopes()), argument }
     }
 
     /// The slope number `stage`.
-    #[must_use]
     pub fn get(&self, stage: usize) -> &[T] {
         &self.values[stage * self.dim..(stage + 1) * self.dim]
     }

@@ -68,14 +68,12 @@ pub struct Dense {
 
 impl Dense {
     /// Cubic Hermite interpolation, for a method of the given order.
-    #[must_use]
     pub const fn hermite(method_order: u32) -> Self {
         let order = if method_order < 4 { method_order } else { 4 };
         Self { order, nodes: &[], rows: &[], weights: &[] }
     }
 
     /// Number of coefficient vectors `F`.
-    #[must_use]
     pub const fn terms(&self) -> usize {
         3 + self.weights.len()
     }
@@ -83,25 +81,21 @@ impl Dense {
 
 impl Tableau {
     /// Number of stages `s` (evaluations per step; the slope at the end is the next step's first stage).
-    #[must_use]
     pub const fn stages(&self) -> usize {
         self.rows.len()
     }
 
     /// Number of slopes a step may hold: the stages, the slope at the end, the extra stages of dense output.
-    #[must_use]
     pub const fn slopes(&self) -> usize {
         self.stages() + 1 + self.dense.rows.len()
     }
 
     /// Returns `true` if the method can control its step.
-    #[must_use]
     pub const fn is_adaptive(&self) -> bool {
         !matches!(self.error, ErrorEstimate::None)
     }
 
     /// Returns `true` if the error estimate needs the slope at the end of the step.
-    #[must_use]
     pub fn error_needs_end(&self) -> bool {
         let end = self.stages();
         let reaches = |weights: &[Term]| weights.iter().any(|&(stage, _)| stage == end);

@@ -44,7 +44,6 @@ const ALWAYS: [&str; 3] = ["gamma", "kappa2", "kappa3"];
 
 /// The equations of a model with these values of its parameters as defaults: its own, or those of the tensor model without the
 /// couplings that are zero. `None` for the cell model, whose equations are not a few polynomials.
-#[must_use]
 pub fn of_model(info: &ModelInfo, values: &[f64]) -> Option<Definition> {
     if let Some(definition) = info.definition() {
         let mut definition = definition.clone();
@@ -57,7 +56,6 @@ pub fn of_model(info: &ModelInfo, values: &[f64]) -> Option<Definition> {
 }
 
 /// The tensor model with these 21 values; with `all` its terms, or without those whose coupling is zero.
-#[must_use]
 pub fn tensor(values: &[f64], all: bool) -> Definition {
     let specs = || TensorParameters::specs().iter().zip(values.iter().copied());
     let kept = |name: &str, value: f64| all || value != 0.0 || ALWAYS.contains(&name);

@@ -92,13 +92,11 @@ pub(super) type Value = [f64; 2];
 
 impl Tape {
     /// The kind of a coefficient.
-    #[must_use]
     pub(super) fn kind(&self, place: Place) -> Kind {
         self.0[place as usize].1
     }
 
     /// The number that a coefficient is, if it was written as one.
-    #[must_use]
     pub(super) fn number(&self, place: Place) -> Option<f64> {
         match self.0[place as usize].0 {
             Operation::Number(number) => Some(number),
@@ -204,7 +202,6 @@ impl Tape {
 
     /// All coefficients for these values of the parameters. What has no value (a division by 0, the root of a
     /// negative number) is not finite.
-    #[must_use]
     pub(super) fn evaluate(&self, parameters: &[f64]) -> Vec<Value> {
         let mut values: Vec<Value> = Vec::with_capacity(self.0.len());
         for &(operation, kind) in &self.0 {

@@ -68,7 +68,6 @@ pub struct ParameterDefinition {
 
 impl ParameterDefinition {
     /// A parameter with nothing but a value.
-    #[must_use]
     pub fn new(name: &str, default: f64) -> Self {
         Self { name: name.to_owned(), default, range: None, symbol: String::new(), text: String::new() }
     }

@@ -104,33 +104,28 @@ impl Equations {
     }
 
     /// The definition that was read.
-    #[must_use]
     pub fn definition(&self) -> &Definition {
         &self.definition
     }
 
     /// The symmetry that its flow has.
-    #[must_use]
     pub fn symmetry(&self) -> Symmetry {
         self.symmetry
     }
 
     /// The terms of an equation with their coefficients (`re, im`) at these values of the parameters.
-    #[must_use]
     pub fn terms(&self, equation: usize, parameters: &[f64]) -> Vec<(Monomial, [f64; 2])> {
         let values = self.tape.evaluate(parameters);
         self.rates[equation].0.iter().map(|(monomial, &place)| (*monomial, values[place as usize])).collect()
     }
 
     /// The velocity's polynomial as `(term, coefficient)`.
-    #[must_use]
     pub fn velocity_terms(&self, parameters: &[f64]) -> Vec<(Monomial, [f64; 2])> {
         let values = self.tape.evaluate(parameters);
         self.velocity.0.iter().map(|(monomial, &place)| (*monomial, values[place as usize])).collect()
     }
 
     /// The term whose coefficient is not finite at these values of the parameters, as text: `z2: z1^2`.
-    #[must_use]
     pub fn undefined(&self, parameters: &[f64]) -> Option<String> {
         let modes = &self.definition.modes;
         let rates = modes.iter().enumerate().map(|(n, mode)| (format!("z{mode}"), self.terms(n, parameters)));

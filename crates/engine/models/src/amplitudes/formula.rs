@@ -43,13 +43,11 @@ impl Formula {
     }
 
     /// Its value; not finite where it has none (a division by 0, the root of a negative number).
-    #[must_use]
     pub fn value(&self, parameters: &[f64]) -> f64 {
         self.tape.evaluate(parameters)[self.place as usize][0]
     }
 
     /// The parameters in it, by their places in the list of names.
-    #[must_use]
     pub fn uses(&self) -> &[usize] {
         &self.uses
     }

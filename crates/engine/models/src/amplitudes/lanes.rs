@@ -17,7 +17,6 @@ pub struct AmplitudesField<P, const N: usize> {
 
 impl Amplitudes {
     /// The field for kernels over other scalars; `None` unless there are `N` unknowns.
-    #[must_use]
     pub fn field<const N: usize>(&self) -> Option<AmplitudesField<f64, N>> {
         let (rates, velocity) = (self.rates.clone(), self.velocity.clone());
         (self.dim() == N).then_some(AmplitudesField { known: self.known, rates, velocity })

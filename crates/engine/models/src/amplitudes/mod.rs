@@ -75,7 +75,6 @@ impl Amplitudes {
     }
 
     /// The equations that were read.
-    #[must_use]
     pub fn equations(&self) -> &'static Equations {
         &self.known.equations
     }

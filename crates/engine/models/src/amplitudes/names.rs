@@ -339,7 +339,6 @@ fn text(equations: &Equations) -> String {
 }
 
 /// The terms of each equation as they were understood: `z1: |z1|^2*z1`, with the coefficient at these values.
-#[must_use]
 pub fn terms(equations: &Equations, parameters: &[f64]) -> Vec<(String, [f64; 2])> {
     let modes = &equations.definition().modes;
     let named = |n: u32, (monomial, value): (Monomial, [f64; 2])| {

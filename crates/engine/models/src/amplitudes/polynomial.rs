@@ -16,7 +16,6 @@ pub struct Monomial(pub [[u8; 2]; MOST_MODES]);
 
 impl Monomial {
     /// The amplitude of this number.
-    #[must_use]
     pub fn amplitude(number: usize) -> Self {
         let mut one = Self::default();
         one.0[number][0] = 1;
@@ -24,13 +23,11 @@ impl Monomial {
     }
 
     /// Number of factors.
-    #[must_use]
     pub fn order(&self) -> u32 {
         self.0.iter().flatten().map(|&power| u32::from(power)).sum()
     }
 
     /// The angular index, by which it turns with the plane: `sum_n n (power of z_n - power of conj(z_n))`.
-    #[must_use]
     pub fn angular_index(&self, modes: &[u32]) -> i64 {
         let terms = modes.iter().zip(&self.0);
         terms.map(|(&n, &[z, conj])| i64::from(n) * (i64::from(z) - i64::from(conj))).sum()
@@ -53,7 +50,6 @@ impl Monomial {
     }
 
     /// As people write it: `|z1|^2 z1`, `conj(z1) z2`; nothing for 1.
-    #[must_use]
     pub fn text(&self, modes: &[u32]) -> String {
         let mut factors = Vec::new();
         for (&n, &[z, conj]) in modes.iter().zip(&self.0) {

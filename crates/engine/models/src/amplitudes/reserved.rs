@@ -116,7 +116,6 @@ const SETTINGS: [&str; 15] = [
 ];
 
 /// The meaning that a name already has; `None` if a parameter can have it.
-#[must_use]
 pub fn meaning(name: &str) -> Option<&'static str> {
     let is = |list: &[&str]| list.contains(&name);
     if is(&RESERVED) {

@@ -30,7 +30,6 @@ const TERMS: [(&str, &str, f64); 22] = [
 
 /// The parameter of (V), (S), (U) that is in the coefficient of a term of (Z1), (Z2), (Z3), such as `z1: conj(z1)*z2`, and the
 /// coefficient of that parameter; `None` for terms without one. Source: paper, the table of coefficients after (Z3).
-#[must_use]
 pub fn tensor_parameter(term: &str) -> Option<(&'static str, f64)> {
     let &(_, name, factor) = TERMS.iter().find(|(known, name, _)| *known == term && !name.is_empty())?;
     Some((name, 1.0 / factor)) // factors are powers of 2: exact
@@ -48,7 +47,6 @@ pub struct TensorForm {
 }
 
 /// The tensor form at these values of the parameters; `None` unless the modes are 1, 2, 3 and the velocity is `conj(z1)`.
-#[must_use]
 pub fn tensor_form(equations: &Equations, parameters: &[f64]) -> Option<TensorForm> {
     let definition = equations.definition();
     if definition.modes != [1, 2, 3] || equations.velocity_mode != Some(0) || equations.sense > 0 {

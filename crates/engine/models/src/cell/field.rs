@@ -30,7 +30,6 @@ pub struct CellField<P> {
 
 impl CellField<f64> {
     /// The field with `modes` modes.
-    #[must_use]
     pub fn new(p: &CellParameters, modes: usize) -> Self {
         let k = p.wavenumber();
         let rate = |n: usize| {
@@ -48,7 +47,6 @@ impl CellField<f64> {
 
 impl<const N: usize> CellField<Lanes<N>> {
     /// One field per lane; all must have the same number of modes.
-    #[must_use]
     pub fn bundle(each: &[CellField<f64>; N]) -> Self {
         let gather =
             |get: &dyn Fn(&CellField<f64>) -> f64| Lanes::from(std::array::from_fn(|lane| get(&each[lane])));
@@ -63,13 +61,11 @@ impl<const N: usize> CellField<Lanes<N>> {
 
 impl<P> CellField<P> {
     /// Number of modes.
-    #[must_use]
     pub fn modes(&self) -> usize {
         self.rates.len()
     }
 
     /// Growth rates `sigma_n` of the modes, `n = 1 ..` (inverse model time).
-    #[must_use]
     pub fn rates(&self) -> &[P] {
         &self.rates
     }

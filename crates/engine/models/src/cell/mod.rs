@@ -97,25 +97,21 @@ impl Cell {
     }
 
     /// Its parameters.
-    #[must_use]
     pub fn parameters(&self) -> &CellParameters {
         &self.parameters
     }
 
     /// Number of modes.
-    #[must_use]
     pub fn modes(&self) -> usize {
         self.field.modes()
     }
 
     /// The shape field, for kernels over other scalars.
-    #[must_use]
     pub fn field(&self) -> &CellField<f64> {
         &self.field
     }
 
     /// `phi(s)` at `points` equally spaced points, the mean included.
-    #[must_use]
     pub fn phi(&self, shape: &[f64], points: usize) -> Vec<f64> {
         let at = |j: usize| {
             let wave = |(i, mode): (usize, &[f64])| {

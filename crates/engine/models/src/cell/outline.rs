@@ -155,7 +155,6 @@ fn centroid(points: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// The first self-intersection of a closed polygon, starting from its first point.
-#[must_use]
 pub fn first_crossing(points: &[[f64; 2]]) -> Option<[f64; 2]> {
     let n = points.len();
     let edge = |i: usize| (points[i], points[(i + 1) % n]);

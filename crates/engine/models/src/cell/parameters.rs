@@ -37,27 +37,23 @@ parameters! {
 
 impl CellParameters {
     /// `k_1 = 2 pi / length`.
-    #[must_use]
     pub fn wavenumber(&self) -> f64 {
         std::f64::consts::TAU / self.length
     }
 
     /// `alpha3` with its part per length.
-    #[must_use]
     pub fn alpha3_total(&self) -> f64 {
         self.alpha3 + self.alpha3_per_length * self.length
     }
 
     /// Fewest modes for this length: the shortest wave has `k = 3`, where the damping `k^6 - k^4 = 648` is far beyond
     /// the largest growth rate, 4/27. (At `k = 4` the spectrum has fallen to about 1e-8 of its top.)
-    #[must_use]
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
     pub fn fewest_modes(&self) -> usize {
         (3.0 / self.wavenumber()).ceil() as usize
     }
 
     /// The names of the state, in file order: `c1, s1, c2, s2, ..` for `modes` modes.
-    #[must_use]
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -25,7 +25,6 @@ pub enum Slaved {
 /// The tensor model's Fourier coefficients for this cell, for `w_n = i^(1-n) phi_n`.
 ///
 /// The amplitudes are modes of the normal angle: `w_1` is not the velocity.
-#[must_use]
 pub fn reduce(p: &CellParameters, slaved: Slaved) -> Coefficients<f64> {
     let mut c = truncated(p);
     let (sigma4, kernel) = (CellField::new(p, 4).rates()[3], Kernel::new(p));
@@ -80,13 +79,11 @@ impl Kernel {
 }
 
 /// `w_n = i^(1-n) phi_n` for the first three modes of a shape: the tensor model's state.
-#[must_use]
 pub fn amplitudes(shape: &[f64]) -> [f64; 6] {
     [shape[0], shape[1], shape[3], -shape[2], -shape[4], -shape[5]]
 }
 
 /// The first three modes of phi for a state of the tensor model: the inverse of [`amplitudes`].
-#[must_use]
 pub fn modes(w: &[f64; 6]) -> [f64; 6] {
     [w[0], w[1], -w[3], w[2], -w[4], -w[5]]
 }

@@ -80,7 +80,6 @@ pub mod terms {
             $(#[doc = concat!("The term of ", stringify!($name), ".")] pub const $term: u32 = 1 << $bit;)*
 
             /// The terms whose coefficients are not zero.
-            #[must_use]
             pub fn of(c: &Coefficients<f64>) -> u32 {
                 let mut terms = 0;
                 $(if c.$name != 0.0 { terms |= $term; })*
@@ -107,7 +106,6 @@ pub mod terms {
     pub const ALL: u32 = (1 << 18) - 1;
 
     /// The smallest of the four sets above that contains all terms of `c`.
-    #[must_use]
     pub fn enclosing(c: &Coefficients<f64>) -> u32 {
         let present = of(c);
         [REDUCED, PAPER, COMMON].into_iter().find(|set| present & !set == 0).unwrap_or(ALL)
@@ -121,7 +119,6 @@ pub struct FourierField<P, const TERMS: u32 = { terms::ALL }>(pub Coefficients<P
 
 impl<P> FourierField<P> {
     /// The field with all terms.
-    #[must_use]
     pub fn all(coefficients: Coefficients<P>) -> Self {
         Self(coefficients)
     }

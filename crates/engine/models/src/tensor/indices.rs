@@ -24,7 +24,6 @@ pub struct Tensors {
 
 impl Tensors {
     /// From the independent components `v1, v2, S11, S12, U111, U222`.
-    #[must_use]
     pub fn from_components([v1, v2, s11, s12, u111, u222]: [f64; 6]) -> Self {
         let mut u = [[[0.0; 2]; 2]; 2];
         for (i, j, k) in triples() {
@@ -39,13 +38,11 @@ impl Tensors {
     }
 
     /// The independent components `v1, v2, S11, S12, U111, U222`.
-    #[must_use]
     pub fn components(&self) -> [f64; 6] {
         [self.v[0], self.v[1], self.s[0][0], self.s[0][1], self.u[0][0][0], self.u[1][1][1]]
     }
 
     /// Largest violation of symmetry and tracelessness: zero for a state, and for its rate of change.
-    #[must_use]
     pub fn defect(&self) -> f64 {
         let mut worst = (self.s[0][1] - self.s[1][0]).abs().max((self.s[0][0] + self.s[1][1]).abs());
         for (i, j, k) in triples() {
@@ -69,7 +66,6 @@ fn delta(i: usize, j: usize) -> f64 {
 }
 
 /// d/dt of (v, S, U): eqs. (V), (S), (U).
-#[must_use]
 pub fn rate(p: &TensorParameters, state: &Tensors) -> Tensors {
     Tensors { v: rate_v(p, state), s: rate_s(p, state), u: rate_u(p, state) }
 }

@@ -82,7 +82,6 @@ macro_rules! with_terms {
 
 impl Tensor {
     /// The model with these parameters.
-    #[must_use]
     pub fn new(parameters: &TensorParameters) -> Self {
         let coefficients = Coefficients::from(parameters);
         let terms = match fourier::terms::enclosing(&coefficients) {
@@ -95,13 +94,11 @@ impl Tensor {
     }
 
     /// The shape field, for kernels over other scalars.
-    #[must_use]
     pub fn field(&self) -> &FourierField<f64> {
         &self.field
     }
 
     /// The list of products that its rates are computed by, if it has terms that the paper's planes do not have.
-    #[must_use]
     pub fn listed(&self) -> Option<&Amplitudes> {
         match &self.terms {
             Terms::Listed(list) => Some(list),

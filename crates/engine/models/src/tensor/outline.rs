@@ -9,19 +9,16 @@ fn modes(shape: &[f64]) -> impl Iterator<Item = Mode> + Clone {
 }
 
 /// `dR(theta) = 2 Re(z2 e^{2 i theta}) + 2 Re(z3 e^{3 i theta})`. `shape` is the Fourier state.
-#[must_use]
 pub fn radius_change(shape: &[f64], theta: f64) -> f64 {
     polar::radius_change(modes(shape), theta)
 }
 
 /// The closed curve of a body of undeformed radius `radius`: see [`polar::outline`].
-#[must_use]
 pub fn outline(shape: &[f64], radius: f64, points: usize) -> Outline {
     polar::outline(&modes(shape), radius, points)
 }
 
 /// `2 |z2| + 2 |z3|`: see [`polar::deformation`].
-#[must_use]
 pub fn deformation(shape: &[f64]) -> f64 {
     polar::deformation(modes(shape))
 }

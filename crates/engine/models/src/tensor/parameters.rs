@@ -39,7 +39,6 @@ parameters! {
 impl TensorParameters {
     /// The paper's full model (Simulations II): gamma = 1, a1 = -1, b1 = -0.5, b2 = 0.3, d1 = 0.1, d2 = 0.8; the plane of
     /// its Fig. 4 is `(kappa2, kappa3)`.
-    #[must_use]
     pub fn full(kappa2: f64, kappa3: f64) -> Self {
         Self { gamma: 1.0, kappa2, kappa3, a1: -1.0, b1: -0.5, b2: 0.3, d1: 0.1, d2: 0.8, ..Self::default() }
     }

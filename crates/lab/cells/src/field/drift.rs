@@ -26,7 +26,6 @@ pub struct CommonDrift {
 
 impl CommonDrift {
     /// `true` if the cells drift together.
-    #[must_use]
     pub fn is_seen(&self) -> bool {
         self.p_value < LEVEL
     }

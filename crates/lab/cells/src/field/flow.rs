@@ -2,7 +2,7 @@
 
 use super::grid::Grid;
 use motiform_dynamics::Normal;
-use motiform_dynamics::sample::{median, sort_by_number};
+use motiform_dynamics::sample::sort_by_number;
 use serde::Serialize;
 
 /// Fewest cells: four numbers of a gradient and two of a mean velocity leave something to tell them from.
@@ -13,6 +13,8 @@ const LEVEL: f64 = 1e-3;
 const TURNS: usize = 1000;
 const SEED: u64 = 1;
 const SHARE: f64 = 0.01;
+/// Steps towards the median of the velocities.
+const STEPS: usize = 30;
 
 /// The change of the velocity of cells with their place: of a flow that shears, a colony that spreads, walls all around, a field of view
 /// that turns or changes its magnification.
@@ -29,7 +31,6 @@ pub struct Flow {
 
 impl Flow {
     /// `true` if velocities differ from place to place.
-    #[must_use]
     pub fn is_seen(&self) -> bool {
         self.p_value < LEVEL
     }
@@ -38,7 +39,7 @@ impl Flow {
     /// not in v_c. With the squares E that are left and T of all, w = sqrt(det E/det T) has the distribution Beta(n - 4, 2) for normal
     /// v_c, and p = (n - 3) w^(n - 4) - (n - 4) w^(n - 3), exact. Cells that come later come from the sides, and go inwards: they do not
     /// count. One fast cell far from slow ones is no flow, which the test of one variance does not know: where velocities less their
-    /// medians, each turned by a random angle, have such a w in 1 % of the draws and more, p is that share.
+    /// median, each turned by a random angle, have such a w in 1 % of the draws and more, p is that share.
     ///
     /// Source: Wilks (1932), Biometrika 24, 471.
     pub(super) fn of(grid: &Grid) -> Option<Self> {
@@ -47,8 +48,9 @@ impl Flow {
         if all.len() < LEAST_CELLS {
             return None;
         }
-        // in an order of their own, so that random turns do not depend on that of the file
-        sort_by_number(&mut all, |cell| cell.0[0]);
+        // in an order of their own: random turns depend neither on that of the file nor on the axes
+        let centre = mean(&all.iter().map(|cell| cell.0).collect::<Vec<_>>());
+        sort_by_number(&mut all, |cell| distance(cell.0, centre));
         let n = all.len() as f64;
         let (places, velocities): (Vec<_>, Vec<_>) = all.into_iter().unzip();
         let (gradient, w) = regression(&places, &velocities);
@@ -72,28 +74,48 @@ fn regression(places: &[[f64; 2]], velocities: &[[f64; 2]]) -> ([[f64; 2]; 2], f
     (gradient, (det(left) / det(whole)).clamp(0.0, 1.0).sqrt())
 }
 
-/// Share of the draws whose w is at most this one, of velocities less their medians, each turned by an angle of its own.
+/// Share of the draws whose w is at most this one, of velocities less their median, each turned by an angle of its own; each draw and its
+/// mirror image.
 fn share_of_turns(places: &[[f64; 2]], velocities: &[[f64; 2]], w: f64) -> f64 {
-    let middle = [0, 1].map(|k| median(velocities.iter().map(|v| v[k])).unwrap_or(0.0));
+    let middle = middle(velocities);
     let mut random = Normal::new(SEED, 0);
-    let as_clear = (0..TURNS).filter(|_| {
-        let turned = velocities.iter().map(|v| {
-            let (s, c) = libm::sincos(std::f64::consts::TAU * random.uniform());
-            let [x, y] = [v[0] - middle[0], v[1] - middle[1]];
-            [c * x - s * y, s * x + c * y]
-        });
-        regression(places, &turned.collect::<Vec<_>>()).1 <= w
-    });
-    as_clear.count() as f64 / TURNS as f64
+    let mut as_clear = 0;
+    for _draw in 0..TURNS / 2 {
+        let turns: Vec<(f64, f64)> =
+            velocities.iter().map(|_| libm::sincos(std::f64::consts::TAU * random.uniform())).collect();
+        for sense in [1.0, -1.0] {
+            let turned = velocities.iter().zip(&turns).map(|(v, (s, c))| {
+                let [x, y] = [v[0] - middle[0], v[1] - middle[1]];
+                [c * x - sense * s * y, sense * s * x + c * y]
+            });
+            as_clear += usize::from(regression(places, &turned.collect::<Vec<_>>()).1 <= w);
+        }
+    }
+    as_clear as f64 / TURNS as f64
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    libm::hypot(a[0] - b[0], a[1] - b[1])
+}
+
+fn mean(all: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|k| all.iter().map(|x| x[k]).sum::<f64>() / all.len() as f64)
+}
+
+/// The median of points in the plane, which turns with them: the point whose mean distance from all is least, by Weiszfeld's steps.
+fn middle(all: &[[f64; 2]]) -> [f64; 2] {
+    let mut middle = mean(all);
+    let size = all.iter().map(|x| distance(*x, middle)).fold(0.0, f64::max);
+    for _step in 0..STEPS {
+        let weights: Vec<f64> = all.iter().map(|x| 1.0 / distance(*x, middle).max(1e-6 * size)).collect();
+        let sum: f64 = weights.iter().sum();
+        middle = [0, 1].map(|k| all.iter().zip(&weights).map(|(x, weight)| weight * x[k]).sum::<f64>() / sum);
+    }
+    middle
 }
 
 /// Sums over cells of the products of deviations from the means.
 fn products(a: &[[f64; 2]], b: &[[f64; 2]]) -> [[f64; 2]; 2] {
-    let mean = |of: &[[f64; 2]], k: usize| of.iter().map(|x| x[k]).sum::<f64>() / of.len() as f64;
-    [0, 1].map(|i| {
-        [0, 1].map(|j| {
-            let (u, v) = (mean(a, i), mean(b, j));
-            a.iter().zip(b).map(|(a, b)| (a[i] - u) * (b[j] - v)).sum()
-        })
-    })
+    let (u, v) = (mean(a), mean(b));
+    [0, 1].map(|i| [0, 1].map(|j| a.iter().zip(b).map(|(a, b)| (a[i] - u[i]) * (b[j] - v[j])).sum()))
 }

@@ -42,7 +42,6 @@ pub struct Jitter {
 
 impl Jitter {
     /// `true` if there is one.
-    #[must_use]
     pub fn is_seen(&self) -> bool {
         self.p_value < LEVEL && self.deviation > 0.0
     }

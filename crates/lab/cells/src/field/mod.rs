@@ -68,7 +68,6 @@ impl FieldOfView {
     /// Their common motion.
     ///
     /// # Checked by  tests/all/field.rs: walkers and rods on a stage of known drift, jumps, jitter and pixels, and without
-    #[must_use]
     pub fn of(tracks: &Tracks, cells: &[CellModes]) -> Self {
         // of masks whose size is known outlines lie on edges and middles of pixels
         let pixel = pixels::pitch(tracks).map(|pitch| tracks.image.map_or(pitch, |image| image.pixel));
@@ -86,20 +85,17 @@ impl FieldOfView {
     }
 
     /// The common velocity, if it is seen and was not subtracted.
-    #[must_use]
     pub fn uncorrected_drift(&self) -> Option<[f64; 2]> {
         let seen = self.drift.filter(CommonDrift::is_seen);
         seen.filter(|_| !self.is_corrected(Correction::Drift)).map(|drift| drift.velocity)
     }
 
     /// `true` if velocities differ from place to place.
-    #[must_use]
     pub fn flows(&self) -> bool {
         self.flow.as_ref().is_some_and(Flow::is_seen)
     }
 
     /// `true` if this was subtracted from the outlines.
-    #[must_use]
     pub fn is_corrected(&self, what: Correction) -> bool {
         self.corrected.contains(&what)
     }

@@ -11,7 +11,6 @@ const MOST_JUMPS: usize = 4;
 
 impl FieldOfView {
     /// The findings, name by name: the same on pages and in text.
-    #[must_use]
     pub fn in_words(&self, units: &Units) -> Vec<(&'static str, String)> {
         let mut rows = Vec::new();
         if let Some(drift) = self.drift {

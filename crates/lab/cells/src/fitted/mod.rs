@@ -72,19 +72,16 @@ pub struct Fitted {
 
 impl Fitted {
     /// The model that describes the cell: handed if real coefficients are rejected.
-    #[must_use]
     pub fn model(&self) -> &Fit {
         if self.rejects_real() { &self.handedness.fit } else { &self.selection.fit }
     }
 
     /// The test of handedness; `None` beside a fit that did not converge, where it decides nothing.
-    #[must_use]
     pub fn handed_test(&self) -> Option<&Handedness> {
         self.selection.fit.converged().then_some(&self.handedness)
     }
 
     /// The outcome of the test, as a clause.
-    #[must_use]
     pub fn handed_test_in_words(&self) -> String {
         self.handed_test().map_or_else(
             || "the fit did not converge".to_owned(),
@@ -100,7 +97,6 @@ impl Fitted {
     /// The combinations that the data determine, and of which coefficients: of all terms, or of a handed model's own, as real coefficients
     /// of all terms are rejected. Where errors do not hold, their texts have those of the fit all the same, which says how well it
     /// determines one beside another.
-    #[must_use]
     pub fn determined(&self) -> (&Identifiability, String) {
         let (known, of) = match self.rejects_real() {
             true => (&self.known, "of the terms of the handed model"),
@@ -111,14 +107,12 @@ impl Fitted {
     }
 
     /// The symmetry of the cell: not decided where the fit is doubtful.
-    #[must_use]
     pub fn symmetry(&self) -> Symmetry {
         if self.doubts.is_empty() { self.handedness.symmetry } else { Symmetry::Undecided }
     }
 
     /// The motion in a word: that of the equations, [`PERSISTENT_WALK`] where noise carries a cell that moves, or
     /// `undecided`.
-    #[must_use]
     pub fn motion_name(&self) -> &'static str {
         if self.is_walk() {
             return PERSISTENT_WALK;
@@ -127,19 +121,16 @@ impl Fitted {
     }
 
     /// The same in words.
-    #[must_use]
     pub fn motion_words(&self) -> String {
         in_words(self.motion_name())
     }
 
     /// `true` if noise carries the displacement ([`FittedRegime::is_carried`]), while the speed exceeds its errors of observation.
-    #[must_use]
     pub fn is_walk(&self) -> bool {
         self.doubts.is_empty() && self.regime.as_ref().is_some_and(FittedRegime::is_carried)
     }
 
     /// The terms that act on the velocity of such a walk, in words: whether its shape takes part.
-    #[must_use]
     pub fn walk_in_words(&self) -> String {
         let pulled = self.model().coefficients.iter().filter(|c| c.term.equation == 0);
         let shape: Vec<&str> = pulled
@@ -157,13 +148,11 @@ impl Fitted {
     }
 
     /// `true` if the cell is handed.
-    #[must_use]
     pub fn is_handed(&self) -> bool {
         self.symmetry() == Symmetry::Handed
     }
 
     /// `true` if the data determine the coefficients of the model.
-    #[must_use]
     pub fn is_identifiable(&self) -> bool {
         self.known.identifiable
     }
@@ -171,7 +160,6 @@ impl Fitted {
     /// Why the intervals of the coefficients are not stated: [`FittedRegime::no_intervals`], a bias by the sampling, a model that is in
     /// doubt, or coefficients that the motion does not determine. Of the last two the motion, which says whether intervals hold, is not
     /// known.
-    #[must_use]
     pub fn no_intervals(&self) -> Option<&'static str> {
         let reason = doubts::no_intervals(self.regime.as_ref(), &self.warnings);
         let doubted = || {
@@ -184,7 +172,6 @@ impl Fitted {
     }
 
     /// Why there is a place on neither plane, where the reasons are the same.
-    #[must_use]
     pub fn no_place(&self) -> Option<&[String]> {
         match &self.places {
             [Placement::Refused { reasons }, Placement::Refused { reasons: others }] if reasons == others => {
@@ -196,13 +183,11 @@ impl Fitted {
 
     /// `true` if the errors of the coefficients hold: a search that did not converge ended at no maximum, and where no interval is stated
     /// an error would be read as one.
-    #[must_use]
     pub fn has_errors(&self) -> bool {
         self.model().converged() && self.no_intervals().is_none()
     }
 
     /// A coefficient over all tied sets.
-    #[must_use]
     pub fn over_sets(&self, name: &str) -> Option<&Averaged> {
         self.averaged.iter().find(|one| one.name == name)
     }

@@ -14,25 +14,21 @@ const CENTRE: usize = 3;
 
 impl Fitted {
     /// The noise of the velocity, with its unit, and its error where there is one.
-    #[must_use]
     pub fn noise_of_velocity(&self, unit: &str) -> String {
         self.in_words(&self.model().noise.eta_v, VELOCITY, &format!(" {unit}"))
     }
 
     /// The noise of the shape, in the same way.
-    #[must_use]
     pub fn noise_of_shape(&self, unit: &str) -> String {
         self.in_words(&self.model().noise.eta_shape, SHAPE, &format!(" {unit}"))
     }
 
     /// The noise of the centre beside that of the contour, in the same way.
-    #[must_use]
     pub fn noise_of_centre(&self, unit: &str) -> String {
         self.in_words(&self.model().noise.centre, CENTRE, &format!(" {unit}"))
     }
 
     /// The factor of the stated errors, in the same way.
-    #[must_use]
     pub fn factor_of_errors(&self) -> String {
         self.in_words(&self.model().noise.s, FACTOR, "")
     }
@@ -43,7 +39,6 @@ impl Fitted {
 
     /// `true` if the errors of the noise hold: those of steady motions do, of which the coefficients have none, and not those of a model
     /// that is in doubt or biased.
-    #[must_use]
     pub fn has_errors_of_noise(&self) -> bool {
         let biased = bias(&self.warnings).is_some() || self.regime.as_ref().is_some_and(|found| found.coarse);
         self.model().converged() && self.doubts.is_empty() && !biased

@@ -68,7 +68,6 @@ pub struct Numbers {
 /// Numbers of a cell from the centroids and polygons of all frames that are seen.
 ///
 /// # Checked by  tests/all/numbers.rs: walkers of known speed, persistence and diffusion; ellipses and rods; gaps, stage jumps, errors
-#[must_use]
 pub fn numbers(cell: &CellTrack) -> Numbers {
     let places = Places::of(&cell.modes);
     let walk = persistent_walk(&places.pieces);
@@ -102,7 +101,6 @@ const DRIFTS: &str = "all cells drift together, which no random walk does; the c
 
 impl Numbers {
     /// That changes of the shape move the centroid, of which speed and persistence are, in a sentence; `None` where they hardly do.
-    #[must_use]
     pub fn remark(&self, length: &str) -> Option<String> {
         let found = self.wobble.filter(Wobble::biases)?;
         Some(format!(

@@ -49,7 +49,6 @@ pub struct PopulationNumbers {
 }
 
 /// Numbers over these cells.
-#[must_use]
 pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
     let rows: Vec<_> = found.iter().map(|one| one.numbers.rows()).collect();
     let refused = together::refused(found);

@@ -32,7 +32,6 @@ impl Row {
     }
 
     /// The reason why there is no value, after the bound that is known; `None` where there is a value.
-    #[must_use]
     pub fn reason(&self, unit: &str) -> Option<String> {
         let reason = self.value.reason()?;
         let bound = match self.bounds {
@@ -46,7 +45,6 @@ impl Row {
 
 impl Numbers {
     /// All numbers, always in the same order.
-    #[must_use]
     pub fn rows(&self) -> Vec<Row> {
         let steps = self.steps.as_ref();
         let no_step = || self.without_steps();
@@ -114,7 +112,6 @@ pub(super) fn without_steps(seen: usize) -> String {
 }
 
 /// Numbers of all cells as a table: the value and the ends of its interval; empty where there is none.
-#[must_use]
 pub fn number_columns(found: &[Observation]) -> Vec<Column> {
     let rows: Vec<Vec<Row>> = found.iter().map(|one| one.numbers.rows()).collect();
     let motion = |one: &Observation| one.motion.regime.map_or("undecided", Regime::name);

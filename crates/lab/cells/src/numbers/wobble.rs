@@ -54,7 +54,6 @@ impl Wobble {
 
     /// `true` if changes of the shape move the centroid so much, and with a memory, that a walk of it is another one than that of the
     /// centre.
-    #[must_use]
     pub fn biases(&self) -> bool {
         self.share > MOST && self.memory > MOST
     }

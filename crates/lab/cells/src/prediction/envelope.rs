@@ -53,7 +53,6 @@ impl Envelope {
     /// Soc. B 25, 294.
     ///
     /// # Checked by  tests/all/prediction.rs; the tests below: p-values of exchangeable curves
-    #[must_use]
     pub fn of(own: &[f64], others: &[&[f64]]) -> Option<Self> {
         let count = others.len() as f64 + 1.0;
         let all = || others.iter().copied().chain([own]);

@@ -18,7 +18,6 @@ pub struct Record {
 impl Record {
     /// The frames of a track at the nearest multiples of its sampling interval; `None` for fewer than 40 frames. Of two frames at one
     /// multiple the first is kept. `modes`: those of the model, as far as they are known.
-    #[must_use]
     pub fn of(track: &Track, modes: usize) -> Option<Self> {
         let dt = track.interval();
         let (first, last) = (track.0.first()?.t, track.0.last()?.t);

@@ -61,7 +61,6 @@ motiform_dynamics::named! {
 
 impl Kind {
     /// The variable that it runs over.
-    #[must_use]
     pub fn axis(self) -> Axis {
         match self {
             Self::Displacement

@@ -75,13 +75,11 @@ impl FitWork {
     }
 
     /// Notes for the user, in sentences, each once: leftovers of killed runs that were removed, files that stay.
-    #[must_use]
     pub fn notes(&self) -> Vec<String> {
         self.files.notes()
     }
 
     /// The summary of a complete result; with `pages` only if these have been drawn.
-    #[must_use]
     pub fn finished(&self, pages: bool) -> Option<Value> {
         let kept = || self.files.names().iter().any(|name| name.starts_with(CELLS));
         if !self.files.is_complete() || (pages && kept()) {
@@ -99,13 +97,11 @@ impl FitWork {
     }
 
     /// Where it is.
-    #[must_use]
     pub fn path(&self) -> &Path {
         self.files.shown()
     }
 
     /// Number of fits that are not done.
-    #[must_use]
     pub fn left(&self) -> usize {
         self.done.iter().filter(|done| done.is_none()).count()
     }

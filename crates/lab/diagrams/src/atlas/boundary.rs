@@ -213,7 +213,6 @@ fn distance(at: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
 }
 
 /// The boundaries of a plane with their bifurcations, the longest first.
-#[must_use]
 pub fn boundaries(plan: &AtlasPlan, grid: &Grid, lines: &[Line]) -> Vec<Boundary> {
     let labels = grid.labels();
     let known = Atlas::of(plan, grid, lines);

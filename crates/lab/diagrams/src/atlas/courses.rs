@@ -5,7 +5,6 @@ use motiform_analysis::{Course, Regime};
 
 /// The motions that have several courses in a plane (along a field and across it, or of both hands), in sentences with the number of
 /// cells of each: regions and boundaries have names of motions alone.
-#[must_use]
 pub fn mixed_courses(grid: &Grid) -> Vec<String> {
     let cells = |regime: Regime, course: Course| {
         let computed = grid.places.iter().filter(|place| place.like.is_none());

@@ -46,7 +46,6 @@ pub struct Grid {
 
 impl Place {
     /// The motions by name, sorted, without those that are undetermined if others are known.
-    #[must_use]
     pub fn label(&self) -> Vec<Regime> {
         let known = self.motions.iter().any(|found| found.regime != Regime::Undetermined);
         let counts =
@@ -55,7 +54,6 @@ impl Place {
     }
 
     /// The motion of this name.
-    #[must_use]
     pub fn motion(&self, regime: Regime) -> Option<&Found> {
         self.motions.iter().find(|found| found.regime == regime)
     }
@@ -68,26 +66,22 @@ pub(crate) fn rank(regime: Regime) -> usize {
 
 impl Grid {
     /// Column and row of a cell.
-    #[must_use]
     pub fn place(&self, cell: usize) -> [usize; 2] {
         [cell % self.size[0], cell / self.size[0]]
     }
 
     /// The cell in a column and row.
-    #[must_use]
     pub fn cell(&self, [column, row]: [usize; 2]) -> usize {
         column + self.size[0] * row
     }
 
     /// Number of cells that were computed.
-    #[must_use]
     pub fn computed(&self) -> usize {
         self.places.iter().filter(|place| place.like.is_none()).count()
     }
 
     /// The motions of each cell. Few initial states miss a motion of a small basin now and then: it counts where most of the cells around
     /// have it beside one that the cell has. (Where they have no motion in common the cell is no part of their region.)
-    #[must_use]
     pub fn labels(&self) -> Vec<Vec<Regime>> {
         let own: Vec<Vec<Regime>> = self.places.iter().map(Place::label).collect();
         let filled = |(cell, label): (usize, &Vec<Regime>)| {

@@ -44,7 +44,6 @@ motiform_dynamics::named! {
 
 impl EndKind {
     /// Its name.
-    #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
             Self::Connection(ConnectionKind::Resonant) => "resonant heteroclinic connection",

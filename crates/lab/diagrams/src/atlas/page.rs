@@ -228,7 +228,6 @@ fn line_table(folder: &AtlasFolder) -> Result<Table, Error> {
 }
 
 /// The reason why there is no line across a boundary, where there is none.
-#[must_use]
 pub fn why_no_line(plan: &AtlasPlan) -> &'static str {
     match plan.computation.lines {
         0 => "No lines were asked for.",

@@ -23,7 +23,6 @@ pub struct Region {
 }
 
 /// The regions of a grid, the largest first.
-#[must_use]
 pub fn regions(plan: &AtlasPlan, grid: &Grid) -> Vec<Region> {
     let (labels, scan) = (grid.labels(), plan.scan());
     let mut seen = vec![false; labels.len()];

@@ -9,7 +9,6 @@ use motiform_analysis::Regime;
 use serde_json::{Map, Value, json};
 
 /// The summary as JSON: `{"regions": [...], "boundaries": [...], "curves": [...], "ends": [...], ...}`.
-#[must_use]
 pub fn atlas_summary(folder: &AtlasFolder) -> Value {
     let AtlasFolder { plan, grid, lines } = folder;
     let c = &plan.computation;
@@ -84,7 +83,6 @@ fn boundary_json(boundary: &Boundary) -> Value {
 }
 
 /// Motions as words: `circular + zigzag`.
-#[must_use]
 pub fn words(motions: &[Regime]) -> String {
     motions.iter().map(|motion| motion.words()).collect::<Vec<_>>().join(" + ")
 }

@@ -8,7 +8,6 @@ use motiform_study::AtlasPlan;
 use motiform_study::quantity::{motion, special};
 
 /// A row per cell and motion.
-#[must_use]
 pub fn cell_columns(plan: &AtlasPlan, grid: &Grid) -> Vec<Column> {
     let scan = plan.scan();
     let rows: Vec<_> = grid
@@ -34,7 +33,6 @@ pub fn cell_columns(plan: &AtlasPlan, grid: &Grid) -> Vec<Column> {
 }
 
 /// A row per point of each curve.
-#[must_use]
 pub fn curve_columns(plan: &AtlasPlan, lines: &[Line]) -> Vec<Column> {
     let curves = lines.iter().flat_map(|line| &line.curves).enumerate();
     let rows: Vec<_> = curves

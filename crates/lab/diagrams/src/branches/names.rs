@@ -24,7 +24,6 @@ pub struct NamedPart {
 impl Followed {
     /// The parts of the branch in its order. A single point with a name of its own is none: the motion of more symmetry at the point
     /// where a branch begins or ends.
-    #[must_use]
     pub fn parts(&self) -> Vec<NamedPart> {
         let samples: Vec<&Sample> = self.samples().collect();
         let runs = samples.chunk_by(|a, b| a.reading.motion == b.reading.motion);
@@ -40,7 +39,6 @@ impl Followed {
     }
 
     /// All points of the motion that most of its points have, as one part.
-    #[must_use]
     pub fn named(&self) -> Option<NamedPart> {
         let samples: Vec<&Sample> = self.samples().collect();
         let regime = most(&samples, |sample| Some(sample.reading.motion), &Regime::ALL)?;

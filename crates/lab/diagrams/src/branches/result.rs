@@ -95,7 +95,6 @@ impl Leg {
 
 impl Followed {
     /// Returns `true` if it came to all its ends.
-    #[must_use]
     pub fn is_whole(&self) -> bool {
         self.legs.iter().all(|leg| leg.end != End::Stopped)
     }
@@ -107,7 +106,6 @@ impl Followed {
 
     /// The largest dimension of the families of motions, each with one value of the parameter, that the branch leads through; 0 where each
     /// of its motions is alone.
-    #[must_use]
     pub fn family(&self) -> usize {
         self.samples().map(|sample| sample.point.family).max().unwrap_or(0)
     }
@@ -125,7 +123,6 @@ impl Followed {
 
 impl Branches {
     /// The point with these numbers: branch, leg and point.
-    #[must_use]
     pub fn at(&self, [branch, leg, point]: [usize; 3]) -> Option<&Sample> {
         self.branches.get(branch)?.legs.get(leg)?.samples.get(point)
     }

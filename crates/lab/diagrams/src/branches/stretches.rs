@@ -8,7 +8,6 @@ use motiform_figures::Stability;
 
 /// Ranges of the parameter over which a branch is stable, in its order, each from the smaller to the larger value. They end at special
 /// points, or where the branch does.
-#[must_use]
 pub fn stretches(found: &Branches, followed: &Followed) -> Vec<[f64; 2]> {
     let samples: Vec<&Sample> = followed.samples().collect();
     let all =
@@ -96,20 +95,17 @@ fn birth(found: &Branches, followed: &Followed) -> Option<f64> {
 }
 
 /// The name of the motion on a stretch between neighbours: a special point itself may have more symmetry.
-#[must_use]
 pub fn motion_between(a: &Sample, b: &Sample) -> Regime {
     let named = if a.point.special.is_none() { a } else { b };
     named.reading.motion
 }
 
 /// Returns `true` if a stretch between neighbours is stable: a special point itself is neither.
-#[must_use]
 pub fn is_stable(a: &Sample, b: &Sample) -> bool {
     nothing_grows(a, b) && !is_neutral(a, b)
 }
 
 /// The stability of a stretch between neighbours, as it is drawn.
-#[must_use]
 pub(crate) fn stability(a: &Sample, b: &Sample) -> Stability {
     match (nothing_grows(a, b), is_neutral(a, b)) {
         (false, _) => Stability::Unstable,
@@ -136,7 +132,6 @@ fn holds(a: &Sample, b: &Sample, at: impl Fn(&Point) -> bool) -> bool {
 
 /// Ranges of the parameter over which nothing grows and a growth rate is 0 within its error, in the order of the branch: stability is not
 /// determined there.
-#[must_use]
 pub fn neutral_stretches(followed: &Followed) -> Vec<[f64; 2]> {
     let samples: Vec<&Sample> = followed.samples().collect();
     let pairs: Vec<[&Sample; 2]> = samples.windows(2).map(|pair| [pair[0], pair[1]]).collect();

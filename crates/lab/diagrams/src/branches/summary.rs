@@ -83,7 +83,6 @@ impl SpecialEntry {
 }
 
 /// The summary as JSON: `{"branches": [{"motion", "origin", "stable", "special", "ends", "end", ...}], ...}`.
-#[must_use]
 pub fn summary(plan: &BranchPlan, found: &Branches) -> Value {
     let c = &plan.computation;
     let entries = found.branches.iter().enumerate();
@@ -132,7 +131,6 @@ fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Follo
 
 impl Leg {
     /// Its end, in words.
-    #[must_use]
     pub fn ending(&self) -> String {
         match (&self.end, self.samples.last()) {
             (End::RangeLeft, Some(last)) => format!("{} at {}", self.end, nine(last.point.parameter)),
@@ -143,7 +141,6 @@ impl Leg {
 
 impl Branches {
     /// The special points of a branch in its order, ends at connections among them.
-    #[must_use]
     pub fn special(&self, number: usize) -> Vec<SpecialEntry> {
         let Some(followed) = self.branches.get(number) else { return Vec::new() };
         let mut all: Vec<Vec<SpecialEntry>> = followed

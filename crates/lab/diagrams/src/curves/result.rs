@@ -85,7 +85,6 @@ impl Curves {
     }
 
     /// Where a curve was begun, across and upwards.
-    #[must_use]
     pub fn start(&self, plan: &CurvePlan, curve: &FollowedCurve) -> Option<[f64; 2]> {
         let first = self.branches.at(curve.start)?.point.parameter;
         Some(PlaneBodies::oriented(plan, [first, plan.fixed_value()]))
@@ -95,7 +94,6 @@ impl Curves {
 impl FollowedCurve {
     /// Returns `true` if it passes through a special point of a branch of this plan. The curve may have been begun on a branch of another
     /// one over the same plane.
-    #[must_use]
     pub fn passes(&self, plan: &CurvePlan, sample: &Sample) -> bool {
         let period = sample.point.special.and_then(|special| period(&sample.point.motion, special));
         let at = PlaneBodies::oriented(plan, [sample.point.parameter, plan.fixed_value()]);

@@ -7,20 +7,17 @@ use motiform_study::CurvePlan;
 use serde_json::{Map, Value, json};
 
 /// The points of codimension two on a curve, in its order.
-#[must_use]
 pub fn codimension_2(curve: &FollowedCurve) -> Vec<(Degenerate, &CurveSample)> {
     curve.samples().filter_map(|sample| Some((sample.degenerate?, sample))).collect()
 }
 
 /// The kinds of points of codimension two that were looked for on a curve and not found.
-#[must_use]
 pub fn not_found(curve: &FollowedCurve) -> Vec<Degenerate> {
     let found = codimension_2(curve);
     curve.sought.iter().copied().filter(|sought| found.iter().all(|entry| entry.0 != *sought)).collect()
 }
 
 /// Why a curve ended, leg by leg.
-#[must_use]
 pub fn curve_ends(plan: &CurvePlan, curve: &FollowedCurve) -> Vec<String> {
     curve.legs.iter().map(|leg| ending(plan, leg)).collect()
 }
@@ -43,7 +40,6 @@ fn ending(plan: &CurvePlan, leg: &CurveLeg) -> String {
 }
 
 /// The summary as JSON: `{"curves": [{"kind", "start", "codimension_2", "not_found", "ends", ...}], "branches": [...], ...}`.
-#[must_use]
 pub fn curve_summary(plan: &CurvePlan, found: &Curves) -> Value {
     let c = &plan.computation;
     let start = &c.branches.start;

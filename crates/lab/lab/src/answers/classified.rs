@@ -29,7 +29,6 @@ pub struct Classified<'a> {
 
 impl<'a> Classified<'a> {
     /// The verdict on the motion of a plan.
-    #[must_use]
     pub fn new(plan: &'a Plan, verdict: &'a Verdict) -> Self {
         let c = &plan.computation;
         Self { about: About::of(plan), seed: c.seed, initial: &c.initial, verdict, plan }

@@ -28,7 +28,6 @@ pub struct OfOrbit<'a> {
 
 impl<'a> OfOrbit<'a> {
     /// The exponents of an orbit.
-    #[must_use]
     pub fn new(found: &'a Lyapunov) -> Self {
         Self {
             exponents: &found.exponents,
@@ -155,7 +154,6 @@ pub struct MeanExponents<'a> {
 
 impl<'a> MeanExponents<'a> {
     /// The exponents of the orbits of a plan that begin at these starts.
-    #[must_use]
     pub fn new(
         plan: &'a Plan,
         found: &'a samples::Exponents,
@@ -176,7 +174,6 @@ impl<'a> MeanExponents<'a> {
     }
 
     /// Returns `true` if all orbits lasted and agree, and the means have errors.
-    #[must_use]
     pub fn is_whole(&self) -> bool {
         self.lasted == self.orbits.len() && self.agree && self.without_error.is_none()
     }

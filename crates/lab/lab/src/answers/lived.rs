@@ -32,7 +32,6 @@ pub struct Lived<'a> {
 
 impl<'a> Lived<'a> {
     /// The lifetimes of the motions of a plan, whose lines are in these units.
-    #[must_use]
     pub fn new(plan: &'a ScanPlan, found: &'a Lifetimes, units: &'a Shown) -> Self {
         Self {
             plan_hash: plan.hash(),

@@ -29,7 +29,6 @@ pub struct Motions<'a> {
 
 impl<'a> Motions<'a> {
     /// The verdicts on the initial states of a plan, in their order.
-    #[must_use]
     pub fn new(
         plan: &'a Plan,
         verdicts: &'a [Verdict],
@@ -55,7 +54,6 @@ impl<'a> Motions<'a> {
     }
 
     /// The shares, and how many escape, in sentences.
-    #[must_use]
     pub fn sentences(&self) -> Vec<String> {
         let escapes = self.escapes.into_iter().flat_map(|escapes| escapes.words(self.samples.len()));
         std::iter::once(self.basins.words()).chain(escapes).collect()

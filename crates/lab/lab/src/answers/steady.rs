@@ -18,7 +18,6 @@ pub struct SteadyMotions<'a> {
 
 impl<'a> SteadyMotions<'a> {
     /// The steady motions found for the parameters of a plan; nothing proves that they are all.
-    #[must_use]
     pub fn new(plan: &'a Plan, equilibria: &'a [Equilibrium]) -> Self {
         let c = &plan.computation;
         Self { model: &c.model, parameters: &c.parameters, equilibria, complete: "not proven" }

@@ -214,7 +214,6 @@ impl<'d> Body<'d> {
 }
 
 /// A round undeformed radius for a body whose largest deformation (as in [`Model::deformation`]) is this.
-#[must_use]
 pub fn radius_for(deformation: f64) -> f64 {
     if deformation < 1e-6 || !deformation.is_finite() { 1.0 } else { round_up(deformation / DEFORMATION) }
 }

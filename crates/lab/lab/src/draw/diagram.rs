@@ -70,7 +70,6 @@ fn phase_diagram_in(plan: &ScanPlan, cells: &[CellSummary], units: &Shown) -> Re
 }
 
 /// A sentence for each axis along which distances mean nothing.
-#[must_use]
 pub fn uneven(diagram: &PhaseDiagram) -> Vec<String> {
     let sides = [(&diagram.x_label, "columns of one width"), (&diagram.y_label, "rows of one height")];
     let uneven = diagram.columns().into_iter().zip(sides).filter(|(uneven, _)| *uneven);
@@ -203,7 +202,6 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary], units: &Sho
 }
 
 /// Notation of a parameter in figures, or of a coordinate of the start.
-#[must_use]
 pub fn symbol(info: &ModelInfo, name: &str) -> String {
     let spec = info.parameters().iter().find(|spec| spec.name == name);
     spec.map_or_else(|| format!("initial {}", coordinate(name)), |spec| spec.symbol.to_owned())
@@ -240,7 +238,6 @@ fn reduced(plan: &ScanPlan) -> Option<Reduced> {
 }
 
 /// The analytic lines over a scan of the reduced tensor model over (kappa2, gamma); none for other models and planes.
-#[must_use]
 pub fn boundary_lines(plan: &ScanPlan) -> Vec<ExpectedLine> {
     let Some(reduced) = reduced(plan) else { return Vec::new() };
     let axes = &plan.computation.axes;

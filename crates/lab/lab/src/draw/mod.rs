@@ -19,7 +19,6 @@ use motiform_figures::{Drawn, Figure, FigureError, Style, png};
 use motiform_study::{Dataset, Error, Plan, Shown, Ties};
 
 /// The error of a figure, as an error of a study.
-#[must_use]
 #[allow(clippy::needless_pass_by_value, reason = "for map_err")]
 pub fn undrawable(error: FigureError) -> Error {
     Error::Figure(error.to_string())

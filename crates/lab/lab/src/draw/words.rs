@@ -24,13 +24,11 @@ pub(super) fn parameters(body: &Body<'_>) -> String {
 
 /// The values of a model that are not 0, and the expressions of those that follow from others, as a sentence; `varied` are those that the
 /// figure shows.
-#[must_use]
 pub fn named(info: &ModelInfo, values: &Named, varied: &[&str], ties: &Ties) -> String {
     named_in(info, values, (varied, ties), &Shown::default())
 }
 
 /// The same for a figure in these units; parameters stay those of the model.
-#[must_use]
 pub fn named_in(info: &ModelInfo, values: &Named, (varied, ties): (&[&str], &Ties), units: &Shown) -> String {
     let specs = info.parameters();
     let value = |name| values.get(name).filter(|&value| value != 0.0).map(number);

@@ -43,7 +43,6 @@ pub struct Flow<'g> {
 
 impl<'g> Flow<'g> {
     /// `given` with these parameters.
-    #[must_use]
     pub fn new(given: &'g dyn Given, parameters: Vec<f64>) -> Self {
         Self { given, parameters, room: Mutex::new(derivative::Room::new(given.dim())) }
     }

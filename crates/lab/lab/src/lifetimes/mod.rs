@@ -190,7 +190,6 @@ impl Lives {
     }
 
     /// Returns `true` if every orbit was followed to its end.
-    #[must_use]
     pub fn is_complete(&self) -> bool {
         self.orbits.iter().all(Option::is_some)
     }
@@ -277,21 +276,18 @@ fn stays<'f>(all: impl Iterator<Item = &'f Followed>) -> Vec<Stay> {
 
 impl Lifetimes {
     /// The shortest and the longest of the times for which orbits were followed: looks may differ from value to value.
-    #[must_use]
     pub fn until(&self) -> [f64; 2] {
         let all = self.values.iter().map(|at| at.until);
         all.fold([f64::INFINITY, 0.0], |[least, most], until| [least.min(until), most.max(until)])
     }
 
     /// [`Self::until`], each time in these words: one of them where both are alike.
-    #[must_use]
     pub fn until_in(&self, words: impl Fn(f64) -> String) -> String {
         let [least, most] = self.until().map(words);
         if least == most { least } else { format!("{least} to {most}") }
     }
 
     /// Remarks that the numbers do not tell by themselves: one line each.
-    #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let sum = |of: fn(&LifeAt) -> usize| self.values.iter().map(of).sum::<usize>();
         // where all starts ended, a longer watch shows nothing else

@@ -35,7 +35,6 @@ pub struct Row<'r> {
 
 impl Row<'_> {
     /// The position of the centre of mass.
-    #[must_use]
     pub fn position(&self) -> [f64; 2] {
         let place = self.state.len() - 2;
         [self.state[place], self.state[place + 1]]
@@ -44,7 +43,6 @@ impl Row<'_> {
 
 impl Record {
     /// An empty record of a model's motion, computed like this, that keeps the last `most` samples.
-    #[must_use]
     pub fn new(model: &dyn Model, computation: &Computation, most: usize) -> Self {
         let (state, read) = (model.dim() + 2, 2 + model.observables().len());
         let (atol, turns) = (computation.control.absolute_tolerance(), turns(model, computation));
@@ -62,13 +60,11 @@ impl Record {
     }
 
     /// Number of samples that are kept.
-    #[must_use]
     pub fn len(&self) -> usize {
         (self.numbers.len() / self.width()).min(self.most)
     }
 
     /// Returns `true` if it is empty.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.numbers.is_empty()
     }
@@ -89,7 +85,6 @@ impl Record {
     }
 
     /// The samples that are kept, from the oldest.
-    #[must_use]
     pub fn rows(&self) -> impl DoubleEndedIterator<Item = Row<'_>> + ExactSizeIterator + Clone {
         let (width, state) = (self.width(), self.state);
         let first = self.numbers.len() - self.len() * width;

@@ -10,7 +10,6 @@ use motiform_study::study::ReturnMapSettings;
 
 /// The maxima of the speed, in order: each is the vertex of the parabola through three samples, so its error is of order
 /// `dt^4`. None if the speed does not vary beyond its errors.
-#[must_use]
 pub fn maxima_of_speed(record: &Record) -> Vec<f64> {
     let speeds: Vec<f64> = record.rows().map(|row| row.read[0]).collect();
     if !record.accuracy().varies(speeds.iter().copied()) {
@@ -27,7 +26,6 @@ pub fn maxima_of_speed(record: &Record) -> Vec<f64> {
 /// The crossings of a horizontal segment by the path, in either direction: `t, x, y, rising`, and the centre of the path, which
 /// is first shifted to the origin if the settings require it. Between samples the path is the cubic with their positions and
 /// velocities, an error of order `dt^4`.
-#[must_use]
 pub fn crossings_of_path(
     record: &Record,
     model: &dyn Model,

@@ -8,7 +8,6 @@ use motiform_study::{Error, Plan};
 use std::time::Duration;
 
 /// The initial state of a plan's body: the shape in the representation of `model` (the plan's model), then x and y.
-#[must_use]
 pub fn start(plan: &Plan, model: &dyn Model) -> Vec<f64> {
     let mut state = plan.computation.initial.values();
     let shape = state.len() - 2;

@@ -21,7 +21,6 @@ pub struct Spectra {
 /// Welch's method over the whole record, sampled every `dt`: about eight half-overlapping segments, of 2048 samples at most.
 ///
 /// # Checked by  live/tests.rs: a body on a circle with a known frequency
-#[must_use]
 pub fn spectra(record: &Record, model: &dyn Model, dt: f64) -> Spectra {
     let samples = record.len();
     if samples < SAMPLES.0 {

@@ -114,19 +114,16 @@ impl<'b> Stretch<'b> {
     }
 
     /// The displayed time.
-    #[must_use]
     pub fn t(&self) -> f64 {
         self.shown
     }
 
     /// The displayed state: the shape in the model's representation, then x and y.
-    #[must_use]
     pub fn state(&self) -> &[f64] {
         &self.state
     }
 
     /// The end of the motion, if it has ended: it does not continue.
-    #[must_use]
     pub fn outcome(&self) -> Option<Outcome> {
         self.outcome
     }

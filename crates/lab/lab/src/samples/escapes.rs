@@ -130,20 +130,17 @@ impl Escapes {
     }
 
     /// All that blew up.
-    #[must_use]
     pub fn escaped(&self) -> usize {
         self.at_once + self.lost
     }
 
     /// Returns `true` if chaos was observed to end: then it is transient, at least for some starts.
-    #[must_use]
     pub fn chaos_ends(&self) -> bool {
         self.lost > 0
     }
 
     /// The number of starts, out of `of`, that blew up, by when, and what follows for the chaos: one line
     /// each.
-    #[must_use]
     pub fn words(&self, of: usize) -> Vec<String> {
         let mut lines = vec![match (self.first, self.median, self.last) {
             (Some(first), Some(median), Some(last)) => format!(

@@ -122,7 +122,6 @@ pub fn lyapunov(
 
 impl Exponents {
     /// The reason why the means have no error; `None` if they have one, or there are none.
-    #[must_use]
     pub fn without_error(&self) -> Option<String> {
         self.orbits.iter().find_map(Lyapunov::without_error)
     }
@@ -183,7 +182,6 @@ pub struct Named {
 
 impl Named {
     /// The motion of a verdict.
-    #[must_use]
     pub fn of(verdict: &Verdict) -> Self {
         Self { regime: verdict.regime.name(), course: verdict.course }
     }
@@ -197,7 +195,6 @@ impl std::fmt::Display for Named {
 }
 
 /// The number of samples that lead to each motion, the most frequent first.
-#[must_use]
 pub fn motions(verdicts: &[Verdict]) -> Vec<(Named, usize)> {
     let mut counts: BTreeMap<_, (Named, usize)> = BTreeMap::new();
     for verdict in verdicts {

@@ -40,7 +40,6 @@ pub struct MotionShare {
 
 impl Basins {
     /// The shares of these verdicts on these samples. A start that was given is not random and is not part of any share.
-    #[must_use]
     pub fn new(samples: &Samples, verdicts: &[Verdict]) -> Self {
         let drawn = &verdicts[usize::from(samples.given).min(verdicts.len())..];
         let share = |(motion, count)| Some(MotionShare { motion, share: Share::new(count, drawn.len())? });
@@ -48,7 +47,6 @@ impl Basins {
     }
 
     /// `of 200 starts of size 0.01 to 1, log-uniform: circular 86 % (80 to 90 %), ...`.
-    #[must_use]
     pub fn words(&self) -> String {
         let shares: Vec<String> = self.shares.iter().map(MotionShare::words).collect();
         format!("of {}: {}", self.starts.sentence(), shares.join(", "))
@@ -57,14 +55,12 @@ impl Basins {
 
 impl Starts {
     /// The random ones of these samples.
-    #[must_use]
     pub fn of(samples: &Samples) -> Self {
         let Samples { count, random, given, .. } = *samples;
         Self { count: count.saturating_sub(usize::from(given)), given, random, words: random.words() }
     }
 
     /// `200 starts of size 0.01 to 1, log-uniform`.
-    #[must_use]
     pub fn sentence(&self) -> String {
         let Self { count, given, words, .. } = self;
         let beside = if *given { ", beside the given one" } else { "" };

@@ -25,25 +25,21 @@ impl ScanFolder {
     }
 
     /// The path of the folder.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// Its provenance.
-    #[must_use]
     pub fn manifest(&self) -> &ScanManifest {
         &self.manifest
     }
 
     /// Its plan.
-    #[must_use]
     pub fn plan(&self) -> &ScanPlan {
         &self.manifest.plan
     }
 
     /// The files of its parts.
-    #[must_use]
     pub fn parts(&self) -> Parts {
         Parts::new(&self.path, self.plan())
     }

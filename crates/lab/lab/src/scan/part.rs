@@ -46,7 +46,6 @@ impl Parts {
     }
 
     /// The file of a part.
-    #[must_use]
     pub fn path(&self, part: usize) -> PathBuf {
         self.folder.join(self.name(part))
     }

@@ -45,7 +45,6 @@ impl Reasons {
     }
 
     /// The most frequent reasons, each with its number of rows, and the rest as one.
-    #[must_use]
     pub fn told(&self) -> Vec<(&str, usize)> {
         let mut all: Vec<(&str, usize)> =
             self.rows.values().map(|(why, rows)| (why.as_str(), *rows)).collect();

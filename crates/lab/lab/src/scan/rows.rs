@@ -52,7 +52,6 @@ pub struct Row {
 
 impl Row {
     /// The row of a verdict.
-    #[must_use]
     pub fn new(cell: usize, sample: usize, verdict: Verdict) -> Self {
         let v = &verdict;
         let lambda = v.exponents.first();
@@ -87,7 +86,6 @@ impl Row {
     }
 
     /// The row of an evaluation: `None` if it was stopped; if the numerics reject the input, the row states this.
-    #[must_use]
     pub fn of_evaluation(
         cell: usize,
         sample: usize,
@@ -101,7 +99,6 @@ impl Row {
     }
 
     /// A number by its name in [`NUMBERS`]; `None` if it is not defined.
-    #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         Some(self.numbers[place(name)?]).filter(|value| !value.is_nan())
     }
@@ -114,7 +111,6 @@ pub(super) fn same_rows(a: &[Row], b: &[Row]) -> bool {
 
 impl Row {
     /// Returns `true` if two rows are the same to the last bit.
-    #[must_use]
     pub fn is_same(&self, other: &Self) -> bool {
         self.numbers.map(f64::to_bits) == other.numbers.map(f64::to_bits)
             && (self.cell, self.sample, self.regime, self.attractor, self.course, &self.why)
@@ -145,7 +141,6 @@ pub(super) fn to_columns(plan: &ScanPlan, rows: &[Row]) -> Vec<Column> {
 }
 
 /// Rows of a plan as the text of a CSV file, with the columns of a part.
-#[must_use]
 pub fn rows_to_csv(plan: &ScanPlan, rows: &[Row]) -> Vec<u8> {
     to_csv(&to_columns(plan, rows))
 }

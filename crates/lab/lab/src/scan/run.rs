@@ -40,19 +40,16 @@ impl Scan {
     }
 
     /// The folder.
-    #[must_use]
     pub fn folder(&self) -> &ScanFolder {
         &self.folder
     }
 
     /// The damaged parts that were found, each with a description; [`Scan::run`] recomputes them.
-    #[must_use]
     pub fn damaged(&self) -> &[String] {
         &self.damaged
     }
 
     /// Number of cells to compute.
-    #[must_use]
     pub fn cells_left(&self) -> usize {
         self.parts_left().map(|part| self.folder.plan().cells_of(part).len()).sum()
     }
@@ -121,7 +118,6 @@ impl Scan {
 
     /// The parts of this scan that are missing or damaged although all of them were written: another process
     /// changed the folder.
-    #[must_use]
     pub fn lost(&self) -> usize {
         let parts = self.folder.parts();
         (0..self.whole.len()).filter(|&part| self.shard.holds(part) && parts.check(part).is_err()).count()
@@ -129,7 +125,6 @@ impl Scan {
 
     /// Remarks for the user, in sentences, each once: leftovers of killed runs that were removed, files that
     /// stay.
-    #[must_use]
     pub fn notes(&self) -> Vec<String> {
         self.files.notes()
     }

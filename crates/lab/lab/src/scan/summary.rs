@@ -96,13 +96,11 @@ pub struct CellSummary {
 
 impl CellSummary {
     /// The summary of the rows of one cell, at least one.
-    #[must_use]
     pub fn of(cell: usize, rows: &[Row]) -> Self {
         Self { cell, rows: rows.len(), motions: motions(rows) }
     }
 
     /// The motions by name with their shares, as diagrams take them: those that turn by their sense, where left and right differ.
-    #[must_use]
     pub fn shares(&self) -> Vec<(String, f64)> {
         self.motions.iter().flat_map(|motion| motion.shares(self.rows)).collect()
     }
@@ -131,7 +129,6 @@ pub(crate) const SENSES: [(Course, Hand); 2] =
     [(Course::Anticlockwise, Hand::Anticlockwise), (Course::Clockwise, Hand::Clockwise)];
 
 /// The mark of a motion of this course.
-#[must_use]
 pub fn motion_mark(regime: Regime, course: Option<Course>) -> RegimeMark {
     let hand = SENSES.into_iter().find(|(sense, _)| Some(*sense) == course).map(|(_, hand)| hand);
     turning_mark(regime.name(), hand)
@@ -150,7 +147,6 @@ impl Motion {
     }
 
     /// The median of a number by its name in [`NUMBERS`]; `None` if it is not defined.
-    #[must_use]
     pub fn median(&self, name: &str) -> Option<f64> {
         Some(self.medians[place(name)?]).filter(|value| !value.is_nan())
     }

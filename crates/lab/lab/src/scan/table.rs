@@ -23,7 +23,6 @@ impl ScanTable {
     pub const MISSING: u8 = u8::MAX;
 
     /// A table for this many rows, none of them computed.
-    #[must_use]
     pub fn empty(rows: usize, whys: bool) -> Self {
         Self {
             regimes: vec![Self::MISSING; rows],
@@ -48,7 +47,6 @@ impl ScanTable {
     }
 
     /// The row in a place, which is that of `cell` and `sample`; `None` if it is not computed, or without evidence.
-    #[must_use]
     pub fn row(&self, place: usize, (cell, sample): (usize, usize)) -> Option<Row> {
         Some(Row {
             cell,
@@ -62,7 +60,6 @@ impl ScanTable {
     }
 
     /// The place of a row in the table of the whole plan.
-    #[must_use]
     pub fn place(plan: &ScanPlan, row: &Row) -> usize {
         row.cell * plan.computation.samples + row.sample
     }

@@ -81,7 +81,6 @@ fn scattered(mut parts: Vec<usize>) -> Vec<usize> {
 
 /// The rows of the first of some cells, in order, on this thread: of one cell, and of further cells while `go_on` returns true. `None`
 /// if the watch stopped it. The same rows as those of the whole scan.
-#[must_use]
 pub fn rows_of(
     plan: &ScanPlan,
     cells: Range<usize>,

@@ -34,7 +34,6 @@ pub struct Measurement {
 /// The names of the first four modes of the shape: pairs of coordinates after the velocity.
 ///
 /// `s11, s12` is `s`; `c2, s2` is `mode2`; `z2_re, z2_im` is `z2`; any other pair is joined: `a_b`.
-#[must_use]
 pub fn mode_names(model: &dyn Model) -> Vec<String> {
     let names: Vec<&str> = model.coordinates()[model.velocities()..].iter().map(|c| c.name).collect();
     names.chunks_exact(2).take(MODES).map(|pair| mode_name(pair[0], pair[1])).collect()

@@ -13,7 +13,6 @@ const OF_ALL: f64 = 2e6;
 /// ten that leaves no more. A run has 2000 samples at least. Longer runs so have more samples, not coarser ones.
 ///
 /// # Units   model time
-#[must_use]
 pub fn samples_apart(own: &RunSettings, t_end: f64, bodies: u64) -> f64 {
     let usual = usual(own);
     let fewest = bodies as f64 * t_end / OF_ALL;
@@ -28,7 +27,6 @@ pub fn samples_apart(own: &RunSettings, t_end: f64, bodies: u64) -> f64 {
 }
 
 /// The sentence for samples that [`samples_apart`] puts farther apart than the subject's own run does.
-#[must_use]
 pub fn coarser_than_own(own: &RunSettings, apart: f64) -> Option<String> {
     let usual = usual(own);
     (apart > usual * (1.0 + 1e-9)).then(|| {

@@ -8,7 +8,6 @@ use motiform_study::{Dimension, Shown};
 use serde_json::{Value, json};
 
 /// Everything that is not a curve, as one JSON object. A number that is not known is `{"reason": ...}`.
-#[must_use]
 pub fn summary(measurement: &Measurement) -> Value {
     let found = &measurement.statistics;
     let times: serde_json::Map<String, Value> = found
@@ -57,7 +56,6 @@ pub fn summary(measurement: &Measurement) -> Value {
 }
 
 /// Label and text of each result in these units, for people.
-#[must_use]
 pub fn sentences(measurement: &Measurement, units: &Shown) -> Vec<(&'static str, String)> {
     let answer = |dimension, found: &Answer| answer_in(units, dimension, found);
     let value = |dimension, found: &Measured| value_in(units, dimension, found);

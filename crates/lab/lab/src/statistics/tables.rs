@@ -13,7 +13,6 @@ pub struct Named {
 }
 
 /// `msd`, `autocorrelations`, `distributions`, `spectra` and `first_passage`. A number that is not known is NaN (null in files).
-#[must_use]
 pub fn tables(found: &Statistics) -> Vec<Named> {
     let named = |name, columns| Named { name, columns };
     vec![

@@ -57,31 +57,26 @@ impl State {
 
 impl Folder {
     /// The path, as given.
-    #[must_use]
     pub fn shown(&self) -> &Path {
         &self.shown
     }
 
     /// The remarks for the user, in sentences; each is returned once.
-    #[must_use]
     pub fn notes(&self) -> Vec<String> {
         std::mem::take(&mut self.state().notes)
     }
 
     /// Returns `true` if the result is complete.
-    #[must_use]
     pub fn is_complete(&self) -> bool {
         self.state().inventory.complete
     }
 
     /// The listed names.
-    #[must_use]
     pub fn names(&self) -> Vec<String> {
         self.state().inventory.files.keys().cloned().collect()
     }
 
     /// The bytes of a file, if it is listed and unchanged.
-    #[must_use]
     pub fn read(&self, name: &str) -> Option<Vec<u8>> {
         let path = self.path.join(name);
         let digests = self.state().inventory.files.get(name)?.clone();

@@ -24,7 +24,6 @@ pub enum Opening {
 
 impl Opening {
     /// That of the options `--resume` and `--force`.
-    #[must_use]
     pub fn of(resume: bool, force: bool) -> Self {
         match (resume, force) {
             (true, _) => Self::Resume,

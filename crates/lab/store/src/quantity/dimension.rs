@@ -39,7 +39,6 @@ impl Dimension {
     pub const MIXED: Self = Self::Mixed;
 
     /// Powers of length and time.
-    #[must_use]
     pub const fn of(length: i8, time: i8) -> Self {
         Self::Powers { length, time, angle: false }
     }
@@ -54,14 +53,12 @@ impl Dimension {
     }
 
     /// The value in these units of length and time of what is 1 in their own; 1 without a common dimension.
-    #[must_use]
     pub fn factor(self, sizes: [f64; 2]) -> f64 {
         let Self::Powers { length, time, .. } = self else { return 1.0 };
         sizes[0].powi(length.into()) * sizes[1].powi(time.into())
     }
 
     /// The unit by these names of length and time (markup): `µm/min`, `1/min`, `rad/min`, `µm^2`; empty where there is none.
-    #[must_use]
     pub fn unit(self, names: [&str; 2]) -> String {
         let Self::Powers { length, time, angle } = self else { return String::new() };
         let part = |sign: i8| {
@@ -79,7 +76,6 @@ impl Dimension {
     }
 
     /// The unit of a model in words: `model length per model time`; empty where there is none.
-    #[must_use]
     pub fn words(self) -> String {
         let unit = self.unit(["model length", "model time"]);
         match unit.strip_prefix("1/") {

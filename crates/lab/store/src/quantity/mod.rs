@@ -33,7 +33,6 @@ pub struct Quantity {
 
 impl Quantity {
     /// The meaning with the unit of a model, unless the sentence has it or refers to the quantity before (`its error`).
-    #[must_use]
     pub fn described(&self) -> Cow<'static, str> {
         let unit = self.dimension.words();
         let known = self.meaning.contains(unit.trim_start_matches("inverse "));
@@ -67,7 +66,6 @@ macro_rules! quantities {
 use quantities;
 
 /// All subjects by name.
-#[must_use]
 pub fn subjects() -> [(&'static str, &'static [&'static Quantity]); 8] {
     [
         ("state", state::ALL),

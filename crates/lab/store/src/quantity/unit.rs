@@ -45,14 +45,12 @@ const UNITS: [Unit; 13] = [
 
 impl Unit {
     /// The unit of a name in any of its spellings; `None` where it is not known.
-    #[must_use]
     pub fn named(name: &str) -> Option<&'static Self> {
         let lower = name.trim().to_lowercase();
         UNITS.iter().find(|unit| unit.name == lower || unit.spellings.contains(&&*lower))
     }
 
     /// One unit in terms of another; `None` where they are not known to measure the same.
-    #[must_use]
     pub fn ratio(one: &str, other: &str) -> Option<f64> {
         if one == other {
             return Some(1.0);
@@ -62,7 +60,6 @@ impl Unit {
     }
 
     /// A name as pages and figures show it: `um` as `µm`; others stay as they are.
-    #[must_use]
     pub fn typeset(name: &str) -> String {
         match name {
             "um" => "µm".to_owned(),

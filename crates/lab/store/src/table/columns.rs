@@ -99,19 +99,16 @@ impl View<'_> {
 
 impl<V> Column<V> {
     /// A column; `meaning` describes it, with its unit.
-    #[must_use]
     pub fn new(name: &str, meaning: impl Into<Cow<'static, str>>, values: V) -> Self {
         Self { name: name.to_owned(), meaning: meaning.into(), values }
     }
 
     /// A column of a quantity, in the units of a model.
-    #[must_use]
     pub fn of(quantity: &Quantity, values: V) -> Self {
         Self::new(quantity.name, quantity.described(), values)
     }
 
     /// A column of a quantity, in the units of the data.
-    #[must_use]
     pub fn of_data(quantity: &Quantity, values: V) -> Self {
         Self::new(quantity.name, quantity.meaning, values)
     }
@@ -123,7 +120,6 @@ pub(crate) fn rows(columns: &[Column<impl Stored>]) -> usize {
 }
 
 /// The columns as CSV: a header line, shortest round-trip numbers, an empty field where a number is undefined.
-#[must_use]
 pub fn to_csv(columns: &[Column<impl Stored>]) -> Vec<u8> {
     let mut text = Vec::new();
     let _ = write_columns(columns, &mut text); // writing into memory does not fail

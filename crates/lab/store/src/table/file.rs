@@ -60,7 +60,6 @@ impl Kind {
 
 impl TableWriter {
     /// A table at `path` with the columns of `empty`, which has no rows.
-    #[must_use]
     pub fn new(empty: Table, format: Format, path: &Path) -> Self {
         Self { path: path.to_owned(), format, table: empty, written: false, file: None }
     }

@@ -14,7 +14,6 @@ pub enum Format {
 
 impl Format {
     /// The format given by the extension of a file name.
-    #[must_use]
     pub fn of_path(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()? {
             "parquet" => Some(Self::Parquet),
@@ -24,7 +23,6 @@ impl Format {
     }
 
     /// The name of the file of a table.
-    #[must_use]
     pub fn file(self, table: &str) -> String {
         let extension = match self {
             Self::Parquet => "parquet",

@@ -43,7 +43,6 @@ pub struct Table {
 
 impl Table {
     /// The columns of these quantities.
-    #[must_use]
     pub fn of(quantities: &[&Quantity], values: Vec<Vec<f64>>) -> Self {
         let columns = quantities.iter().zip(values).map(|(quantity, values)| Column::of(quantity, values));
         Self { columns: columns.collect() }
@@ -55,20 +54,17 @@ impl Table {
     }
 
     /// The values of a column.
-    #[must_use]
     pub fn get(&self, name: &str) -> Option<&[f64]> {
         self.columns.iter().find(|column| column.name == name).map(|column| column.values.as_slice())
     }
 
     /// Number of rows.
-    #[must_use]
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, |column| column.values.len())
     }
 }
 
 /// Equality of bits, so that NaN equals NaN: the meaning of 'the same dataset'.
-#[must_use]
 pub fn same_bits(a: &Table, b: &Table) -> bool {
     let bits = |table: &Table| -> Vec<(String, Vec<u64>)> {
         table

@@ -19,7 +19,6 @@ thread_local! {
 
 /// Returns `true` if this thread is reading a Parquet file: the library panics on some damaged files, which
 /// is caught and becomes an error. A program's panic hook may stay silent meanwhile.
-#[must_use]
 pub fn decoding() -> bool {
     DECODING.get()
 }
@@ -150,7 +149,6 @@ fn numbers(values: Vec<f64>, levels: &[i16]) -> Vec<f64> {
 }
 
 /// An error of this reason.
-#[must_use]
 pub fn wrong(what: &str) -> ParquetError {
     ParquetError::General(what.to_owned())
 }

@@ -74,13 +74,11 @@ fn is_nothing<T: Serialize>(settings: &T) -> bool {
 
 impl<C: Question> Plan<C> {
     /// A plan without settings of figures.
-    #[must_use]
     pub fn of(name: &str, title: &str, computation: C) -> Self {
         Self { name: name.to_owned(), title: title.to_owned(), computation, figure: C::Figure::default() }
     }
 
     /// SHA-256 of the computation as compact JSON, in hexadecimal: equal hashes mean equal numbers.
-    #[must_use]
     pub fn hash(&self) -> String {
         sha256_hex(self.computation.value().to_string().as_bytes())
     }
@@ -104,7 +102,6 @@ impl<C: Question> Plan<C> {
     }
 
     /// Title of its figures: as typed, otherwise that of its question.
-    #[must_use]
     pub fn title(&self) -> String {
         if self.title.is_empty() { self.computation.title(&self.name) } else { self.title.clone() }
     }
@@ -112,7 +109,6 @@ impl<C: Question> Plan<C> {
     /// Folder of the result where none is given: `MODEL-NAME-KIND`, without the name where it is that of the
     /// model; of a run, without
     /// the kind.
-    #[must_use]
     pub fn default_folder(&self) -> String {
         let model = self.computation.model().as_str();
         let name = Some(self.name.as_str()).filter(|name| *name != model);
@@ -123,7 +119,6 @@ impl<C: Question> Plan<C> {
     /// Differences between the computation of this plan, which a folder holds, and that of a requested one:
     /// each key with both values.
     /// Empty where they are the same.
-    #[must_use]
     pub fn differences(&self, requested: &Self) -> String {
         difference::between(
             (self.computation.value(), self.computation.stated()),

@@ -37,7 +37,6 @@ impl<C: Question> Serialize for Provenance<C> {
 
 impl<C: Question> Provenance<C> {
     /// That of a plan computed by this version.
-    #[must_use]
     pub fn new(plan: &Plan<C>, complete: Option<bool>) -> Self {
         Self { motiform: VERSION.to_owned(), plan_hash: plan.hash(), complete, plan: plan.clone() }
     }

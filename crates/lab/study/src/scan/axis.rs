@@ -53,7 +53,6 @@ impl Axis {
     }
 
     /// The text that reads back as this axis ([`Axis::parse`]), every value with all its digits.
-    #[must_use]
     pub fn to_text(&self) -> String {
         let values: Vec<String> = self.values.iter().map(|value| format!("{value:?}")).collect();
         format!("{}={}", self.name, values.join(","))

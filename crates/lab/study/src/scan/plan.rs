@@ -181,39 +181,33 @@ impl ScanPlan {
     }
 
     /// Number of cells.
-    #[must_use]
     pub fn cells(&self) -> usize {
         self.computation.axes.iter().map(|axis| axis.values.len()).product()
     }
 
     /// Number of rows: cells times samples.
-    #[must_use]
     pub fn rows(&self) -> usize {
         self.cells() * self.computation.samples
     }
 
     /// Cells of a part (the last one may have fewer). It depends on the plan alone.
-    #[must_use]
     pub fn cells_per_part(&self) -> usize {
         let (cells, rows, parts) = PART;
         self.cells().div_ceil(parts).min(cells).min(rows / self.computation.samples).max(1)
     }
 
     /// Number of parts.
-    #[must_use]
     pub fn parts(&self) -> usize {
         self.cells().div_ceil(self.cells_per_part())
     }
 
     /// The cells of a part.
-    #[must_use]
     pub fn cells_of(&self, part: usize) -> std::ops::Range<usize> {
         let first = part * self.cells_per_part();
         first..(first + self.cells_per_part()).min(self.cells())
     }
 
     /// The values of the axes in a cell: `cell = i1 + n1 i2`.
-    #[must_use]
     pub fn axis_values(&self, cell: usize) -> Vec<f64> {
         let mut rest = cell;
         let value = |axis: &Axis| {

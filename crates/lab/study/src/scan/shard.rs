@@ -32,7 +32,6 @@ impl Shard {
     }
 
     /// Returns `true` if a part belongs to it.
-    #[must_use]
     pub fn holds(self, part: usize) -> bool {
         part % self.of == self.index
     }

@@ -65,7 +65,6 @@ fn column(values: &[f64], value: f64) -> f64 {
 
 impl PhaseDiagram {
     /// The axes on which the values stand in columns of one width, so that distances along them mean nothing: across and upwards.
-    #[must_use]
     pub fn columns(&self) -> [bool; 2] {
         self.spacings().map(|spacing| spacing.listed().is_some_and(|values| values.len() > 1))
     }

@@ -28,13 +28,11 @@ pub enum Source {
 
 impl Claim {
     /// Returns `true` if it is a check of ours, not a claim of the paper.
-    #[must_use]
     pub fn is_ours(&self) -> bool {
         self.source == Source::Ours
     }
 
     /// The sentences of the paper that it is about; none for a check of ours.
-    #[must_use]
     pub fn sentences(&self) -> &[u16] {
         match &self.source {
             Source::Paper(sentences) => sentences,
@@ -72,7 +70,6 @@ pub enum Verdict {
 
 impl Verdict {
     /// Symbol and word; neither needs a colour.
-    #[must_use]
     pub fn words(&self) -> &'static str {
         match self {
             Self::Holds => "✓ holds",
@@ -83,7 +80,6 @@ impl Verdict {
     }
 
     /// The reason why it does not hold; `None` if it does.
-    #[must_use]
     pub fn explanation(&self) -> Option<&str> {
         match self {
             Self::Holds => None,

@@ -14,7 +14,6 @@ pub struct Definition {
 
 impl Definition {
     /// A word and its meaning.
-    #[must_use]
     pub fn new(word: &str, text: &str) -> Self {
         Self { word: word.to_owned(), text: text.to_owned() }
     }

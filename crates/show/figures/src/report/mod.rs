@@ -60,7 +60,6 @@ pub struct Section {
 impl Section {
     /// The names of the figures, then of the small ones, in the section of this number: those of a paper
     /// `3(b)`, others `3.1`, `3.2`, ...
-    #[must_use]
     pub fn figure_names(&self, number: usize) -> Vec<String> {
         let mut further = 0;
         let mut name = |figure: &ReportFigure| match &figure.of_paper {
@@ -92,7 +91,6 @@ pub struct ReportFigure {
 
 impl ReportFigure {
     /// A drawn figure, with its data.
-    #[must_use]
     pub fn new(drawn: Drawn, caption: impl Into<String>) -> Self {
         Self {
             of_paper: None,
@@ -110,7 +108,6 @@ impl ReportFigure {
     }
 
     /// An animation.
-    #[must_use]
     pub fn film(png: Vec<u8>, caption: impl Into<String>) -> Self {
         Self { of_paper: None, caption: caption.into(), picture: Picture::Png(png), data: None, left: None }
     }
@@ -127,13 +124,11 @@ pub enum Picture {
 
 impl Report {
     /// The claims of the paper, over all sections.
-    #[must_use]
     pub fn counts(&self) -> Counts {
         Counts::of(self.claims().filter(|claim| !claim.is_ours()))
     }
 
     /// The checks of ours, over all sections.
-    #[must_use]
     pub fn checks(&self) -> Counts {
         Counts::of(self.claims().filter(|claim| claim.is_ours()))
     }
@@ -149,13 +144,11 @@ impl Report {
 
     /// Returns `true` if no claim and no check fails. One that differs for a known reason or is not judged is
     /// no failure; a report without claims has none.
-    #[must_use]
     pub fn all_hold(&self) -> bool {
         self.counts().fail + self.checks().fail == 0
     }
 
     /// The page: HTML that refers to nothing outside itself.
-    #[must_use]
     pub fn html(&self) -> String {
         page::html(self)
     }

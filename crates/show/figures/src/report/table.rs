@@ -30,19 +30,16 @@ pub struct Cell {
 
 impl Cell {
     /// Words (markup).
-    #[must_use]
     pub fn text(text: impl Into<String>) -> Self {
         Self { text: text.into(), ..Self::default() }
     }
 
     /// A number, with a power of ten where it has one as `1.5e-7`.
-    #[must_use]
     pub fn number(text: impl Into<String>) -> Self {
         Self { text: powers(&text.into()), number: true, ..Self::default() }
     }
 
     /// A link to another page.
-    #[must_use]
     pub fn link(text: impl Into<String>, page: impl Into<String>) -> Self {
         Self { text: text.into(), link: Some(page.into()), number: false }
     }

@@ -15,7 +15,6 @@ impl Reduced {
     /// Source: Guckenheimer and Holmes (1983), eq. (3.4.11).
     ///
     /// # Checked by  tests/all/reduced.rs: the size of the oscillation in runs beside the line
-    #[must_use]
     pub fn straight_hopf_criticality(&self, s: f64) -> f64 {
         let (a1, b3, b) = (self.a1, self.b3, self.b());
         let m = -self.straight_hopf(s)[0] - 24.0 * b3 * s * s;
@@ -30,7 +29,6 @@ impl Reduced {
     /// point, by bisection. `None` if its sign does not change from above to below 0 there.
     ///
     /// # Checked by  tests/all/reduced.rs: the measured zero
-    #[must_use]
     pub fn bautin(&self) -> Option<[f64; 2]> {
         let ellipse = |kappa2| self.on_line(Line::StraightHopf, kappa2).map(|at| at.0);
         let (mut low, mut high) = (ellipse(-0.2)?, ellipse(-0.005)?);

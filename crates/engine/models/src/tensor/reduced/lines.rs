@@ -35,7 +35,6 @@ const HOMOTOPY: i32 = 64;
 impl Reduced {
     /// `count` points `[kappa2, gamma]` of a line inside or just outside the box of these ranges, in the order of its
     /// parameter; empty where the line does not meet the box.
-    #[must_use]
     pub fn line(&self, line: Line, kappa2: (f64, f64), gamma: (f64, f64), count: usize) -> Vec<[f64; 2]> {
         let (extent, steps) = (kappa2.0.abs().max(kappa2.1.abs()), count.max(2) - 1);
         let part = |i: usize| i as f64 / steps as f64;
@@ -66,20 +65,17 @@ impl Reduced {
     }
 
     /// The point with the ellipse `r2 >= 0` of the line [`Line::EllipseToStraight`].
-    #[must_use]
     pub fn ellipse_to_straight(&self, r2: f64) -> [f64; 2] {
         [-8.0 * self.b3 * r2 * r2, -2.0 * self.a1 * r2]
     }
 
     /// The point with the ellipse `s > 0` of the line [`Line::StraightToCircular`].
-    #[must_use]
     pub fn straight_to_circular(&self, s: f64) -> [f64; 2] {
         let kappa2 = 4.0 * self.a1 * s - 8.0 * self.b3 * s * s;
         [kappa2, 16.0 * self.a1 / self.b1 * s * s + 2.0 * self.a1 * s]
     }
 
     /// The point with the ellipse `-B/2 < s <= 0` of the line [`Line::StraightHopf`].
-    #[must_use]
     pub fn straight_hopf(&self, s: f64) -> [f64; 2] {
         let (b3, b) = (self.b3, self.b());
         let kappa2 = -(8.0 * b3 * s * s * s + 12.0 * b3 * b * s * s) / (s + 0.5 * b);
@@ -90,7 +86,6 @@ impl Reduced {
     ///
     /// With `kappa2 = q rho` the condition `c2 c1 = c0` is linear in rho: `D(q) rho + 48 a1^2 (q - q0) = 0`, D a cubic and q0 the
     /// slope at the origin. The root is followed from there in small steps of rho; where two roots meet, the line turns back.
-    #[must_use]
     pub fn circular_hopf(&self, rho: f64) -> [f64; 2] {
         let (a1, b3, b) = (self.a1, self.b3, self.b());
         let (free, coupling) = (8.0 * a1 / b, 256.0 * a1 * a1 * (a1 + b * b3) / b);
@@ -120,7 +115,6 @@ impl Reduced {
     /// it has no such point, and on [`Line::CircleToEllipse`], along which `kappa2` does not change.
     ///
     /// # Checked by  tests/all/reduced.rs: points of the lines
-    #[must_use]
     pub fn on_line(&self, line: Line, kappa2: f64) -> Option<(f64, f64)> {
         let point = |x: f64| match line {
             Line::EllipseToStraight => self.ellipse_to_straight(x),

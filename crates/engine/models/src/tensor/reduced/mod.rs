@@ -69,7 +69,6 @@ pub struct Expected {
 
 impl Expected {
     /// Returns `true` if a motion of this name is stable or possible.
-    #[must_use]
     pub fn allows(&self, name: &str) -> bool {
         self.stable.iter().chain(&self.possible).any(|motion| motion.name() == name)
     }
@@ -107,7 +106,6 @@ impl Reduced {
 
     /// The couplings of a tensor model that is this one; `None` if another coupling counts, the triangle does not decay, or
     /// the signs are others.
-    #[must_use]
     pub fn of(p: &TensorParameters) -> Option<Self> {
         let others = [p.a2, p.a3, p.a4, p.a5, p.a6, p.b2, p.b4, p.b5, p.b6, p.d1, p.d2, p.d6];
         let alone = others.iter().all(|&value| value == 0.0) && p.kappa3 > 0.0 && p.d3 >= 0.0;
@@ -124,19 +122,16 @@ impl Reduced {
     }
 
     /// Size `r2` of the motionless ellipse, `r2^2 = -kappa2/(8 b3)`; `None` for `kappa2 >= 0`.
-    #[must_use]
     pub fn ellipse(&self, kappa2: f64) -> Option<f64> {
         (kappa2 < 0.0).then(|| (-kappa2 / (8.0 * self.b3)).sqrt())
     }
 
     /// Rates at which a velocity grows and decays on the motionless ellipse, `lambda_pm = gamma +- 2 a1 r2`.
-    #[must_use]
     pub fn saddle_rates(&self, kappa2: f64, gamma: f64) -> Option<[f64; 2]> {
         self.ellipse(kappa2).map(|r2| [gamma + 2.0 * self.a1 * r2, gamma - 2.0 * self.a1 * r2])
     }
 
     /// Straight motions, by increasing `s`.
-    #[must_use]
     pub fn straight(&self, kappa2: f64, gamma: f64) -> Vec<Straight> {
         let (a1, b3, b) = (self.a1, self.b3, self.b());
         let roots = real_roots((kappa2 + 2.0 * a1 * b) / (8.0 * b3), -b * gamma / (8.0 * b3));
@@ -154,7 +149,6 @@ impl Reduced {
     }
 
     /// The circular motion (to the left or to the right); `None` where there is none.
-    #[must_use]
     pub fn circular(&self, kappa2: f64, gamma: f64) -> Option<Circular> {
         let (a1, b3) = (self.a1, self.b3);
         let rho = (2.0 * gamma - kappa2) / (32.0 * a1 / self.b1 + 8.0 * b3);
@@ -190,7 +184,6 @@ impl Reduced {
     /// Motionless, straight and circular motions by their eigenvalues; the rectangular one where the ellipse is a saddle
     /// that attracts as a cycle, `lambda_+ > 0 > lambda_+ + lambda_-`; the quasi-periodic one where the ellipse is a saddle
     /// whose cycle repels and the circular motion has lost its stability: it is what either leaves behind.
-    #[must_use]
     pub fn expected(&self, kappa2: f64, gamma: f64) -> Expected {
         let (mut stable, mut possible) = (Vec::new(), Vec::new());
         let rates = self.saddle_rates(kappa2, gamma);

@@ -32,7 +32,6 @@ pub enum Finding<T> {
 
 impl<T> Finding<T> {
     /// The findings.
-    #[must_use]
     pub fn found(&self) -> Option<&T> {
         match self {
             Self::Found(found) => Some(found),

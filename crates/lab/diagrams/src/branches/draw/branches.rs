@@ -54,7 +54,6 @@ impl Ordinate {
 
     /// Its value at a connection. There the orbit is at its saddle for all but a vanishing part of the time, so that means over time are
     /// those of the saddle. `None` for numbers without a limit, as the period, and where the saddle is not known.
-    #[must_use]
     pub fn at(self, connection: &Connection) -> Option<f64> {
         let saddle = connection.saddle.as_ref()?;
         match self {

@@ -56,7 +56,6 @@ fn of_kind(found: &Curves, kind: CurveKind) -> impl Iterator<Item = &FollowedCur
 }
 
 /// The stretches of a curve over which line style and stability stay the same, as a map of curves has them.
-#[must_use]
 pub fn curve_stretches(curve: &FollowedCurve) -> Vec<MapCurve> {
     let samples: Vec<&CurveSample> = curve.samples().collect();
     let mut all: Vec<MapCurve> = Vec::new();
@@ -87,13 +86,11 @@ fn line(kind: CurveKind, sample: &CurveSample) -> (&'static str, CurveStyle) {
 }
 
 /// The mark of a point of codimension two; none of one that was not located ([`unlocated`] says how many there are).
-#[must_use]
 pub fn curve_mark((kind, sample): (Degenerate, &CurveSample)) -> Option<MapMark> {
     Some(MapMark { label: point_words(kind)?, at: sample.parameters })
 }
 
 /// The words for a point of codimension two; none for one that was not located.
-#[must_use]
 pub fn point_words(kind: Degenerate) -> Option<String> {
     match kind {
         Degenerate::Resonance { order } => Some(format!("1:{order} resonance")),
@@ -103,7 +100,6 @@ pub fn point_words(kind: Degenerate) -> Option<String> {
 }
 
 /// A sentence for the caption about points of codimension two that were not located; nothing without any.
-#[must_use]
 pub fn unlocated<'c>(points: impl Iterator<Item = (Degenerate, &'c CurveSample)>) -> Option<String> {
     match points.filter(|(kind, _)| *kind == Degenerate::Unresolved).count() {
         0 => None,
@@ -113,7 +109,6 @@ pub fn unlocated<'c>(points: impl Iterator<Item = (Degenerate, &'c CurveSample)>
 }
 
 /// Marks at one place, as where curves meet, are one mark with the names of all.
-#[must_use]
 pub fn marks_together(marks: impl Iterator<Item = MapMark>, ranges: [[f64; 2]; 2]) -> Vec<MapMark> {
     let is_near = |a: [f64; 2], b: [f64; 2]| {
         (0..2).all(|k| (a[k] - b[k]).abs() <= SAME_PLACE * (ranges[k][1] - ranges[k][0]))
