@@ -1,6 +1,6 @@
 //! Where and why a branch ends.
 
-use super::brackets::{LEVEL, is_level};
+use super::brackets::LEVEL;
 use super::certificate::TestFunction;
 use super::classes::GAINED;
 use super::copies::same_motion;
@@ -26,6 +26,8 @@ const SAME: f64 = 1e-6;
 
 /// So many points for one value of the parameter from the start on are a family.
 const FAMILY: usize = 100;
+/// Slope of the parameter, in widths of its range, that may be 0: at the start of a branch it is known less well than the parameter.
+const FLAT: f64 = 1e-5;
 
 /// Where a branch ends on a step, and why.
 pub(super) type Limit<L> = Option<(Place<L>, End)>;
@@ -221,8 +223,9 @@ impl<P: Problem> Tracer<'_, P> {
 
     /// Returns `true` if the parameter of orbits has not changed from the start of the branch to this place by more than its error.
     pub(super) fn is_family(&self, at: &Place<P::Local>) -> bool {
-        let error = LEVEL * self.problem.accuracy() * self.settings.width();
-        is_level(&self.problem, at) && (at.parameter() - self.first.parameter).abs() <= error
+        let width = self.settings.width();
+        let stays = (at.parameter() - self.first.parameter).abs() <= LEVEL * self.problem.accuracy() * width;
+        stays && at.slope().abs() < FLAT * width && self.problem.time().is_some()
     }
 
     /// Ends a branch of orbits that ends at the present place.

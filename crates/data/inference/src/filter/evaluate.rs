@@ -10,7 +10,7 @@ use motiform_dynamics::simd::{self, LaneKernel, run_lanes};
 use motiform_dynamics::{Bundle, Complex};
 use nalgebra::{DMatrix, DVector};
 
-/// Fastest rate (largest row sum of the Jacobian) times the interval between frames that is far too much (from 2 on coefficients are biased).
+/// Largest row sum of the Jacobian times the interval between frames that is far too much (from 2 on coefficients are biased).
 const TOO_FAST: f64 = 12.0;
 
 /// The quantities that an evaluation computes.
