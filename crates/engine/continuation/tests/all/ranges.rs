@@ -223,7 +223,7 @@ fn circles_of_a_linear_centre_are_one_family() {
             match point.special {
                 None => assert!(point.neutral > 0, "{point:?}"),
                 Some(special) => {
-                    assert!(special == Special::BranchPoint && point.arclength <= 0.0, "{point:?}")
+                    assert!(special == Special::BranchPoint && point.arclength <= 0.0, "{point:?}");
                 }
             }
         }
