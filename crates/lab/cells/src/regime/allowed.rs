@@ -12,7 +12,7 @@ use motiform_study::RunPlan;
 /// Sets of terms with less weight than this, relative to the best, have no draws.
 const LEAST_WEIGHT: f64 = 0.05;
 /// Most steps of the integration for one model: some draws are so stiff that their motion would take minutes. They count as undetermined.
-const MOST_STEPS: u64 = 1_000_000;
+const MOST_STEPS: u64 = 200_000;
 /// Most sets of terms that have draws.
 const MOST_SETS: usize = 20;
 
