@@ -187,7 +187,7 @@ fn number(value: f64) -> Number {
 pub(super) const LEVEL: f64 = 10.0;
 
 /// Returns `true` if the parameter of orbits hardly changes at a place: the sign of the slope there may be that of round-off.
-pub(super) fn is_level<P: Problem>(problem: &P, place: &Place<P::Local>) -> bool {
+fn is_level<P: Problem>(problem: &P, place: &Place<P::Local>) -> bool {
     let width = problem.weights(&place.x).last().map_or(f64::NAN, |weight| 1.0 / weight.sqrt());
     problem.time().is_some() && place.slope().abs() < LEVEL * problem.accuracy() * width
 }

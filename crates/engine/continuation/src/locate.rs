@@ -1,7 +1,7 @@
 //! Special points between two points of a branch.
 
 use super::between::{Step, between};
-use super::brackets::{BESIDE, Bracket, Test, brackets, is_level};
+use super::brackets::{BESIDE, Bracket, Test, brackets};
 use super::branch_point::blurred;
 use super::certificate::{Certificate, Passing, TestFunction};
 use super::correct::TIGHT;
@@ -13,7 +13,6 @@ use super::place::Place;
 use super::problem::{Failure, Problem};
 use super::special::Special;
 use super::touch::touching;
-use super::tracer::neutral;
 use super::zero::solve;
 use motiform_dynamics::sample::sort_by_number;
 
@@ -85,12 +84,6 @@ fn add<P: Problem>(
         nearly_crosses(step, &at, bracket.test).then(|| at_crossing(step, (&at, bracket.test))).flatten();
     let at = crossing.unwrap_or(at);
     let special = kind(step, &at, bracket.test);
-    // where orbits form a family for one value of the parameter a level is 0 all along, and the slope that of round-off
-    let on_family = |end: &&Place<P::Local>| neutral(problem, end) > 0 && is_level(problem, end);
-    let family = [step.old, step.new].iter().all(on_family);
-    if family && special == Special::Fold {
-        return Ok(());
-    }
     let crosses = special == Special::BranchPoint && !is_alone(step, &at);
     let better = if crosses { solved(step, &at) } else { None };
     let blur = match &better {
