@@ -4,7 +4,6 @@ use super::correct::{TIGHT, correct, normal, product, scaled};
 use super::place::{Before, Place, place};
 use super::point::Obstruction;
 use super::problem::{Failure, Problem};
-use motiform_analysis::linear::norm;
 use motiform_dynamics::Watch;
 
 /// Part of a step that solutions keep from a place where the equations are singular: what the branch bends on it is below [`TIGHT`].
@@ -69,7 +68,7 @@ fn middle<P: Problem>(step: &Step<'_, P>, (s, apart): (f64, f64)) -> Result<Plac
     let tangent = scaled(mean(&low.tangent, &high.tangent), &problem.weights(&x)).ok_or_else(broken)?;
     let local = problem.local(&x, step.watch)?;
     // over a gap between two branches it is no solution
-    if norm(&problem.linear(&local).residual) > UNSOLVED * problem.accuracy().max(TIGHT) {
+    if problem.residual(&x, &local) > UNSOLVED * problem.accuracy().max(TIGHT) {
         return Err(broken());
     }
     let levels = problem.levels(&x, &local).ok_or_else(broken)?;

@@ -82,6 +82,9 @@ impl<P: Problem> Tracer<'_, P> {
         if self.count < 3 || !along || sides[0] * sides[1] > 0.0 || sides[0] == 0.0 {
             return Ok(None);
         }
+        if self.is_family(new) {
+            return Ok(None); // the sides are those of round-off
+        }
         let at = self.edge(new, first.parameter)?;
         let motion = self.problem.motion(&at.x, &at.local, &at.levels);
         let body = self.problem.body(&at.local);

@@ -348,7 +348,7 @@ impl Equilibria<'_> {
             let guess = x.iter().zip(&direction).map(|(x, d)| x + distance * longer * d).collect();
             let Ok(mut found) = correct(&free, guess, &row, TIGHT, &()) else { return false };
             found.x[last] = x[last];
-            let residual = free.local(&found.x, &()).map(|local| norm(&local.linear.residual));
+            let residual = free.local(&found.x, &()).map(|local| free.residual(&found.x, &local));
             residual.is_ok_and(|residual| residual < SOLVED * self.accuracy())
         })
     }

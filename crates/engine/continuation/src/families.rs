@@ -4,7 +4,7 @@ use super::correct::{Corrected, TIGHT, correct, normal, product, scaled, seen, u
 use super::levels::{CLEAR, zeros};
 use super::problem::{Border, Problem};
 use super::tracer::Tracer;
-use motiform_analysis::linear::{add, norm};
+use motiform_analysis::linear::add;
 use motiform_analysis::singular::svd;
 use motiform_dynamics::sample::sort_by_number;
 
@@ -121,7 +121,7 @@ fn walks<P: Problem>(problem: &P, x: &[f64], direction: &[f64], step: f64) -> bo
 
 /// Returns `true` if the equations hold: those with a border may be solved where they do not.
 fn is_solved<P: Problem>(problem: &P, found: &Corrected<P::Local>) -> bool {
-    let residual = problem.local(&found.x, &()).map(|local| norm(&problem.linear(&local).residual));
+    let residual = problem.local(&found.x, &()).map(|local| problem.residual(&found.x, &local));
     residual.is_ok_and(|residual| residual < SOLVED * problem.accuracy().max(TIGHT))
 }
 
@@ -132,7 +132,7 @@ pub(super) fn border_at_start<P: Problem>(problem: &mut P, x: &[f64]) {
 
 /// Returns `true` if the equations held before the last step of Newton's method, up to that step.
 pub(super) fn holds<P: Problem>(problem: &P, found: &Corrected<P::Local>, tolerance: f64) -> bool {
-    problem.family().is_empty() || norm(&problem.linear(&found.local).residual) < SOLVED * tolerance
+    problem.family().is_empty() || problem.residual(&found.x, &found.local) < SOLVED * tolerance
 }
 
 impl<P: Problem> Tracer<'_, P> {

@@ -27,6 +27,7 @@ mod branch;
 mod branch_point;
 mod certificate;
 mod classes;
+mod coefficient;
 mod copies;
 mod correct;
 mod critical;

@@ -4,10 +4,10 @@ use super::between::{Step, between};
 use super::brackets::{BESIDE, Bracket, Test, brackets};
 use super::branch_point::blurred;
 use super::certificate::{Certificate, Passing, TestFunction};
+use super::coefficient::leading_coefficient;
 use super::correct::TIGHT;
 use super::crossings::{at_crossing, crosses, is_alone, keep_course, nearly_crosses, solved};
 use super::levels::Level;
-use super::normal_form::{NormalForm, asked};
 use super::one_point::is_known;
 use super::place::Place;
 use super::problem::{Failure, Problem};
@@ -95,8 +95,10 @@ fn add<P: Problem>(
     if crosses {
         keep_course(step, (bracket.test, &mut at));
     }
-    let certificate = certified(step, (bracket.test, blur), &at)
-        .map(|certificate| Certificate { normal_form: normal_form(problem, &at.x, special), ..certificate });
+    let certificate = certified(step, (bracket.test, blur), &at).map(|found| Certificate {
+        normal_form: leading_coefficient(step, &at, special, found.error),
+        ..found
+    });
     let at = Place { certificate, ..at };
     if !is_known(step, &changes.found, (&at, bracket.test), special) {
         changes.found.push((at, special));
@@ -155,11 +157,6 @@ fn certified<P: Problem>(
         found + problem.accuracy() * at.x[place]
     });
     Some(Certificate { error, time_error, ..found })
-}
-
-/// The leading coefficient of the normal form at a special point.
-fn normal_form<P: Problem>(problem: &P, x: &[f64], special: Special) -> Option<NormalForm> {
-    asked(special).map(|(order, doubled)| problem.normal_form(x, order, doubled))
 }
 
 /// At a fold a level vanishes as well: each fold of a step takes the nearest vanishing level that seems to be a branch point, unless

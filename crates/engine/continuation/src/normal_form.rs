@@ -82,6 +82,18 @@ impl NormalForm {
     }
 }
 
+impl NormalForm {
+    /// The same coefficient with a larger error.
+    pub(super) fn widened(self, by: f64) -> Self {
+        let wider = |found: Coefficient| Coefficient { error: found.error + by, ..found };
+        match self {
+            Self::Coefficient(found) => Self::Coefficient(wider(found)),
+            Self::Cubic(found) => Self::Cubic(wider(found)),
+            Self::Undetermined(_) => self,
+        }
+    }
+}
+
 impl From<Result<Coefficient, Undetermined>> for NormalForm {
     fn from(found: Result<Coefficient, Undetermined>) -> Self {
         found.map_or_else(Self::Undetermined, Self::Coefficient)

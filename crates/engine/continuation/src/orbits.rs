@@ -114,6 +114,11 @@ impl Orbits<'_> {
         if self.offset > 1.0 { spread(nodes()).1 } else { nodes().map(norm).fold(0.0, f64::max) }
     }
 
+    /// The unit of the shapes.
+    fn unit(&self, x: &[f64]) -> f64 {
+        self.size.max(GROWN * self.extent(x))
+    }
+
     pub(super) fn node<'x>(&self, x: &'x [f64], i: usize) -> &'x [f64] {
         &x[i * self.dim..(i + 1) * self.dim]
     }
@@ -278,7 +283,7 @@ impl Equations for Orbits<'_> {
 
     fn weights(&self, x: &[f64]) -> Vec<f64> {
         let nodes = self.parts * self.dim;
-        let size = self.size.max(GROWN * self.extent(x));
+        let size = self.unit(x);
         let mut weights = vec![1.0 / (self.parts as f64 * size * size); nodes];
         weights.push(1.0 / (x[nodes] * x[nodes]));
         if self.turns {
@@ -286,6 +291,10 @@ impl Equations for Orbits<'_> {
         }
         weights.extend(self.widths.iter().map(|width| 1.0 / (width * width)));
         weights
+    }
+
+    fn residual(&self, x: &[f64], local: &Local) -> f64 {
+        norm(&local.linear.residual) / self.unit(x)
     }
 
     fn resolution(&self) -> f64 {

@@ -8,6 +8,7 @@ use super::passages::Passages;
 use super::point::{Motion, Obstruction};
 use super::special::{Broken, Special};
 use motiform_analysis::Error;
+use motiform_analysis::linear::norm;
 use motiform_dynamics::{Equivariant, Watch};
 use nalgebra::DMatrix;
 
@@ -61,6 +62,11 @@ pub(super) trait Equations {
 
     /// The unknowns' units, squared and inverted: `|dx|^2 = sum_i weight_i dx_i^2`.
     fn weights(&self, x: &[f64]) -> Vec<f64>;
+
+    /// The size of the residual at a place, in the units of the unknowns.
+    fn residual(&self, _x: &[f64], local: &Self::Local) -> f64 {
+        norm(&self.linear(local).residual)
+    }
 
     /// The size of steps that round-off of the equations leaves where these are regular, in the units of the unknowns.
     fn resolution(&self) -> f64 {

@@ -240,7 +240,9 @@ impl<'f, P: Problem> Tracer<'f, P> {
         };
         changes.found.retain(|(at, special)| self.is_within(at) && !self.has_touched(at, *special, length));
         if self.is_family(&self.place) && self.is_family(&new) {
-            changes.found.retain(|(_, special)| *special != Special::Fold); // the slope is that of round-off
+            // the slope is that of round-off: it shows no fold, and no crossing that the step does not pass
+            let passed = self.place.arclength..=new.arclength;
+            changes.found.retain(|(at, special)| *special != Special::Fold && passed.contains(&at.arclength));
             changes.missed.retain(|seen| *seen != Special::Fold.name());
         }
         if let Some(again) = changes.found.iter().position(|(at, special)| self.has_passed(at, *special)) {

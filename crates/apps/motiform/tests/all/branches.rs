@@ -316,3 +316,31 @@ fn the_origin_does_not_matter() {
         assert!(same(&found, &known, 1e-9), "{name}: {found:?}");
     }
 }
+
+/// Van der Pol's equation: at 0 it is `x'' = -x`, whose circles of all sizes are one family. It crosses the limit cycle, which has the
+/// amplitude 2 there, and begins at rest; where they cross, and in which unit of length and from which start, changes nothing.
+#[test]
+fn a_family_of_orbits_is_one_branch_in_all_units_and_from_all_starts() {
+    let folder = Folder::new();
+    for (size, start) in [(1.0, 0.7), (1e3, 0.5), (1e5, 0.3)] {
+        let square = size * size;
+        planar(&folder, "pol.toml", "mu = 1.0", ["y", &format!("mu*(1 - x^2/{square:e})*y - x")]);
+        let words = format!("pol.toml --along mu=-1:1 --set mu={start} --initial v1={size:e} --no-figures");
+        let json = follow(&folder, &words);
+        let case = format!("{size}, {start}: {json:#}");
+        let branches = json["branches"].as_array().expect("branches");
+        let leads = |branch: usize| {
+            let special = branches[branch]["special"].as_array().expect("a list").iter();
+            special.map(|one| (one["kind"].clone(), one["branch"].clone())).collect::<Vec<_>>()
+        };
+        assert_eq!(branches.len(), 3, "{case}");
+        assert_eq!(leads(0), [("branch-point".into(), 1.into())], "{case}");
+        assert!(leads(1).is_empty(), "{case}");
+        assert_eq!(leads(2), [("hopf".into(), 1.into())], "{case}");
+        let crossing = &branches[0]["special"][0];
+        let [place, error, second, by] = ["mu", "error", "coefficient", "coefficient_error"]
+            .map(|key| crossing[key].as_f64().expect("a number"));
+        // along the family nothing changes: the coefficient is 0
+        assert!(place.abs() <= error && second.abs() <= 3.0 * by && second.abs() * size < 1e-6, "{case}");
+    }
+}

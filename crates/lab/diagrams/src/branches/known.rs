@@ -1,6 +1,7 @@
 //! Is a motion on a branch that was followed already?
 
 use super::family::Bodies;
+use super::nested::nested;
 use super::result::{Followed, Leg, Sample};
 use motiform_analysis::Isotropy;
 use motiform_analysis::equilibrium::Units;
@@ -65,7 +66,8 @@ pub(super) fn known(
         let is_near = |pair: &[Sample], place: usize| {
             let likes = (0..2).filter(|i| place + i < own && is_alike(&pair[*i], sample)).map(|i| &pair[i]);
             let nearest = likes.min_by(|a, b| far(a).total_cmp(&far(b)));
-            about(pair, sample, &scales) && nearest.is_some_and(|nearest| is_here(pair, nearest))
+            nested(body.as_ref(), pair, sample, settings)
+                || about(pair, sample, &scales) && nearest.is_some_and(|nearest| is_here(pair, nearest))
         };
         leg.samples.windows(2).enumerate().any(|(place, pair)| is_near(pair, place))
     };

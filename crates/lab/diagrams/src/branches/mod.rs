@@ -17,6 +17,7 @@ mod given;
 mod kept;
 mod known;
 mod names;
+mod nested;
 mod origin;
 mod path;
 mod reading;
