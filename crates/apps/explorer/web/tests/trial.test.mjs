@@ -8,10 +8,21 @@ import { changed, mapped, moves, named, number, pictures, seen, slide, slider, s
 const it = stage();
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
+/** In the page: as many more connections as a page has, so that they count as pages do. */
+function connect(count) {
+  const address = new URL("live", document.baseURI);
+  address.protocol = address.protocol.replace("http", "ws");
+  address.hash = "";
+  const open = (socket) => new Promise((done) => socket.addEventListener("open", done));
+  window.more = Array.from({ length: count }, () => new WebSocket(address));
+  return Promise.all(window.more.map(open)).then(() => count);
+}
+
 test("a ninth page says that eight are open, over no black panel, and connects once there is room", async () => {
   const guests = [];
-  for (let k = 0; k < 8; k++) guests.push(await visit(it, { hash: `${LIGHT}&play=0` }));
+  for (let k = 0; k < 2; k++) guests.push(await visit(it, { hash: `${LIGHT}&play=0` }));
   for (const { page, wire } of guests) await seen(page, wire);
+  assert.equal(await guests[0].page.evaluate(connect, 6), 6);
   const ninth = await visit(it, { hash: LIGHT });
   await ninth.page.locator("#banner-full").waitFor();
   assert.match(await ninth.page.locator("#banner").innerText(), /Eight pages/);

@@ -45,8 +45,8 @@ pub(crate) struct MethodOptions {
     /// preset, or small and random
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) initial: Vec<(String, f64)>,
-    /// Random starts: SIZE is each coordinate within +-SIZE (mode n of the cell: SIZE/n^2; default for one start: 0.01), MIN:MAX
-    /// is all directions and log-uniform sizes (default for --samples: 0.01 to 1 times the model's typical size)
+    /// Random starts: SIZE is each coordinate within +-SIZE (mode n of the cell: SIZE/n^2), MIN:MAX is all directions and log-uniform
+    /// sizes. Default: 0.01 for one start; for several 0.01 to 1 times the model's typical size
     #[arg(long, value_name = "SIZE|MIN:MAX", value_parser = random, allow_hyphen_values = true)]
     pub(crate) random: Option<Random>,
     #[command(flatten)]

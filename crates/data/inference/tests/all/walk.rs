@@ -472,21 +472,20 @@ fn one_change_of_the_velocity_is_no_walk() {
 /// as the fit of three numbers takes up little of it, the same holds of walks, within a factor of two.
 #[test]
 fn spreads_have_their_distribution() {
+    let runs = draws(60, 150);
     for (truth, sampling, seen, most) in [
-        ([4.0, 1.2, 0.4], (0.7, 280), 0.8, 6),
-        ([0.5, 1.0, 0.2], (1.0, 300), 0.9, 10),
-        ([8.0, 1.0, 0.02], (1.0, 300), 1.0, 6),
+        ([4.0, 1.2, 0.4], (0.7, 280), 0.8, draws(5, 6)),
+        ([0.5, 1.0, 0.2], (1.0, 300), 0.9, draws(7, 10)),
+        ([8.0, 1.0, 0.02], (1.0, 300), 1.0, draws(5, 6)),
     ] {
         let spreads: Vec<f64> =
-            (0..150).map(|seed| found(&walk(truth, sampling, seen, 3000 + seed)).tests.spread).collect();
-        let mean = spreads.iter().sum::<f64>() / 150.0;
-        let square = spreads.iter().map(|x| (x - 1.0) * (x - 1.0)).sum::<f64>() / 150.0;
+            (0..runs).map(|seed| found(&walk(truth, sampling, seen, 3000 + seed)).tests.spread).collect();
+        let mean = spreads.iter().sum::<f64>() / runs as f64;
+        let square = spreads.iter().map(|x| (x - 1.0) * (x - 1.0)).sum::<f64>() / runs as f64;
         // the closed form: 2 % are below .2685
         let below = spreads.iter().filter(|x| **x < 0.2685).count();
-        println!("mean {mean}, scatter {}, {below} of 150 below", square.sqrt());
-        assert!(
-            (mean - 1.0).abs() < 0.16 && (0.5..0.75).contains(&square.sqrt()) && below <= most,
-            "{below}"
-        );
+        println!("mean {mean}, scatter {}, {below} of {runs} below", square.sqrt());
+        let near = (mean - 1.0).abs() < draws(0.25, 0.16);
+        assert!(near && draws(0.4..0.85, 0.5..0.75).contains(&square.sqrt()) && below <= most, "{below}");
     }
 }

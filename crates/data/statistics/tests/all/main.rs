@@ -15,5 +15,7 @@ mod passage;
 mod power;
 mod records;
 mod resolution;
+#[path = "../../../../samples.rs"]
+mod samples;
 mod slow;
 mod stationary;

@@ -3,11 +3,14 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use crate::common::{holds, ornstein_uhlenbeck};
+use crate::samples::draws;
 use motiform_dynamics::Normal;
 use motiform_statistics::{Answer, Settings, Statistics, Track, Tracks, autocorrelation, statistics};
 
 /// Data sets of each process.
-const SETS: u64 = 100;
+fn sets() -> u64 {
+    draws(50, 100)
+}
 
 /// The fast rate 1 with the mean square 1 of each component, and a slow part of this rate and root mean square; the mode is its shape.
 fn sum(rate: f64, size: f64, part: f64, samples: usize, normal: &mut Normal) -> Track {
@@ -44,7 +47,7 @@ fn counts(rate: f64, share: f64, (bodies, samples): (u64, usize)) -> ([[usize; 2
     let (size, part) = if share > 0.0 { ((share * rate).sqrt(), 1.0) } else { (0.1, 0.0) };
     let (d, time) = (1.0 + share, (1.0 + share) / (1.0 + share * rate));
     let (mut counts, mut width) = ([[0; 2]; 5], 0.0);
-    for seed in 0..SETS {
+    for seed in 0..sets() {
         let found = found(rate, size, part, (bodies, samples), seed);
         for (k, answer) in values(&found).into_iter().enumerate() {
             let Some(known) = answer.known() else { continue };
@@ -57,13 +60,13 @@ fn counts(rate: f64, share: f64, (bodies, samples): (u64, usize)) -> ([[usize; 2
 }
 
 /// The lags are long against the fast part, and 1 to 4 times of the slow one: its part is in the interval, or nothing is known.
-/// Of 100 data sets 93 hold it, or say why not.
+/// Of 100 data sets 93 hold it, or say why not (of 50 of a push 44).
 #[test]
 fn a_slow_part_is_in_the_interval_or_the_reason() {
     for (rate, share) in [(0.03, 0.05), (0.03, 0.16), (0.01, 0.16), (0.01, 0.5)] {
         let (counts, _) = counts(rate, share, (24, 500));
         for [known, held] in counts {
-            assert!(known - held <= 7, "{rate} {share}: {counts:?}");
+            assert!(known - held <= draws(6, 7), "{rate} {share}: {counts:?}");
         }
     }
     let refused = found(0.01, 0.07, 1.0, (64, 1000), 1);
@@ -76,7 +79,10 @@ fn a_slow_part_is_in_the_interval_or_the_reason() {
 #[test]
 fn a_slow_shape_beside_the_velocity_leaves_it_known() {
     let (with, _) = counts(0.03, 0.0, (24, 500));
-    assert!(with.iter().all(|[known, held]| *known >= 95 && 100 * held >= 93 * known), "{with:?}");
+    assert!(
+        with.iter().all(|[known, held]| *known >= draws(47, 95) && 100 * held >= draws(88, 93) * known),
+        "{with:?}"
+    );
 }
 
 /// A slow velocity whose correlation is, by chance, below 0 at half of the window of the shape is no motion of one rate there, and bounds
@@ -84,7 +90,7 @@ fn a_slow_shape_beside_the_velocity_leaves_it_known() {
 #[test]
 fn a_slow_velocity_beside_the_shape_leaves_it_known() {
     let (mut known, mut held) = (0, 0);
-    for seed in 0..SETS {
+    for seed in 0..sets() {
         let body = |normal: &mut Normal| {
             let shape = ornstein_uhlenbeck(0.1, 1.0, 0.5, 500, normal).velocity;
             Track { modes: vec![shape], ..ornstein_uhlenbeck(0.06, 1.0, 0.5, 500, normal) }
@@ -97,5 +103,5 @@ fn a_slow_velocity_beside_the_shape_leaves_it_known() {
         held += usize::from(holds(time, 10.0));
     }
     println!("{held} of {known}");
-    assert!(known >= 30 && 100 * held >= 93 * known, "{held} of {known}");
+    assert!(known >= draws(15, 30) && 100 * held >= draws(88, 93) * known, "{held} of {known}");
 }

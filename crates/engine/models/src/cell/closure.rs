@@ -56,16 +56,15 @@ impl<T: Scalar> Normals<T> {
     /// The normals at angles `theta_j + sum_n a_n cos + b_n sin`; the coefficients are `unknowns` times `tau`.
     #[inline(always)]
     fn new(closure: Closure, circle: &Circle, theta: &[T], unknowns: &Unknowns<T>) -> Self {
-        let mut angles = [theta[0]; MAX_POINTS];
-        let angles = &mut angles[..theta.len()];
+        let mut normals = Self { cos: [theta[0].zero(); MAX_POINTS], sin: [theta[0].zero(); MAX_POINTS] };
+        let angles = &mut normals.sin[..theta.len()]; // in the place of their sines: filling arrays takes time
         angles.copy_from_slice(theta);
         for n in 1..=closure.modes {
             let tau = closure.width(n);
             circle.add_wave(n, [unknowns[2 * n - 2] * tau, unknowns[2 * n - 1] * tau], angles);
         }
-        let mut normals = Self { cos: [theta[0].zero(); MAX_POINTS], sin: [theta[0].zero(); MAX_POINTS] };
-        for (j, angle) in angles.iter().enumerate() {
-            (normals.sin[j], normals.cos[j]) = angle.sin_cos();
+        for (angle, cos) in angles.iter_mut().zip(&mut normals.cos) {
+            (*angle, *cos) = angle.sin_cos();
         }
         normals
     }

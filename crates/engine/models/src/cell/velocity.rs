@@ -54,10 +54,12 @@ impl Cell {
         let points = self.circle.points();
         let (p, k) = (&self.parameters, self.parameters.wavenumber());
         let mut push = [shape[0].zero(); MAX_POINTS];
+        self.square(shape, 2, p.alpha3_total(), &mut push[..points]); // (VEL), alpha3
         if p.alpha2 != 0.0 {
-            self.add_square(shape, 1, p.alpha2, &mut push[..points]); // (VEL), alpha2
+            let mut other = [shape[0].zero(); MAX_POINTS];
+            self.square(shape, 1, p.alpha2, &mut other[..points]); // (VEL), alpha2
+            push.iter_mut().zip(&other[..points]).for_each(|(x, &other)| *x += other);
         }
-        self.add_square(shape, 2, p.alpha3_total(), &mut push[..points]); // (VEL), alpha3
         let mut v = [shape[0].zero(); 2];
         for (j, &w) in push[..points].iter().enumerate() {
             v[0] += w * closed.normals.cos[j];
@@ -66,19 +68,18 @@ impl Cell {
         v.map(|sum| sum * (k * k / points as f64))
     }
 
-    /// `out_j += alpha (d^power phi / ds^power)^2`.
+    /// `alpha (d^power phi / ds^power)^2` in the place of zeros.
     #[inline(always)]
-    fn add_square<T: Scalar>(&self, shape: &[T], power: i32, alpha: f64, out: &mut [T]) {
-        let mut wave = [shape[0].zero(); MAX_POINTS];
-        self.derivative(shape, power, &mut wave[..out.len()]);
-        for (x, &w) in out.iter_mut().zip(&wave) {
-            *x += w * w * alpha;
+    fn square<T: Scalar>(&self, shape: &[T], power: i32, alpha: f64, out: &mut [T]) {
+        self.add_derivative(shape, power, out);
+        for x in out {
+            *x = *x * *x * alpha;
         }
     }
 
-    /// `d^power phi / ds^power` at the points, for power 1 or 2.
+    /// Adds `d^power phi / ds^power` at the points, for power 1 or 2.
     #[inline(always)]
-    fn derivative<T: Scalar>(&self, shape: &[T], power: i32, out: &mut [T]) {
+    fn add_derivative<T: Scalar>(&self, shape: &[T], power: i32, out: &mut [T]) {
         let k = self.parameters.wavenumber();
         for (i, mode) in shape.chunks_exact(2).enumerate() {
             let wave = k * (i as f64 + 1.0);

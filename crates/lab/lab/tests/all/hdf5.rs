@@ -52,7 +52,9 @@ fn python() -> PathBuf {
     if !runs(&own) {
         // a failure of these two shows in the check below
         let _ = Command::new(&system).args(["-m", "venv"]).arg(&folder).status();
-        let _ = Command::new(&own).args(["-m", "pip", "install", "--quiet", "h5py", "numpy"]).status();
+        let _ = Command::new(&own)
+            .args(["-m", "pip", "install", "--quiet", "--no-compile", "h5py", "numpy"])
+            .status();
     }
     assert!(runs(&own), "this test needs h5py: `pip install h5py numpy` for the python3 on the path");
     own
