@@ -78,8 +78,8 @@ impl Bodies<'_> {
     }
 
     fn start(&self, key: usize, state: Vec<f64>, t: f64, stretch: u64) -> Result<NoisyStart<'_>, Error> {
-        let at = (t, state.len());
-        let noise = noise_steps(&self.plans[key].computation, self.noise, self.model, stretch, at)?;
+        let noise =
+            noise_steps(&self.plans[key].computation, self.noise, self.model, stretch, t, state.len())?;
         Ok(NoisyStart { key, body: self.model, state, noise })
     }
 

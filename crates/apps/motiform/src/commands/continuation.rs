@@ -47,7 +47,7 @@ fn branches(options: &ContinueOptions, plan: BranchPlan, units: &Shown) -> anyho
     let watch = Progress::of_stage("branches", "of those known so far");
     let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| BranchFolder::keep(found, folder));
     let journal: &dyn Journal = files.as_ref().map_or(&(), |folder| folder);
-    let found = watch.over(|watch| follow_kept(&plan, before, (&mut keep, journal), watch));
+    let found = watch.over(|watch| follow_kept(&plan, before, &mut keep, journal, watch));
     let (files, found) = or_abandon(files, found)?;
     let folder = BranchFolder { plan, found };
     let ordinate = options.observable.ordinate();

@@ -30,7 +30,7 @@ pub(crate) fn draw(
     let common = if together { fits.first() } else { None };
     let made = Progress::new(cells.len() as f64, "pages").over(|watch| match watch.stopped() {
         true => Ok(false),
-        false => pages(sample, (&cases, common), (threads, format), watch, write),
+        false => pages(sample, &cases, common, threads, format, watch, write),
     });
     match made {
         Ok(true) => Ok(true),

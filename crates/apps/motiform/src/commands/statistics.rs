@@ -104,8 +104,7 @@ fn bodies(
     let threads = options.threads.count();
     let journal: &dyn Journal = folder.map_or(&(), |folder| folder);
     let watch = Stages::begin();
-    let found =
-        simulated_kept(study, usize::try_from(count)?, &settings(options), (threads, journal), &watch);
+    let found = simulated_kept(study, usize::try_from(count)?, &settings(options), threads, journal, &watch);
     watch.progress.finish();
     match found {
         Err(motiform_lab::statistics::Error::Study(Error::Interrupted)) => Ok(None),
