@@ -55,7 +55,7 @@ fn compute(
     let watch = Progress::staged(STAGES);
     let named = |stage: &Stage| {
         let done = if stage.even { "done" } else { "of the boundaries named" };
-        watch.stage(&stage.name, stage.share, (done, stage.even));
+        watch.stage(&stage.name, stage.share, done, stage.even);
     };
     let found = survey(plan, threads, files, &watch, &named).and_then(|grid| {
         let Some(grid) = grid else { return Ok(None) };

@@ -122,7 +122,7 @@ struct Stages {
 impl Stages {
     fn begin() -> Self {
         let progress = Progress::staged(2);
-        progress.stage("bodies", [0.0, SIMULATED], ("done", true));
+        progress.stage("bodies", [0.0, SIMULATED], "done", true);
         Self { progress, measuring: AtomicBool::new(false) }
     }
 }
@@ -130,7 +130,7 @@ impl Stages {
 impl Watch for Stages {
     fn progress(&self, done: f64) {
         if done > SIMULATED && !self.measuring.swap(true, Ordering::Relaxed) {
-            self.progress.stage("statistics", [SIMULATED, 1.0], ("done", true));
+            self.progress.stage("statistics", [SIMULATED, 1.0], "done", true);
         }
         self.progress.progress(done);
     }
