@@ -24,7 +24,8 @@ pub(crate) fn cases<'c>(
     cells.iter().zip(observations).map(case).collect()
 }
 
-/// Draws the pages of observed cells; `together` is the one fit of all cells. Each page goes to `write` at once. If Ctrl-C stopped the drawing, a warning and `false`: not all pages are drawn.
+/// Draws the pages of observed cells; `together` is the one fit of all cells. Each page goes to `write` at once. If Ctrl-C stopped the
+/// drawing, a warning and `false`: not all pages are drawn.
 pub(crate) fn draw(
     sample: &Sample,
     cases: &[Case<'_>],
