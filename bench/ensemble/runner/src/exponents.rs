@@ -5,7 +5,7 @@ use crate::orbits::{Failure, members_between};
 use motiform_analysis::lyapunov::{LyapunovSettings, TangentMember, lyapunov_in_lanes};
 use motiform_analysis::{Lyapunov, Result as Analysed};
 use motiform_dynamics::steppers::{DOP853, Method};
-use motiform_dynamics::{Equivariant, StepControl};
+use motiform_dynamics::{Equivariant, StepControl, Tolerance};
 use motiform_models::tensor::Tensor;
 use serde_json::{Value, json};
 use std::sync::Mutex;
@@ -27,13 +27,13 @@ impl AsRef<dyn Equivariant> for Body {
 pub fn spectra(options: &Options) -> Result<Value, Failure> {
     let (count, t) = (options.get("members", 64)?, options.get("t", 1000.0)?);
     let rtol: f64 = options.get("rtol", 1e-9)?;
-    let control = (rtol, 1e-2 * rtol);
+    let tolerance = Tolerance { rtol, atol: 1e-2 * rtol };
     let range = (options.get("kappa2_low", 0.45)?, options.get("kappa2_high", 0.65)?);
     let threads: usize = options.get("threads", 1)?;
     let settings = LyapunovSettings {
         count: 6,
         method: Method::Explicit(&DOP853),
-        control: StepControl::Adaptive { rtol: control.0, atol: control.1 },
+        control: StepControl::Adaptive { rtol, atol: tolerance.atol },
         transient: TRANSIENT,
         span: t,
         escape_norm: 1e6,
@@ -58,7 +58,7 @@ pub fn spectra(options: &Options) -> Result<Value, Failure> {
                 runs[key] = run.ok();
             }
         };
-        lyapunov_in_lanes::<_, _, 6, 6, 42>(control, &mut next, &mut done, &());
+        lyapunov_in_lanes::<_, _, 6, 6, 42>(tolerance, &mut next, &mut done, &());
     };
     let clock = Instant::now();
     std::thread::scope(|scope| {

@@ -70,7 +70,7 @@ impl Progress {
     }
 
     /// A stage begins: a part of the progress that is told, what its share is of, and whether the remaining time follows from that.
-    pub(crate) fn stage(&self, name: &str, share: [f64; 2], (done, even): (&'static str, bool)) {
+    pub(crate) fn stage(&self, name: &str, share: [f64; 2], done: &'static str, even: bool) {
         let Ok(mut stage) = self.stage.lock() else { return };
         stage.1 += 1;
         let name = if self.stages == 1 {
@@ -119,7 +119,7 @@ impl Progress {
     /// A watch over work in one stage, whose remaining time does not follow from its progress.
     pub(crate) fn of_stage(name: &str, done: &'static str) -> Self {
         let watch = Self::staged(1);
-        watch.stage(name, [0.0, 1.0], (done, false));
+        watch.stage(name, [0.0, 1.0], done, false);
         watch
     }
 

@@ -149,7 +149,7 @@ pub(crate) fn section(
     let mut study = study.clone();
     study.0.run.dt_out = 0.0; // there are no rows: those of a preset may be too many for this span
     let (table, outcome) = answer(Caller::here(py, progress, |watch| {
-        motiform_lab::section::section(&plan(&study)?, (coordinate, value), direction, watch).map(Some)
+        motiform_lab::section::section(&plan(&study)?, coordinate, value, direction, watch).map(Some)
     }))?;
     let ended = serde_json::to_string(&outcome).map_err(of_json)?;
     Ok((Columns::new(py, table)?.parts(py), (ended, outcome.is_complete(), outcome.to_string())))

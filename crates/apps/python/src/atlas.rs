@@ -76,9 +76,9 @@ fn compute(
     watch: &dyn Watch,
 ) -> Result<Option<(motiform_diagrams::atlas::Grid, Vec<motiform_diagrams::atlas::Line>)>, Error> {
     let cells = Part { watch, from: 0.0, to: 0.5 };
-    let Some(grid) = survey(plan, threads, journal, (&cells, &|_| {}))? else { return Ok(None) };
+    let Some(grid) = survey(plan, threads, journal, &cells, &|_| {})? else { return Ok(None) };
     let part = Part { watch, from: 0.5, to: 1.0 };
-    let lines = trace(plan, &grid, threads, journal, (&part, &|_| {}))?;
+    let lines = trace(plan, &grid, threads, journal, &part, &|_| {})?;
     Ok(lines.map(|lines| (grid, lines)))
 }
 

@@ -168,9 +168,9 @@ impl Field {
         run: &Bound<'_, PyDict>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<String> {
-        let settings = self.settings(run)?.1;
+        let (settings, (transient, t_end)) = (self.settings(run)?.1, times);
         let found = answer(Caller::here(py, progress, |watch| {
-            exponents(&self.flow(), &start, count, times, &settings, watch).map(Some)
+            exponents(&self.flow(), &start, count, transient, t_end, &settings, watch).map(Some)
         }))?;
         exponents_json(&found, accuracy(&settings))
     }

@@ -62,7 +62,8 @@ impl ScanFiles {
         let samples = plan.computation.samples;
         let cells = plan.cells_of(part);
         let places = cells.flat_map(|cell| (0..samples).map(move |sample| (cell, sample)));
-        let rows: Option<Vec<_>> = places.enumerate().map(|(place, at)| table.row(place, at)).collect();
+        let rows: Option<Vec<_>> =
+            places.enumerate().map(|(place, (cell, sample))| table.row(place, cell, sample)).collect();
         let rows = rows.ok_or_else(|| PyValueError::new_err("rows are missing"))?;
         self.0.keep(part, &rows).map_err(python)
     }

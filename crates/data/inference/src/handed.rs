@@ -110,7 +110,7 @@ pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Hand
     let near = match fit.converged() {
         true => refit(tracks, &settings, &fit.scales, &start, watch)?,
         // decides nothing, whatever is promised
-        false => refit_within(tracks, &settings, &fit.scales, &start, (f64::INFINITY, 1), watch)?,
+        false => refit_within(tracks, &settings, &fit.scales, &start, f64::INFINITY, 1, watch)?,
     };
     let coloured = whiteness(fit).iter().any(|channel| channel.p_value < COLOURED);
     if coloured || !fit.converged() {
@@ -119,7 +119,7 @@ pub fn handedness(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Hand
     let logs = [0.0, libm::log(0.4), libm::log(0.4), NO_CENTRE_NOISE];
     let zero = Theta { coefficients: vec![0.0; 2 * degrees], logs };
     // from far away, to the end only where first steps lead higher: their model then promises less than 1
-    let (far, height) = reached(tracks, &settings, &fit.scales, (&zero, 1.0), watch)?;
+    let (far, height) = reached(tracks, &settings, &fit.scales, &zero, 1.0, watch)?;
     if height.is_some_and(|height| height <= near.log_likelihood) {
         return Ok(compare(fit, near, degrees));
     }

@@ -35,7 +35,7 @@ pub fn walk_p_value(tracks: &[Track], whole: &Fit, selection: &Selection, watch:
     let Some((settings, start)) = reduced(whole, &null) else { return Ok(1.0) };
     let tail =
         |height: f64| chi_square_tail(2.0 * (selection.fit.log_likelihood - height).max(0.0), more as f64);
-    let (near, height) = reached(tracks, &settings, &whole.scales, (&start, ENOUGH), watch)?;
+    let (near, height) = reached(tracks, &settings, &whole.scales, &start, ENOUGH, watch)?;
     if let Some(bound) =
         height.map(|height| tail(height + LEFT)).filter(|bound| *bound < WALK_RATE * WALK_RATE)
     {

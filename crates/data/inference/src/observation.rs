@@ -78,7 +78,7 @@ pub(crate) fn check(tracks: &[Track], modes: usize) -> Result<()> {
             return Err(Error::TooShort { cell, frames: track.0.len(), least: LEAST_FRAMES });
         }
         for (frame, observation) in track.0.iter().enumerate() {
-            check_frame((cell, frame), observation, 2 * modes)?;
+            check_frame(cell, frame, observation, 2 * modes)?;
         }
         for (frame, pair) in track.0.windows(2).enumerate() {
             let (before, t) = (pair[0].t, pair[1].t);
@@ -90,7 +90,7 @@ pub(crate) fn check(tracks: &[Track], modes: usize) -> Result<()> {
     Ok(())
 }
 
-fn check_frame((cell, frame): (usize, usize), observation: &Observation, numbers: usize) -> Result<()> {
+fn check_frame(cell: usize, frame: usize, observation: &Observation, numbers: usize) -> Result<()> {
     let c = &observation.covariance;
     let given = observation.y.len().min(c.len()).min(c.iter().map(Vec::len).min().unwrap_or(0));
     if given < numbers {

@@ -54,7 +54,7 @@ impl Beside {
     }
 
     /// Takes this from an observation, this time after the first one, which was at the origin.
-    fn subtract(self, by: &[f64], (t, origin): (f64, [f64; 2]), y: &mut [f64]) {
+    fn subtract(self, by: &[f64], t: f64, origin: [f64; 2], y: &mut [f64]) {
         match self {
             Self::Stage => (0..2).for_each(|k| y[k] -= by[k] * t),
             Self::Stretch => {
@@ -293,7 +293,7 @@ fn moved(problem: &Problem, beside: Beside, by: &[f64]) -> Problem {
     let mut moved = problem.clone();
     for frame in moved.stretches.iter_mut().flatten() {
         let Frame { t, y, .. } = frame;
-        beside.subtract(by, (*t, [0.0; 2]), y);
+        beside.subtract(by, *t, [0.0; 2], y);
     }
     moved
 }
@@ -311,7 +311,7 @@ impl Track {
             return self.clone();
         };
         for frame in &mut frames {
-            beside.subtract(by, (frame.t - first, origin), &mut frame.y);
+            beside.subtract(by, frame.t - first, origin, &mut frame.y);
         }
         Self(frames)
     }

@@ -95,7 +95,7 @@ fn add_track<const SHAPE: usize>(
         let span = frames[centre + half + 2].t - frames[centre - half - 2].t;
         if (span - (2 * half + 4) as f64 * dt).abs() < 1e-6 * span {
             windows += 1;
-            add(sums, field, (&frames[range.clone()], &shapes[range]), dt);
+            add(sums, field, &frames[range.clone()], &shapes[range], dt);
         }
     }
     windows
@@ -128,7 +128,7 @@ impl Normal {
         }
     }
 
-    fn add(&mut self, integrals: &[Complex<f64>], (left, errors): (Complex<f64>, f64), test: f64) {
+    fn add(&mut self, integrals: &[Complex<f64>], left: Complex<f64>, errors: f64, test: f64) {
         self.left += left.re * left.re + left.im * left.im;
         self.errors += errors;
         self.test += test;
@@ -195,7 +195,8 @@ fn shapes<const SHAPE: usize>(frames: &[Frame], dt: f64) -> Vec<[f64; SHAPE]> {
 fn add<const SHAPE: usize>(
     sums: &mut [Normal],
     field: &Field,
-    (frames, shapes): (&[Frame], &[[f64; SHAPE]]),
+    frames: &[Frame],
+    shapes: &[[f64; SHAPE]],
     dt: f64,
 ) {
     let half = (frames.len() / 2) as f64;
@@ -226,7 +227,7 @@ fn add<const SHAPE: usize>(
                 weight * weight * (frame.covariance[2 * n][2 * n] + frame.covariance[2 * n + 1][2 * n + 1]);
         }
     }
-    for (sum, left) in sums.iter_mut().zip(left) {
-        sum.add(&integrals, left, 2.0 * SQUARE * width / (dt * dt));
+    for (sum, (left, errors)) in sums.iter_mut().zip(left) {
+        sum.add(&integrals, left, errors, 2.0 * SQUARE * width / (dt * dt));
     }
 }

@@ -120,15 +120,14 @@ pub(crate) fn remembering(
     let last = window.as_ref().map_or(curves.longest(), |window| window.length);
     let folded = too_far_apart(tracks, &quantity);
     let (fine, coarser) = (curves.integral(last), curves.coarser(last)[0]);
-    let coarse = |size| {
-        folded.clone().or_else(|| too_coarse(&fine, &coarser, (size, tracks.dt()), [tracks.unit(); 2]))
-    };
+    let coarse =
+        |size| folded.clone().or_else(|| too_coarse(&fine, &coarser, size, tracks.dt(), [tracks.unit(); 2]));
     let unresolved = coarse(curves.size(last));
     let time = match (&unresolved, window) {
         (_, Err(reason)) => Answer::unknown(folded.clone().unwrap_or(reason)),
         (Some(reason), _) => Answer::unknown(reason),
         (None, Ok(window)) => {
-            let slow = beyond(tracks, (&quantity, fine.value), window.length, remembered)?;
+            let slow = beyond(tracks, &quantity, fine.value, window.length, remembered)?;
             products.time(&curves, window, slow).unless(coarse(fine.value.abs()))
         }
     };
@@ -151,23 +150,19 @@ impl Autocorrelation {
 impl Products {
     pub(crate) fn of(tracks: &Tracks, quantity: &Quantity) -> Result<Self> {
         let mean = if quantity.is_number() { mean(tracks, &|track| quantity.of(track)) } else { 0.0 };
-        Self::about(tracks, &|track| quantity.of(track), (mean, quantity.is_number()))
+        Self::about(tracks, &|track| quantity.of(track), mean, quantity.is_number())
     }
 
     /// C of the size of a quantity about its mean; `None` where it does not vary.
     pub(crate) fn of_size(tracks: &Tracks, quantity: &Quantity) -> Result<Option<Curves>> {
         let size = |track: &Track| Series::new(vec![quantity.size(track)]);
         let mean = mean(tracks, &size);
-        let found = Self::about(tracks, &size, (mean, true))?;
+        let found = Self::about(tracks, &size, mean, true)?;
         let varies = found.sums[0].mean(None) > STEADY * STEADY * mean * mean;
         Ok(varies.then(|| found.curves()))
     }
 
-    fn about(
-        tracks: &Tracks,
-        series: &dyn Fn(&Track) -> Series,
-        (mean, is_number): (f64, bool),
-    ) -> Result<Self> {
+    fn about(tracks: &Tracks, series: &dyn Fn(&Track) -> Series, mean: f64, is_number: bool) -> Result<Self> {
         let longest = tracks.longest_lag().min(LONGEST);
         let mut sums = vec![Sums::new(tracks.groups()); longest + 1];
         for starts in tracks.starts() {

@@ -69,10 +69,10 @@ pub(crate) fn remembering(tracks: &Tracks, remembered: &Remembered) -> Result<(D
     let (all, coarser) = (curves.integrals(window), curves.coarser(window));
     let coarse = |size| {
         let folded = too_far_apart(tracks, &Quantity::Velocity);
-        folded.or_else(|| too_coarse(&all[0], &coarser[0], (size, tracks.dt()), [tracks.unit(), ""]))
+        folded.or_else(|| too_coarse(&all[0], &coarser[0], size, tracks.dt(), [tracks.unit(), ""]))
     };
     let (unresolved, by_value) = (coarse(curves.size(window)), coarse(all[0].value.abs()));
-    let slow = beyond(tracks, (&Quantity::Velocity, all[0].value), window, remembered)?;
+    let slow = beyond(tracks, &Quantity::Velocity, all[0].value, window, remembered)?;
     let velocities = Estimate {
         values: halves(all),
         others: vec![halves(curves.integrals(longer))],

@@ -117,7 +117,8 @@ fn beyond_chance(one: &[f64], other: &[f64]) -> f64 {
 pub(crate) fn too_coarse(
     found: &Integral,
     coarser: &Integral,
-    (size, dt): (f64, f64),
+    size: f64,
+    dt: f64,
     [unit, of_integral]: [&str; 2],
 ) -> Option<String> {
     let changed = (coarser.value - found.value).abs() > CHANGED * size;

@@ -87,9 +87,9 @@ fn refusal(best: &Damped, deviation: f64) -> Option<String> {
 /// A misfit of the part d, what is chance in it included, may be one of the decay: another rate of decay, by the factor 1 + 2 d, deviates
 /// by d from the nearest cosine of this one (times have the standard deviation 1/(2 lambda) under the weight e^{-2 lambda tau}).
 fn measured(curves: &Curves, last: usize, best: &Damped, misfit: f64) -> [Answer; 2] {
-    let [fine, coarse] = [1, 2].map(|step| fits(curves, last, best, (0, step)));
+    let [fine, coarse] = [1, 2].map(|step| fits(curves, last, best, 0, step));
     let first = (1.0 / best.lambda).min(last as f64 / 3.0) as usize;
-    let late = fits(curves, last, best, (first, 1));
+    let late = fits(curves, last, best, first, 1);
     let of = |value: &dyn Fn(&Damped) -> f64| {
         let values = |found: &[Option<Damped>]| -> Vec<f64> {
             found.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect()
@@ -111,7 +111,7 @@ fn measured(curves: &Curves, last: usize, best: &Damped, misfit: f64) -> [Answer
 }
 
 /// The nearest damped cosine of all groups and without each, from a lag on and from every `step`-th sample; per sample of the first one.
-fn fits(curves: &Curves, last: usize, best: &Damped, (from, step): (usize, usize)) -> Vec<Option<Damped>> {
+fn fits(curves: &Curves, last: usize, best: &Damped, from: usize, step: usize) -> Vec<Option<Damped>> {
     let times = step as f64;
     let start = best.at(from as f64);
     let start = Damped { lambda: times * start.lambda, omega: times * start.omega, ..start };

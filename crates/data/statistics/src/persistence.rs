@@ -75,7 +75,7 @@ pub fn persistent_walk(curve: &MeanSquare) -> Walk {
         return Walk { curve: walk.curve, deviation, ..Walk::unknown(&reason) };
     }
     let without: Vec<[f64; 2]> =
-        (0..curve.groups()).map(|group| fit(&left_out(curve, (&places, &points), group))).collect();
+        (0..curve.groups()).map(|group| fit(&left_out(curve, &places, &points, group))).collect();
     let answer = |of: fn([f64; 2]) -> f64| {
         let values: Vec<f64> = without.iter().map(|&fit| of(fit)).collect();
         Answer::Known(jackknife_ratio(of([square, persistence]), &values))
@@ -84,7 +84,7 @@ pub fn persistent_walk(curve: &MeanSquare) -> Walk {
     walk.persistence = answer(|fit| fit[1]);
     walk.speed = answer(|fit| fit[0].sqrt());
     walk.diffusion = answer(|fit| 0.5 * fit[0] * fit[1]);
-    walk.limit(persistence, (first, last));
+    walk.limit(persistence, first, last);
     walk
 }
 
@@ -96,7 +96,7 @@ impl Walk {
     }
 
     /// Takes back what the lags do not reach.
-    fn limit(&mut self, persistence: f64, (first, last): (f64, f64)) {
+    fn limit(&mut self, persistence: f64, first: f64, last: f64) {
         let reached = four_digits(last / persistence);
         if first > 2.0 * persistence {
             let reason = "not resolved: the motion turns within the shortest lag; record more often";
@@ -131,7 +131,7 @@ fn point(curve: &MeanSquare, place: usize) -> [f64; 3] {
 }
 
 /// The same with the values without a group.
-fn left_out(curve: &MeanSquare, (places, points): (&[usize], &[[f64; 3]]), group: usize) -> Vec<[f64; 3]> {
+fn left_out(curve: &MeanSquare, places: &[usize], points: &[[f64; 3]], group: usize) -> Vec<[f64; 3]> {
     let value = |(&place, point): (&usize, &[f64; 3])| [point[0], curve.value(place, Some(group)), point[2]];
     places.iter().zip(points).map(value).collect()
 }

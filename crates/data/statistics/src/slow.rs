@@ -60,7 +60,8 @@ impl Beyond {
 /// # Checked by  tests/all/slow.rs: the sum of two Ornstein-Uhlenbeck processes, one driven by the other, one of one time
 pub(crate) fn beyond(
     tracks: &Tracks,
-    (quantity, integral): (&Quantity, f64),
+    quantity: &Quantity,
+    integral: f64,
     window: usize,
     remembered: &Remembered,
 ) -> Result<Option<Beyond>> {

@@ -149,7 +149,8 @@ impl PeriodicOrbit {
     pub fn near(
         body: &dyn Equivariant,
         shape: &[f64],
-        (time, mirrored): (f64, bool),
+        time: f64,
+        mirrored: bool,
         flow: &Flow,
         watch: &dyn Watch,
     ) -> Option<Self> {

@@ -143,11 +143,13 @@ impl Layout {
     }
 }
 
-/// Error norms of one step against the tolerances.
+/// The tolerances of error control; error norms of one step are against them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tolerance {
-    pub(crate) rtol: f64,
-    pub(crate) atol: f64,
+pub struct Tolerance {
+    /// Relative tolerance.
+    pub rtol: f64,
+    /// Absolute tolerance (unit of the state).
+    pub atol: f64,
 }
 
 impl Tolerance {
@@ -211,13 +213,14 @@ impl Tolerance {
         (sum * (1.0 / u.len() as f64)).sqrt()
     }
 
-    /// The squared norm of a step's estimated error; `scratch` has twice the state's length.
+    /// The squared norm of the estimated error of a step from `u` to `v`; `scratch` has twice the state's length.
     pub(crate) fn step_error<B: Bundle>(
         &self,
         tableau: &Tableau,
         slopes: &Slopes<B>,
         h: B,
-        (u, v, layout): (&[B], &[B], Layout),
+        [u, v]: [&[B]; 2],
+        layout: Layout,
         scratch: &mut [B],
     ) -> B {
         let (scratch, scales) = scratch.split_at_mut(u.len());
@@ -247,8 +250,10 @@ impl Tolerance {
         &self,
         field: &F,
         order: u32,
-        (t, u, slope): (B, &[B], &[B]),
-        (near, rate): (&mut [B], &mut [B]),
+        t: B,
+        u: &[B],
+        slope: &[B],
+        [near, rate]: [&mut [B]; 2],
     ) -> B {
         let d0 = self.norm(u, u, u);
         let d1 = self.norm(slope, u, u);

@@ -225,7 +225,7 @@ impl Run {
         self.found.clear();
         let step = orbit.dense();
         for (index, (section, watcher)) in request.sections.iter().zip(&mut self.watchers).enumerate() {
-            watcher.scan(section, (&step, request.pieces), &mut self.state, |t, rising| {
+            watcher.scan(section, &step, request.pieces, &mut self.state, |t, rising| {
                 self.found.push((t, index, rising));
             });
         }

@@ -41,7 +41,7 @@ pub fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
             1 => out.extend(pair([h[first][first], h[first][last], h[last][first], h[last][last]])),
             _ if steps == STEPS => return None,
             _ => {
-                step(&mut h, (first, last), steps % SLOW == SLOW - 1);
+                step(&mut h, first, last, steps % SLOW == SLOW - 1);
                 steps += 1;
                 continue;
             }
@@ -53,7 +53,7 @@ pub fn eigenvalues(columns: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
 }
 
 /// One step on the rows and columns `first..=last`, with the eigenvalues of the last two rows as its shifts, or with `other` ones.
-fn step(h: &mut [Vec<f64>], (first, last): (usize, usize), other: bool) {
+fn step(h: &mut [Vec<f64>], first: usize, last: usize, other: bool) {
     let (mut x, mut y, mut w) = (h[last][last], h[last - 1][last - 1], h[last][last - 1] * h[last - 1][last]);
     if other {
         let size = h[last][last - 1].abs() + h[last - 1][last - 2].abs();

@@ -6,7 +6,7 @@ use crate::model::drift;
 use crate::step_sizes::StepTables;
 use crate::steppers::ExponentialTableau;
 use crate::steppers::exponential::{self, Stages};
-use crate::stepping::{Counters, StepFailure, check_start, fixed_step};
+use crate::stepping::{Counters, FixedGrid, StepFailure, check_start};
 use crate::{Dual, Error, Semilinear, Shape, StepControl};
 
 mod integration;
@@ -68,7 +68,7 @@ pub struct ExponentialOrbit<'f, F: ?Sized> {
     jumped: bool,
     errors: Vec<f64>,
     interpolant: Interpolant,
-    origin: (f64, u64),
+    grid: FixedGrid,
     /// `true` if `N` at the current state is the end stage of the step just accepted.
     accepted: bool,
     prepared: bool,
@@ -142,7 +142,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
             new: end,
             errors: vec![0.0; dim],
             interpolant: Interpolant::hermite(u.len()),
-            origin: (t, 0),
+            grid: FixedGrid::from(t),
             accepted: true,
             prepared: false,
             counters: Counters::default(),
@@ -163,8 +163,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
     }
 
     fn advance_fixed(&mut self, step: f64, limit: f64) -> Result<(), StepFailure> {
-        let (start, count) = self.origin;
-        let (t_new, h) = fixed_step(step, self.t, self.origin, limit);
+        let (t_new, h) = self.grid.next(step, self.t, limit);
         self.begin();
         if h == step {
             self.tables.select_fixed(self.tableau, &self.problem.lambda, h);
@@ -173,7 +172,7 @@ impl<'f, F: Semilinear<f64> + ?Sized> ExponentialOrbit<'f, F> {
         }
         self.try_step(h);
         self.accept(t_new)?;
-        self.origin = if t_new == limit { (limit, 0) } else { (start, count + 1) };
+        self.grid = self.grid.after(t_new, limit);
         Ok(())
     }
 

@@ -30,7 +30,7 @@ impl Interpolant {
 
     /// Fills the coefficients; all slopes of the step must be there, the extra stages included.
     pub(crate) fn prepare(&mut self, tableau: &Tableau, slopes: &Slopes<f64>, ends: &Ends<'_>) {
-        self.prepare_hermite((slopes.get(0), slopes.get(tableau.stages())), ends);
+        self.prepare_hermite(slopes.get(0), slopes.get(tableau.stages()), ends);
         let rest = &mut self.coefficients[3 * self.dim..];
         for (row, weights) in rest.chunks_exact_mut(self.dim).zip(tableau.dense.weights) {
             slopes.combine(weights, row);
@@ -41,7 +41,7 @@ impl Interpolant {
     }
 
     /// Fills the first three coefficients, from the slopes at the two ends.
-    pub(crate) fn prepare_hermite(&mut self, (first, last): (&[f64], &[f64]), ends: &Ends<'_>) {
+    pub(crate) fn prepare_hermite(&mut self, first: &[f64], last: &[f64], ends: &Ends<'_>) {
         let (difference, rest) = self.coefficients.split_at_mut(self.dim);
         let (tangent, rest) = rest.split_at_mut(self.dim);
         for i in 0..self.dim {

@@ -43,7 +43,7 @@ mod trajectory;
 pub mod vector_field;
 mod watch;
 
-pub use control::StepControl;
+pub use control::{StepControl, Tolerance};
 pub use drive::{Request, Sink};
 pub use equivariant::{Equivariant, Symmetry};
 pub use error::Error;

@@ -7,7 +7,7 @@ use crate::interpolant::{Ends, Interpolant};
 use crate::steppers::runge_kutta::{self, Slopes, Step};
 use crate::steppers::{DOP853, Tableau};
 pub use crate::stepping::{Counters, StepFailure};
-use crate::stepping::{check_start, fixed_step};
+use crate::stepping::{FixedGrid, check_start};
 use crate::{Bundle, Error, Integration, StepControl, VectorField};
 
 /// An initial-value problem in progress. [`Integration::advance`] takes one accepted step and allocates nothing.
@@ -44,7 +44,7 @@ pub struct Orbit<'f, F: ?Sized> {
     /// Size of the next step to try (adaptive), or the fixed step.
     h: f64,
     /// Fixed steps count from here, so that times have no accumulated rounding error.
-    origin: (f64, u64),
+    grid: FixedGrid,
     /// `true` if the current state's slope is the end slope of the step just accepted.
     accepted: bool,
     /// `true` if the field corrected the end of the last step: `landed` is that end, `corrected` the slope
@@ -89,7 +89,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
             slopes,
             interpolant: Interpolant::new(tableau, u.len()),
             h: 0.0,
-            origin: (t, 0),
+            grid: FixedGrid::from(t),
             accepted: true,
             jumped: false,
             landed: vec![0.0; u.len()],
@@ -131,14 +131,12 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
 
     fn first_step(&mut self, tolerance: Tolerance) -> f64 {
         let slope = self.slopes.get(self.tableau.stages());
-        let start = (self.t, &self.u[..], slope);
-        let room = (&mut self.scratch[..], self.restep.get_mut(0));
-        tolerance.first_step(self.field, self.tableau.order, start, room)
+        let room = [&mut self.scratch[..], self.restep.get_mut(0)];
+        tolerance.first_step(self.field, self.tableau.order, self.t, &self.u, slope, room)
     }
 
     fn advance_fixed(&mut self, step: f64, limit: f64) -> Result<(), StepFailure> {
-        let (start, count) = self.origin;
-        let (t_new, h) = fixed_step(step, self.t, self.origin, limit);
+        let (t_new, h) = self.grid.next(step, self.t, limit);
         self.begin();
         self.try_step(h);
         if self.scratch.iter().any(|x| !x.is_finite()) {
@@ -146,7 +144,7 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
         }
         self.evaluate_end(h);
         self.accept(t_new)?;
-        self.origin = if t_new == limit { (limit, 0) } else { (start, count + 1) };
+        self.grid = self.grid.after(t_new, limit);
         Ok(())
     }
 
@@ -166,8 +164,8 @@ impl<'f, F: VectorField<f64> + ?Sized> Orbit<'f, F> {
                 self.evaluate_end(h);
             }
             let error = {
-                let ends = (&self.u[..], &self.scratch[..], Layout::of(self.field));
-                tolerance.step_error(self.tableau, &self.slopes, h, ends, &mut self.errors)
+                let (ends, layout) = ([&self.u[..], &self.scratch[..]], Layout::of(self.field));
+                tolerance.step_error(self.tableau, &self.slopes, h, ends, layout, &mut self.errors)
             };
             let judgement = self.controller.judge(error);
             if judgement.accepted.has(0) {
@@ -279,7 +277,7 @@ impl<F: VectorField<f64> + ?Sized> Integration for Orbit<'_, F> {
         self.step_to(t, &mut state);
         self.scratch = std::mem::replace(&mut self.u, state);
         self.t = t;
-        self.origin = (t, 0);
+        self.grid = FixedGrid::from(t);
         self.field.eval(t, &self.u, self.slopes.get_mut(self.tableau.stages()));
         self.jumped = false;
         self.prepared = false;

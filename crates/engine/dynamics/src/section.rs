@@ -63,7 +63,8 @@ impl Watcher {
     pub(crate) fn scan(
         &mut self,
         section: &Section<'_>,
-        (step, pieces): (&DenseStep<'_>, usize),
+        step: &DenseStep<'_>,
+        pieces: usize,
         state: &mut [f64],
         mut found: impl FnMut(f64, bool),
     ) {

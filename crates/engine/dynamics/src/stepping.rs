@@ -38,12 +38,29 @@ pub(crate) fn check_start(dim: usize, t: f64, u: &[f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// End and size of the fixed step number `count + 1` from `start`, ending at `limit` at the latest.
-///
-/// Times are multiples of the step from the start, so that they carry no accumulated rounding.
-pub(crate) fn fixed_step(step: f64, t: f64, (start, count): (f64, u64), limit: f64) -> (f64, f64) {
-    let grid = start + step * (count + 1) as f64;
-    let t_new = if grid > limit - 1e-9 * step { limit } else { grid };
-    let h = if (t_new - t - step).abs() < 1e-9 * step { step } else { t_new - t };
-    (t_new, h)
+/// The times of fixed steps: multiples of the step from a start, so that they carry no accumulated rounding.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FixedGrid {
+    start: f64,
+    /// Steps from the start.
+    count: u64,
+}
+
+impl FixedGrid {
+    pub(crate) fn from(start: f64) -> Self {
+        Self { start, count: 0 }
+    }
+
+    /// End and size of the next step from time `t`, ending at `limit` at the latest.
+    pub(crate) fn next(self, step: f64, t: f64, limit: f64) -> (f64, f64) {
+        let grid = self.start + step * (self.count + 1) as f64;
+        let t_new = if grid > limit - 1e-9 * step { limit } else { grid };
+        let h = if (t_new - t - step).abs() < 1e-9 * step { step } else { t_new - t };
+        (t_new, h)
+    }
+
+    /// The grid after a step to `t`: at a limit another one begins.
+    pub(crate) fn after(self, t: f64, limit: f64) -> Self {
+        if t == limit { Self::from(limit) } else { Self { count: self.count + 1, ..self } }
+    }
 }

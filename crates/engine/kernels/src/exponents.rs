@@ -5,7 +5,7 @@ use motiform_analysis::Result;
 use motiform_analysis::lyapunov::{
     Lyapunov, LyapunovSettings, TangentMember, lyapunov_in_lanes, runs_in_lanes,
 };
-use motiform_dynamics::{Equivariant, Model, StepControl, Watch};
+use motiform_dynamics::{Equivariant, Model, StepControl, Tolerance, Watch};
 
 /// A borrowed body.
 struct Body<'m>(&'m (dyn Model + 'static));
@@ -75,5 +75,5 @@ fn run<F: FromModel, const N: usize, const D: usize>(
         let start = start.try_into().ok()?;
         Some(TangentMember { key, body: Body(body), field: field.clone(), start, settings: *settings })
     };
-    lyapunov_in_lanes::<_, F, N, N, D>((rtol, atol), &mut member, done, watch);
+    lyapunov_in_lanes::<_, F, N, N, D>(Tolerance { rtol, atol }, &mut member, done, watch);
 }

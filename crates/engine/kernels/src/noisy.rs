@@ -45,7 +45,8 @@ type Done<'d> = &'d mut dyn FnMut(usize, Option<NoisyStates<'_>>);
 /// first one, with any parameters. `done` gets the states of each, or `None` where a single orbit has to say what happened.
 /// `false`, without any work, on a machine without lanes. See [`propagate_noisy`].
 pub fn propagate_noisy_bodies(
-    (kernel, stretch): (Kernel, Stretch),
+    kernel: Kernel,
+    stretch: Stretch,
     span: &NoisySpan,
     next: Next<'_, '_>,
     done: Done<'_>,

@@ -64,7 +64,7 @@ pub fn near_bifurcations(fitted: &Fitted, watch: &dyn Watch) -> Result<Vec<NearB
     let mut all = Vec::new();
     for term in TERMS {
         let Some(along) = Varied::of(fit, term) else { continue };
-        let mut study = natural_study((&fit.library, fit.handed), (&fit.natural.coefficients, &found.start))?;
+        let mut study = natural_study(&fit.library, fit.handed, &fit.natural.coefficients, &found.start)?;
         study.run.seed = 1;
         let range = Along {
             name: along.name.clone(),

@@ -60,7 +60,7 @@ impl Driven {
 }
 
 /// The share of one model, with these coefficients in natural units, from these coordinates; `None` where a run leaves all bounds.
-pub(crate) fn driven_share(fit: &Fit, (values, start): (&[f64], &[f64]), seed: u64) -> Option<f64> {
+pub(crate) fn driven_share(fit: &Fit, values: &[f64], start: &[f64], seed: u64) -> Option<f64> {
     let model = model(fit, values)?;
     let noise = noise(fit, model.as_ref(), STEP);
     let alone = without(noise.clone());
@@ -77,7 +77,7 @@ pub(crate) fn without(noise: Noise) -> Noise {
 
 fn mean_square_speed(model: &dyn Model, start: &[f64], noise: Noise, normal: Normal) -> Option<f64> {
     let steps = (TIME / STEP) as usize;
-    let states = states(model, start, (noise, normal), steps)?;
+    let states = states(model, start, noise, normal, steps)?;
     let squares = states[steps / 2..].iter().map(|at| at[0] * at[0] + at[1] * at[1]);
     Some(squares.sum::<f64>() / (steps - steps / 2) as f64)
 }
@@ -86,14 +86,15 @@ fn mean_square_speed(model: &dyn Model, start: &[f64], noise: Noise, normal: Nor
 pub(crate) fn states(
     model: &dyn Model,
     start: &[f64],
-    (noise, normal): (Noise, Normal),
+    noise: Noise,
+    normal: Normal,
     steps: usize,
 ) -> Option<Vec<Vec<f64>>> {
     let mut state = model.encoded(start);
     state.extend([0.0; 2]);
     let looks = Looks { step: STEP, steps: 1, count: steps + 1 };
     let mut all = Vec::with_capacity(steps);
-    let whole = sample_path(model, &state, (noise, normal), looks, &mut |look, state| {
+    let whole = sample_path(model, &state, noise, normal, looks, &mut |look, state| {
         let coordinates = model.decoded(&state[..model.dim()]);
         let square = coordinates[0] * coordinates[0] + coordinates[1] * coordinates[1];
         if look > 0 {

@@ -168,7 +168,7 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
     }
     let settings = Settings { library: library.seen(&pieces), ..Settings::default() };
     let unit = cell.units.unit(Dimension::SPEED);
-    let (mut fitted, path) = match on_stage(pieces, cell.path(), (&settings, options, &unit), watch) {
+    let (mut fitted, path) = match on_stage(pieces, cell.path(), &settings, options, &unit, watch) {
         Err(Error::Inference(error)) => return Ok(without_fit(cell, &error)),
         found => found?,
     };
@@ -202,13 +202,17 @@ pub fn fit_cell(cell: &CellTrack, options: &FitOptions, watch: &dyn Watch) -> Re
 fn on_stage(
     pieces: Vec<Track>,
     path: Track,
-    asked: (&Settings, &FitOptions, &str),
+    settings: &Settings,
+    options: &FitOptions,
+    unit: &str,
     watch: &dyn Watch,
 ) -> Result<(Box<Fitted>, Track)> {
-    let fit = |tracks: &[Track]| fitted(tracks, Members::Pieces, asked, &Stages::default(), watch);
+    let fit = |tracks: &[Track]| {
+        fitted(tracks, Members::Pieces, settings, options, unit, &Stages::default(), watch)
+    };
     let (mut found, mut tracks) = (fit(&pieces)?, pieces);
     for _ in 0..MOST_ROUNDS {
-        if !(asked.1.stage && found.shows_stage()) {
+        if !(options.stage && found.shows_stage()) {
             break;
         }
         let still = with_stage(&tracks, found.model_beside_stage(), watch)?;
@@ -267,7 +271,7 @@ pub(crate) fn fit_in_stages(
     let settings = Settings { library: library.seen(&tracks), ..Settings::default() };
     let unit = cells[0].units.unit(Dimension::SPEED);
     let members = Members::Cells(cells.iter().any(|cell| cell.drift.is_some()));
-    let mut fitted = match fitted(&tracks, members, (&settings, options, &unit), stages, watch) {
+    let mut fitted = match fitted(&tracks, members, &settings, options, &unit, stages, watch) {
         Err(Error::Inference(error)) => return Ok(refused(TOGETHER, frames, error.to_string())),
         found => found?,
     };

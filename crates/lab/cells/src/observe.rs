@@ -127,7 +127,7 @@ pub fn observe(cell: &CellTrack) -> Observation {
     let (regime, why) = decide(&measures, cell, repeats.as_ref());
     let motion = match regime {
         None => Motion { regime, why, confidence: None },
-        Some(_) => resampled(&measures, (regime, why), cell, repeats.as_ref()),
+        Some(_) => resampled(&measures, regime, why, cell, repeats.as_ref()),
     };
     let motion = beside_drift(cell, motion);
     let relatives = Some(Relatives::of(&measures));
@@ -150,7 +150,8 @@ pub fn observe(cell: &CellTrack) -> Observation {
 /// The verdict, if enough resamples of the record agree with it: that is how sure it is of this record, not of another one.
 fn resampled(
     measures: &Measures,
-    (regime, why): (Option<Regime>, String),
+    regime: Option<Regime>,
+    why: String,
     cell: &CellTrack,
     repeats: Option<&Repeats>,
 ) -> Motion {

@@ -122,7 +122,7 @@ pub fn predict(track: &Track, fit: &Fit, companions: Companions, watch: &dyn Wat
     let mut shown = Vec::new();
     let axes = start::axes(track, !fit.handed)?;
     let own = axes.track(track);
-    let simulator = Simulator::new(fit, (&own, &observed), companions.seed);
+    let simulator = Simulator::new(fit, &own, &observed, companions.seed);
     let own = asked.all(&observed);
     for (number, drawn) in draws(fit, companions.count, companions.seed).into_iter().enumerate() {
         if watch.stopped() {

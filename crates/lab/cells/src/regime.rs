@@ -134,7 +134,8 @@ pub fn regime_of(
     tracks: &[Track],
     whole: &Fit,
     selection: &Selection,
-    (count, seed): (usize, u64),
+    count: usize,
+    seed: u64,
     watch: &dyn Watch,
 ) -> Result<FittedRegime> {
     let start = start::observed(tracks, &selection.fit.scales, !selection.fit.handed).unwrap_or_default();
@@ -145,15 +146,15 @@ pub fn regime_of(
     let mut tally = Tally::default();
     for look in looks(models.len()) {
         let more = &models[tally.seen()..look];
-        for (one, end) in more.iter().zip(ends((whole, &sets), more, &start, watch)?) {
-            tally.add(end, |end| shown(end, || settles(one.fit, (&one.values, &start), left)));
+        for (one, end) in more.iter().zip(ends(whole, &sets, more, &start, watch)?) {
+            tally.add(end, |end| shown(end, || settles(one.fit, &one.values, &start, left)));
         }
         if tally.is_clear() {
             break;
         }
     }
     let driven = |(number, one): (usize, &Drawn<'_>)| {
-        driven_share(one.fit, (&one.values, &start), seed.wrapping_add(number as u64))
+        driven_share(one.fit, &one.values, &start, seed.wrapping_add(number as u64))
     };
     let shares = models.iter().enumerate().skip(1).take(MOST_SHARES).filter_map(driven).collect();
     let (best, (share, named), quiet) = (tally.best(), tally.agreement(), tally.is_quiet());
@@ -205,8 +206,10 @@ fn is_coarse(tracks: &[Track], fit: &Fit) -> bool {
 /// kept as long as the process: they are those of the set of terms, and the values are given apart. It begins at these coordinates of
 /// the model.
 pub(crate) fn natural_study(
-    (library, handed): (&Library, bool),
-    (values, start): (&[f64], &[f64]),
+    library: &Library,
+    handed: bool,
+    values: &[f64],
+    start: &[f64],
 ) -> std::result::Result<Study, motiform_study::Error> {
     let names = info(&equations(library, handed, &[]))
         .map_err(|error| motiform_models::Error::Equations { problem: error.to_string() })?;

@@ -20,12 +20,12 @@ pub(crate) fn time_left(tracks: &[Track], fit: &Fit) -> f64 {
 /// `true` if equations that end in a steady motion reach it within this time: without noise, from these coordinates, speed and sizes of
 /// the modes keep their values in the last half of it. Otherwise the steady motion is not what the cell showed, but what the equations
 /// foretell for later.
-pub(crate) fn settles(fit: &Fit, (values, start): (&[f64], &[f64]), time: f64) -> bool {
+pub(crate) fn settles(fit: &Fit, values: &[f64], start: &[f64], time: f64) -> bool {
     let steps = (time.min(MOST_TIME) / STEP) as usize;
     let run = || {
         let model = model(fit, values)?;
         let still = without(noise(fit, model.as_ref(), STEP));
-        states(model.as_ref(), start, (still, Normal::new(0, 0)), steps)
+        states(model.as_ref(), start, still, Normal::new(0, 0), steps)
     };
     run().is_some_and(|states| states.len() >= 2 && scatter(&states[states.len() / 2..]) <= STEADY)
 }

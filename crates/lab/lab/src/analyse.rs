@@ -48,7 +48,7 @@ impl Body<'_> {
             return Ok(Some(verdict));
         };
         let finer = settings.tighter(FINER);
-        Ok(Some(verdict.resolved_by(body.as_ref(), &shape, (parameter, value), &finer, &StopOnly(watch))?))
+        Ok(Some(verdict.resolved_by(body.as_ref(), &shape, parameter, value, &finer, &StopOnly(watch))?))
     }
 
     /// With half as many modes again; `None` for a model without a parameter for their number, or at its largest value.
@@ -94,16 +94,18 @@ pub fn settings(plan: &Plan, budget: f64) -> Result<Settings, Error> {
     let (info, c) = (plan.info()?, &plan.computation);
     let allowed = (0.0..=scales(plan)?.longest()).contains(&budget);
     check("budget", budget, allowed, "give a model time above 0, at most 1e9, or 0 for the model's default")?;
-    let bounds = (c.escape_norm, c.max_steps);
-    Ok(settings_of((info, &c.parameters.values()), plan.method()?, c.control, bounds, budget))
+    let values = c.parameters.values();
+    Ok(settings_of(info, &values, plan.method()?, c.control, c.escape_norm, c.max_steps, budget))
 }
 
 /// The classifier's settings: looks and budget (if that is 0) are those of the model at these parameters, the rest is that of the plan.
 pub fn settings_of(
-    (info, values): (&ModelInfo, &[f64]),
+    info: &ModelInfo,
+    values: &[f64],
     method: Method,
     control: Control,
-    (escape_norm, max_steps): (f64, u64),
+    escape_norm: f64,
+    max_steps: u64,
     budget: f64,
 ) -> Settings {
     let budget = if budget > 0.0 { budget } else { info.budget_at(values) };

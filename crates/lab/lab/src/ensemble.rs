@@ -73,7 +73,7 @@ pub fn tracks(
         members.iter().map(|member| Body::new(plan, member, times)).collect::<Result<_, _>>()?;
     let lanes = lanes(plan, times).zip(Kernel::of_most(bodies.iter().map(|body| body.model.as_ref())));
     spread(members.len(), threads, watch, |jobs| match &lanes {
-        Some(lanes) => in_lanes(plan, &bodies, lanes, jobs, watch),
+        Some((how, kernel)) => in_lanes(plan, &bodies, how, *kernel, jobs, watch),
         None => jobs.each(|job| bodies[job].track(plan, times, watch)),
     })
 }
@@ -175,7 +175,8 @@ pub(crate) fn named(model: &dyn Model, state: &[f64]) -> Vec<f64> {
 fn in_lanes(
     plan: &Plan,
     bodies: &[Body],
-    (how, kernel): &(Propagation<'_>, Kernel),
+    how: &Propagation<'_>,
+    kernel: Kernel,
     jobs: &Jobs<'_, Track>,
     watch: &dyn Watch,
 ) {
@@ -197,5 +198,5 @@ fn in_lanes(
         };
         jobs.done(job, track);
     };
-    propagate_bodies(*kernel, how, &mut next, &mut done, watch);
+    propagate_bodies(kernel, how, &mut next, &mut done, watch);
 }

@@ -23,7 +23,7 @@ pub fn classify(plans: &[RunPlan], budget: f64, watch: &dyn Watch) -> Result<Opt
     let starts = plans.iter().map(|plan| analyse::start(plan)).collect::<Result<Vec<Start>, Error>>()?;
     let kernel = Kernel::of_all(starts.iter().map(|(model, _)| model.as_ref()));
     match kernel.filter(|_| plans.len() > 1 && classifies_in_lanes(&settings)) {
-        Some(kernel) => in_lanes((kernel, &settings), starts, watch),
+        Some(kernel) => in_lanes(kernel, &settings, starts, watch),
         None => one_by_one(plans, &settings, &starts, watch),
     }
 }
@@ -42,7 +42,8 @@ fn one_by_one(
 }
 
 fn in_lanes(
-    (kernel, settings): (Kernel, &Settings),
+    kernel: Kernel,
+    settings: &Settings,
     starts: Vec<Start>,
     watch: &dyn Watch,
 ) -> Result<Option<Vec<Verdict>>, Error> {

@@ -78,8 +78,8 @@ impl Bodies<'_> {
     }
 
     fn start(&self, key: usize, state: Vec<f64>, t: f64, stretch: u64) -> Result<NoisyStart<'_>, Error> {
-        let at = (t, state.len());
-        let noise = noise_steps(&self.plans[key].computation, self.noise, self.model, stretch, at)?;
+        let noise =
+            noise_steps(&self.plans[key].computation, self.noise, self.model, stretch, t, state.len())?;
         Ok(NoisyStart { key, body: self.model, state, noise })
     }
 
@@ -96,7 +96,7 @@ impl Bodies<'_> {
         let mut done = |key: usize, states: Option<NoisyStates<'_>>| {
             jobs.done(key, Ok(Some(states.map(|states| states.last.to_vec()))));
         };
-        propagate_noisy_bodies((self.kernel, Stretch::Shape), &span, &mut next, &mut done, watch);
+        propagate_noisy_bodies(self.kernel, Stretch::Shape, &span, &mut next, &mut done, watch);
     }
 
     /// The rows of those that have settled; single runs say what happened to the others.
@@ -123,7 +123,7 @@ impl Bodies<'_> {
             }
             None => alone(key),
         };
-        propagate_noisy_bodies((self.kernel, Stretch::Plane), &span, &mut next, &mut done, watch);
+        propagate_noisy_bodies(self.kernel, Stretch::Plane, &span, &mut next, &mut done, watch);
     }
 }
 

@@ -76,7 +76,8 @@ enum End {
 /// # Checked by  tests/all/saddle.rs: Lorenz's equations below and above the chaos
 pub fn saddle(
     plan: &Plan,
-    (samples, random): (usize, Random),
+    samples: usize,
+    random: Random,
     spans: Spans,
     threads: usize,
     watch: &dyn Watch,
@@ -87,10 +88,11 @@ pub fn saddle(
     let [transient, t_end] =
         [spans.transient.unwrap_or(0.5 * look), spans.t_end.unwrap_or(10.0 * look)].map(Some);
     let settings = analyse::lyapunov_settings(plan, 1, Spans { transient, t_end })?;
-    let bounds = (c.escape_norm, c.max_steps);
-    let of = (info, &c.parameters.values()[..]);
-    let last = analyse::settings_of(of, settings.method, c.control, bounds, LAST_LOOKS * look);
-    let size = Scales::typical(info, &c.parameters.values())?;
+    let values = c.parameters.values();
+    let budget = LAST_LOOKS * look;
+    let last =
+        analyse::settings_of(info, &values, settings.method, c.control, c.escape_norm, c.max_steps, budget);
+    let size = Scales::typical(info, &values)?;
     let one = |sample: usize| {
         let start = random.shape(info, model.as_ref(), c.seed, sample as u64 + 1);
         let found = lyapunov(model.as_ref(), &start, &settings, &StopOnly(watch))?;
@@ -143,7 +145,7 @@ fn summarise(runs: &[(Lyapunov, End)], settings: &LyapunovSettings, way_out: f64
     let rate = chaotic.and_then(|_| escape_rate(&stays, delay).ok()).map(|found| found.rate);
     Ok(Saddle {
         exponent: chaotic,
-        missing: missing((exponent, left), way, &runs.iter().map(|run| &run.0).collect::<Vec<_>>()),
+        missing: missing(exponent, left, way, &runs.iter().map(|run| &run.0).collect::<Vec<_>>()),
         rate,
         runs: runs.len(),
         escaped: count(|end| *end == End::BlewUp),
@@ -155,7 +157,7 @@ fn summarise(runs: &[(Lyapunov, End)], settings: &LyapunovSettings, way_out: f64
 }
 
 /// The reason why the exponent is that of no chaotic saddle; nothing where it is.
-fn missing((exponent, left): (Option<Estimate>, bool), way: f64, runs: &[&Lyapunov]) -> String {
+fn missing(exponent: Option<Estimate>, left: bool, way: f64, runs: &[&Lyapunov]) -> String {
     let with = |found: Estimate| format!("{:.5} +- {:.1e}", found.value, found.error);
     match exponent {
         Some(found) if found.value > found.error && left => String::new(),

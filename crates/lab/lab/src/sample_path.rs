@@ -22,7 +22,8 @@ pub struct Looks {
 pub fn sample_path(
     body: &dyn Model,
     state: &[f64],
-    (noise, normal): (Noise, Normal),
+    noise: Noise,
+    normal: Normal,
     looks: Looks,
     take: &mut dyn FnMut(usize, &[f64]) -> bool,
 ) -> bool {

@@ -18,7 +18,8 @@ use motiform_study::{Ending, Error, Plan};
 /// An unknown coordinate, a value that is not finite, a plan with noise.
 pub fn section(
     plan: &Plan,
-    (coordinate, value): (&str, f64),
+    coordinate: &str,
+    value: f64,
     direction: Direction,
     watch: &dyn Watch,
 ) -> Result<(Table, Ending), Error> {

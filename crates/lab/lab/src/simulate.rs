@@ -245,7 +245,7 @@ pub(crate) fn noisy<'o>(
     stretch: u64,
 ) -> Result<Box<dyn Integration + 'o>, Error> {
     let Some(settings) = computation.noise else { return Ok(orbit) };
-    let steps = noise_steps(computation, settings, model, stretch, (orbit.t(), orbit.state().len()))?;
+    let steps = noise_steps(computation, settings, model, stretch, orbit.t(), orbit.state().len())?;
     Ok(Box::new(NoisyOrbit::of(orbit, steps)))
 }
 
@@ -255,7 +255,8 @@ pub(crate) fn noise_steps(
     settings: NoiseSettings,
     model: &dyn Model,
     stretch: u64,
-    (t, dim): (f64, usize),
+    t: f64,
+    dim: usize,
 ) -> Result<NoiseSteps, Error> {
     let noise = Noise::on(model, settings.velocity, settings.shape, settings.step);
     let normal = Normal::new(computation.seed, u64::MAX - stretch);

@@ -311,7 +311,7 @@ impl Study {
             self.untitle();
         }
         let order: Vec<_> = info.parameters().iter().map(|spec| spec.name).collect();
-        replace(&mut self.parameters, (name, value), &order);
+        replace(&mut self.parameters, name, value, &order);
         Ok(())
     }
 
@@ -336,13 +336,13 @@ impl Study {
         if !self.initial.iter().any(|entry| entry.0 == name && entry.1 == value) {
             self.untitle();
         }
-        replace(&mut self.initial, (name, value), &order);
+        replace(&mut self.initial, name, value, &order);
         Ok(())
     }
 }
 
 /// Inserts a value at the position that `order` gives its name, independent of the order of typing.
-fn replace(list: &mut Vec<(String, f64)>, (name, value): (&str, f64), order: &[&str]) {
+fn replace(list: &mut Vec<(String, f64)>, name: &str, value: f64, order: &[&str]) {
     list.retain(|(known, _)| known != name);
     list.push((name.to_owned(), value));
     list.sort_by_key(|(known, _)| order.iter().position(|name| name == known));

@@ -4,7 +4,7 @@ use super::geometry::{Point, Rect};
 
 /// The place of words of a size beside a mark: to the right and above, or the next of the four corners that
 /// lies in the frame and hides no words that are there (`taken`); to the right and above if there is none.
-pub(super) fn beside([x, y]: Point, [w, h]: [f64; 2], gap: f64, (frame, taken): (Rect, &[Rect])) -> Rect {
+pub(super) fn beside([x, y]: Point, [w, h]: [f64; 2], gap: f64, frame: Rect, taken: &[Rect]) -> Rect {
     let corners = [(gap, -gap - h), (gap, gap), (-gap - w, -gap - h), (-gap - w, gap)];
     let places = corners.map(|(dx, dy)| Rect { x: x + dx, y: y + dy, w, h });
     let inside = |r: &Rect| {

@@ -155,7 +155,7 @@ impl MapPlace {
         let [x, y] = scale.map(self.at);
         let label = Label::parse(&self.name);
         let (w, h) = (label.width(NAME) + 6.0, NAME + 5.0);
-        let place = beside([x, y], [w, h], 10.0, (scale.frame, taken));
+        let place = beside([x, y], [w, h], 10.0, scale.frame, taken);
         svg.rect(place, &Paint::fill(WHITE).opacity(0.88));
         svg.text([place.x + 3.0, place.y + 0.5 * h + 0.36 * NAME], NAME, Anchor::Start, &label);
         taken.push(place);

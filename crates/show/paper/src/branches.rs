@@ -40,8 +40,10 @@ pub(crate) fn at(context: &Context<'_>, kappa2: f64, kappa3: f64) -> Result<Stud
 /// [`Error::Start`] if that is not the motion asked for; [`Error::Interrupted`].
 pub(crate) fn follow(
     context: &Context<'_>,
-    (kappa2, kappa3): (f64, f64),
-    (origin, branches): (Regime, usize),
+    kappa2: f64,
+    kappa3: f64,
+    origin: Regime,
+    branches: usize,
 ) -> Result<(BranchPlan, Arc<Branches>), Error> {
     let mut study = at(context, kappa2, kappa3)?;
     "Branches along *κ*_2".clone_into(&mut study.title);
@@ -57,7 +59,7 @@ pub(crate) fn follow(
 /// # Errors
 /// As [`follow`].
 pub(crate) fn slow(context: &Context<'_>) -> Result<(BranchPlan, Arc<Branches>), Error> {
-    follow(context, (0.9, 0.1), (Regime::Zigzag, context.choose(8, 5)))
+    follow(context, 0.9, 0.1, Regime::Zigzag, context.choose(8, 5))
 }
 
 /// Their figures, and the claims that follow.
@@ -67,7 +69,8 @@ pub(crate) fn slow(context: &Context<'_>) -> Result<(BranchPlan, Arc<Branches>),
 pub(crate) fn add(
     context: &Context<'_>,
     section: &mut Section,
-    (plan, found): &(BranchPlan, Arc<Branches>),
+    plan: &BranchPlan,
+    found: &Branches,
 ) -> Result<(), Error> {
     let words = [
         (

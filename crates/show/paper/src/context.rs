@@ -116,8 +116,9 @@ impl Context<'_> {
     /// The chaotic saddle of a study's parameters.
     pub(crate) fn saddle(&self, study: &Study, runs: usize, times: Spans) -> Result<Saddle, Error> {
         let plan = RunPlan::new(study)?;
-        let (starts, watch) = ((runs, Random::SMALL), StopOnly(self.watch));
-        let compute = || saddle(&plan, starts, times, self.threads, &watch)?.ok_or(Error::Interrupted);
+        let watch = StopOnly(self.watch);
+        let compute =
+            || saddle(&plan, runs, Random::SMALL, times, self.threads, &watch)?.ok_or(Error::Interrupted);
         let mut found = self.kept.once(&format!("saddle {runs} {times:?} {}", plan.hash()), compute)?;
         let estimates = found.exponent.iter_mut().chain(&mut found.rate);
         estimates.for_each(|estimate| self.changed(estimate, |fault| fault.estimate));

@@ -71,7 +71,7 @@ impl Curves {
         let settings = Settings { largest_step: STEP, longest_time: LONGEST, ..over };
         let all = context
             .kept
-            .once("curves of Fig. 4", || Ok(Arc::new(all(context, (&plane, &settings), found)?)))?;
+            .once("curves of Fig. 4", || Ok(Arc::new(all(context, &plane, &settings, found)?)))?;
         Ok(Self { plane, settings, all })
     }
 
@@ -199,11 +199,12 @@ impl Curves {
 /// The curve of every special point of the branches found, and of those at a faster triangle.
 fn all(
     context: &Context<'_>,
-    (plane, settings): (&Plane, &Settings),
+    plane: &Plane,
+    settings: &Settings,
     found: &Branches,
 ) -> Result<Vec<WholeCurve>, Error> {
     let mut all: Vec<WholeCurve> = Vec::new();
-    let (_, fast) = follow(context, (1.4, FAST), (Regime::Straight, 1))?;
+    let (_, fast) = follow(context, 1.4, FAST, Regime::Straight, 1)?;
     for (row, branches) in [(SLOW, found), (FAST, &*fast)] {
         let samples = branches.branches.iter().flat_map(Followed::samples);
         for point in samples.map(|sample| &sample.point).filter(|point| point.special.is_some()) {

@@ -22,10 +22,10 @@ pub(super) fn section(context: &Context<'_>) -> Result<Section, Error> {
         parameters: parameters(&at(context, 0.5, 0.1)?)?,
         ..Section::default()
     };
-    let slow = branches::slow(context)?;
-    let curves = Curves::follow(context, &slow.1)?;
+    let (plan, slow) = branches::slow(context)?;
+    let curves = Curves::follow(context, &slow)?;
     map::add(context, &mut section, &curves)?;
-    branches::add(context, &mut section, &slow)?;
+    branches::add(context, &mut section, &plan, &slow)?;
     exponent::add(context, &mut section)?;
     blow_up::add(context, &mut section)?;
     escape::add(context, &mut section)?;

@@ -47,7 +47,8 @@ fn parameters(context: &Context<'_>) -> Result<Vec<(String, String)>, Error> {
 /// The drawings of a dataset by name (`motion` is the animation), with the words below each; the path is the paper's figure `name`.
 pub(super) fn drawings(
     context: &Context<'_>,
-    (name, dataset): (&str, &Dataset),
+    name: &str,
+    dataset: &Dataset,
     wanted: &[(&str, &str)],
 ) -> Result<Vec<ReportFigure>, Error> {
     context.drawn(&|| {

@@ -185,7 +185,8 @@ pub fn claims_under(
     fault: &Fault,
     chapter: &str,
     kept: &Kept,
-    (out, threads): (&Path, usize),
+    out: &Path,
+    threads: usize,
 ) -> Result<Vec<Claim>, Error> {
     let found = CHAPTERS.iter().chain(FURTHER).find(|known| known.name == chapter);
     let found = found.ok_or_else(|| unknown(chapter))?;

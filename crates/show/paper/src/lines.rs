@@ -83,9 +83,9 @@ impl Walk<'_> {
         let circular = circular.1.motion.equilibrium().cloned().ok_or(Error::Interrupted)?;
         let down = Settings::over(LEFT.0, second).reversed();
         let oscillates = self.from(1, [second, 0.08], &circular, &down)?;
-        self.add(0, Line::CircleToStraight, (&start.0, second), RIGHT)?;
-        self.add(0, Line::StraightToCircular, (&straight.0, second), RIGHT)?;
-        self.add(1, Line::CircularToQuasiPeriodic, (&oscillates.0, 0.08), (1e-3, GAMMA.1))
+        self.add(0, Line::CircleToStraight, &start.0, second, RIGHT)?;
+        self.add(0, Line::StraightToCircular, &straight.0, second, RIGHT)?;
+        self.add(1, Line::CircularToQuasiPeriodic, &oscillates.0, 0.08, (1e-3, GAMMA.1))
     }
 
     /// Circle and ellipse at rest with falling kappa2; then ellipse and straight motion with growing gamma.
@@ -99,9 +99,9 @@ impl Walk<'_> {
         let settings = Settings::over(low, GAMMA.1);
         let ellipse = self.from(0, [low, second], &ellipse, &settings)?;
         let straight = self.next(0, second, &ellipse.0, &settings)?;
-        self.add(1, Line::CircleToEllipse, (&circle.0, low), (GAMMA.0, -0.002))?;
-        self.add(0, Line::EllipseToStraight, (&ellipse.0, second), LEFT)?;
-        self.add(0, Line::StraightHopf, (&straight.0, second), LEFT)
+        self.add(1, Line::CircleToEllipse, &circle.0, low, (GAMMA.0, -0.002))?;
+        self.add(0, Line::EllipseToStraight, &ellipse.0, second, LEFT)?;
+        self.add(0, Line::StraightHopf, &straight.0, second, LEFT)
     }
 
     fn circle(&self, plane: usize, at: [f64; 2]) -> Result<RelativeEquilibrium, Error> {
@@ -146,7 +146,8 @@ impl Walk<'_> {
         &mut self,
         plane: usize,
         line: Line,
-        (point, second): (&Option<Point>, f64),
+        point: &Option<Point>,
+        second: f64,
         range: (f64, f64),
     ) -> Result<(), Error> {
         let (swapped, plane) = (plane == 1, &self.planes[plane]);

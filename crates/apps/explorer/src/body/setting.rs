@@ -67,15 +67,16 @@ impl Setting {
             Some(coordinates) => state_of(model.as_ref(), coordinates, begin.position.unwrap_or_default())?,
             None => settled(&plan, model.as_ref(), SETTLING)?,
         };
-        let names = (begin.model.clone(), begin.preset.clone());
-        let mut setting = Self::new(study, names, Rc::new(origin), revision, begin.t, state)?;
+        let (name, preset) = (begin.model.clone(), begin.preset.clone());
+        let mut setting = Self::new(study, name, preset, Rc::new(origin), revision, begin.t, state)?;
         setting.radius = setting.fitting_radius()?;
         Ok(setting)
     }
 
     fn new(
         study: Study,
-        (model_name, preset): (String, Option<String>),
+        model_name: String,
+        preset: Option<String>,
         origin: Rc<Subject>,
         revision: u32,
         t: f64,
@@ -92,8 +93,9 @@ impl Setting {
 
     /// The same body with another study, from another state.
     pub(super) fn changed(&self, study: Study, t: f64, state: Vec<f64>, radius: f64) -> Result<Self, Error> {
-        let names = (self.model_name.clone(), self.preset.clone());
-        let next = Self::new(study, names, Rc::clone(&self.origin), self.revision.wrapping_add(1), t, state)?;
+        let (name, preset) = (self.model_name.clone(), self.preset.clone());
+        let (origin, revision) = (Rc::clone(&self.origin), self.revision.wrapping_add(1));
+        let next = Self::new(study, name, preset, origin, revision, t, state)?;
         Ok(Self { radius, ..next })
     }
 

@@ -55,11 +55,11 @@ fn compute(
     let watch = Progress::staged(STAGES);
     let named = |stage: &Stage| {
         let done = if stage.even { "done" } else { "of the boundaries named" };
-        watch.stage(&stage.name, stage.share, (done, stage.even));
+        watch.stage(&stage.name, stage.share, done, stage.even);
     };
-    let found = survey(plan, threads, files, (&watch, &named)).and_then(|grid| {
+    let found = survey(plan, threads, files, &watch, &named).and_then(|grid| {
         let Some(grid) = grid else { return Ok(None) };
-        let lines = trace(plan, &grid, threads, files, (&watch, &named))?;
+        let lines = trace(plan, &grid, threads, files, &watch, &named)?;
         Ok(lines.map(|lines| (grid, lines)))
     });
     watch.finish();

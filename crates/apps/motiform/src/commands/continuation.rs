@@ -47,7 +47,7 @@ fn branches(options: &ContinueOptions, plan: BranchPlan, units: &Shown) -> anyho
     let watch = Progress::of_stage("branches", "of those known so far");
     let mut keep = |found: &_| files.as_ref().map_or(Ok(()), |folder| BranchFolder::keep(found, folder));
     let journal: &dyn Journal = files.as_ref().map_or(&(), |folder| folder);
-    let found = watch.over(|watch| follow_kept(&plan, before, (&mut keep, journal), watch));
+    let found = watch.over(|watch| follow_kept(&plan, before, &mut keep, journal, watch));
     let (files, found) = or_abandon(files, found)?;
     let folder = BranchFolder { plan, found };
     let ordinate = options.observable.ordinate();
@@ -174,7 +174,7 @@ impl Display for Branched<'_> {
         let along = &plan.computation.along;
         write!(f, "{}, {}", plain(&plan.title()), along.words())?;
         for (number, followed) in found.branches.iter().enumerate() {
-            branch(f, self.folder, (number, followed), self.units)?;
+            branch(f, self.folder, number, followed, self.units)?;
         }
         if found.left > 0 {
             write!(f, "\nmore       begins at {} of these points; --branches N follows more", found.left)?;
@@ -193,7 +193,8 @@ impl Display for Branched<'_> {
 fn branch(
     f: &mut Formatter<'_>,
     folder: &BranchFolder,
-    (number, followed): (usize, &Followed),
+    number: usize,
+    followed: &Followed,
     units: &Shown,
 ) -> std::fmt::Result {
     let parts = followed.parts();

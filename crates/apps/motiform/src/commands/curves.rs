@@ -72,7 +72,7 @@ impl Display for Followed<'_> {
         let branches = counted(found.branches.branches.len(), "branch");
         write!(f, "\n{branches} along {}", plan.computation.branches.along.words())?;
         for (number, followed) in found.curves.iter().enumerate() {
-            curve(f, self.folder, (number, followed))?;
+            curve(f, self.folder, number, followed)?;
         }
         self.written.map_or(Ok(()), |written| write!(f, "\nwritten    {written}"))
     }
@@ -81,7 +81,8 @@ impl Display for Followed<'_> {
 fn curve(
     f: &mut Formatter<'_>,
     CurveFolder { plan, found }: &CurveFolder,
-    (number, followed): (usize, &FollowedCurve),
+    number: usize,
+    followed: &FollowedCurve,
 ) -> std::fmt::Result {
     let [across, upwards] = plan.computation.plane.each_ref().map(|side| side.name.as_str());
     let [x, y] = found.start(plan, followed).unwrap_or([f64::NAN; 2]);

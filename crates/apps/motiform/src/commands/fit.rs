@@ -2,7 +2,7 @@
 
 use crate::args::FitCellsOptions;
 use crate::commands::observe::{head, plain_error, quality, read, style};
-use crate::commands::pages::draw;
+use crate::commands::pages::{cases, draw};
 use crate::commands::population::fitted;
 use crate::output::{End, print, say, warn};
 use crate::progress::Progress;
@@ -43,8 +43,10 @@ pub(crate) fn run(options: &FitCellsOptions) -> anyhow::Result<End> {
     if let (Some(work), false) = (&work, options.cells.no_report) {
         let observations: Vec<Observation> = cells.iter().map(|cell| observe(cell)).collect();
         let write = |name: &str, bytes: &[u8]| work.write_file(name, bytes);
-        let how = (options.threads.count(), &options.cells.style.format());
-        drawn = draw(&sample, (&cells, &observations), (&fits, options.together), how, &write)?;
+        let (own, together) = if options.together { (&[][..], fits.first()) } else { (&fits[..], None) };
+        let cases = cases(&cells, &observations, own);
+        let (threads, format) = (options.threads.count(), options.cells.style.format());
+        drawn = draw(&sample, &cases, together, threads, &format, &write)?;
     }
     if let Some(work) = &work {
         work.write(&sample, &fits, !options.cells.no_report).map_err(plain_error)?;

@@ -22,8 +22,8 @@ pub(crate) fn run(options: &LyapunovOptions) -> anyhow::Result<End> {
     let runs =
         options.saddle.map(|runs| study.starts(1).map(|random| (usize::from(runs), random))).transpose()?;
     let (plan, samples) = subject::plan(study, &options.many)?;
-    if let Some(runs) = runs {
-        return saddle(options, &plan, runs);
+    if let Some((runs, random)) = runs {
+        return saddle(options, &plan, runs, random);
     }
     let dim = plan.computation.initial.0.len() - 2;
     let count = options.count.map_or(COUNT.min(dim), usize::from);
@@ -63,9 +63,9 @@ fn many(options: &LyapunovOptions, plan: &Plan, samples: Samples, count: usize) 
 }
 
 /// `--saddle`: the exponent of transient chaos.
-fn saddle(options: &LyapunovOptions, plan: &Plan, runs: (usize, Random)) -> anyhow::Result<End> {
-    let watch = Progress::new(runs.0 as f64, "runs");
-    let found = watch.over(|watch| find_saddle(plan, runs, spans(options), all_cores(), watch));
+fn saddle(options: &LyapunovOptions, plan: &Plan, runs: usize, random: Random) -> anyhow::Result<End> {
+    let watch = Progress::new(runs as f64, "runs");
+    let found = watch.over(|watch| find_saddle(plan, runs, random, spans(options), all_cores(), watch));
     let Some(found) = found? else { return Ok(End::Interrupted) };
     say(&found, options.motion.json)?;
     Ok(if found.is_one() { End::Done } else { End::NotAsAsked })

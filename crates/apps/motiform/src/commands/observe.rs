@@ -1,7 +1,7 @@
 //! `motiform observe`.
 
 use crate::args::{CellsOptions, ObserveOptions};
-use crate::commands::pages::draw;
+use crate::commands::pages::{cases, draw};
 use crate::commands::population::observed;
 use crate::output::{End, say, warn};
 use crate::progress::Progress;
@@ -41,7 +41,7 @@ pub(crate) fn run(options: &ObserveOptions) -> anyhow::Result<End> {
     if let (Some(staged), false) = (&staged, options.cells.no_report) {
         let write = |name: &str, bytes: &[u8]| Ok(staged.write(name, bytes)?);
         let format = options.cells.style.format();
-        drawn = draw(&sample, (&cells, &found), (&[], false), (all_cores(), &format), &write)?;
+        drawn = draw(&sample, &cases(&cells, &found, &[]), None, all_cores(), &format, &write)?;
     }
     let written =
         staged.map(|staged| write_observations(&sample, &found, staged)).transpose().map_err(plain_error)?;

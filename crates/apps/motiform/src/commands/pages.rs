@@ -9,28 +9,34 @@ use motiform_lab::draw::FigureFormat;
 use motiform_study::Error;
 use std::collections::HashMap;
 
-/// Draws the pages of observed cells, with their fits as far as these are done; `together`: with the one fit of all cells. Each goes to
-/// `write` at once. If Ctrl-C stopped the drawing, a warning and `false`: not all pages are drawn.
+/// The cells with their observed motions, and with their fits as far as these are done.
+pub(crate) fn cases<'c>(
+    cells: &[&'c CellTrack],
+    observations: &'c [Observation],
+    fits: &'c [CellFit],
+) -> Vec<Case<'c>> {
+    let own: HashMap<&str, &CellFit> = fits.iter().map(|fit| (fit.name.as_str(), fit)).collect();
+    let case = |(&cell, observation): (&&'c CellTrack, _)| Case {
+        cell,
+        observation,
+        fit: own.get(cell.name.as_str()).copied(),
+    };
+    cells.iter().zip(observations).map(case).collect()
+}
+
+/// Draws the pages of observed cells; `together` is the one fit of all cells. Each page goes to `write` at once. If Ctrl-C stopped the
+/// drawing, a warning and `false`: not all pages are drawn.
 pub(crate) fn draw(
     sample: &Sample,
-    (cells, observations): (&[&CellTrack], &[Observation]),
-    (fits, together): (&[CellFit], bool),
-    (threads, format): (usize, &FigureFormat),
+    cases: &[Case<'_>],
+    together: Option<&CellFit>,
+    threads: usize,
+    format: &FigureFormat,
     write: &Sink<'_>,
 ) -> anyhow::Result<bool> {
-    let own: HashMap<&str, &CellFit> = match together {
-        true => HashMap::new(),
-        false => fits.iter().map(|fit| (fit.name.as_str(), fit)).collect(),
-    };
-    let case = |(cell, observation)| {
-        let cell: &CellTrack = cell;
-        Case { cell, observation, fit: own.get(cell.name.as_str()).copied() }
-    };
-    let cases: Vec<Case<'_>> = cells.iter().copied().zip(observations).map(case).collect();
-    let common = if together { fits.first() } else { None };
-    let made = Progress::new(cells.len() as f64, "pages").over(|watch| match watch.stopped() {
+    let made = Progress::new(cases.len() as f64, "pages").over(|watch| match watch.stopped() {
         true => Ok(false),
-        false => pages(sample, (&cases, common), (threads, format), watch, write),
+        false => pages(sample, cases, together, threads, format, watch, write),
     });
     match made {
         Ok(true) => Ok(true),

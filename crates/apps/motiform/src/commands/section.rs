@@ -24,7 +24,7 @@ pub(crate) fn run(options: &SectionOptions) -> anyhow::Result<End> {
     };
     let (name, value) = &options.at;
     let watch = Progress::new(plan.computation.transient + plan.computation.t_end, "model time");
-    let (table, ending) = watch.over(|watch| section(&plan, (name, *value), direction, watch))?;
+    let (table, ending) = watch.over(|watch| section(&plan, name, *value, direction, watch))?;
     let c = &plan.computation;
     let at = At { coordinate: name, value: *value };
     let crossings = Crossings(&table);

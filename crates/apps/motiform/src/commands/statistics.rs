@@ -104,8 +104,7 @@ fn bodies(
     let threads = options.threads.count();
     let journal: &dyn Journal = folder.map_or(&(), |folder| folder);
     let watch = Stages::begin();
-    let found =
-        simulated_kept(study, usize::try_from(count)?, &settings(options), (threads, journal), &watch);
+    let found = simulated_kept(study, usize::try_from(count)?, &settings(options), threads, journal, &watch);
     watch.progress.finish();
     match found {
         Err(motiform_lab::statistics::Error::Study(Error::Interrupted)) => Ok(None),
@@ -123,7 +122,7 @@ struct Stages {
 impl Stages {
     fn begin() -> Self {
         let progress = Progress::staged(2);
-        progress.stage("bodies", [0.0, SIMULATED], ("done", true));
+        progress.stage("bodies", [0.0, SIMULATED], "done", true);
         Self { progress, measuring: AtomicBool::new(false) }
     }
 }
@@ -131,7 +130,7 @@ impl Stages {
 impl Watch for Stages {
     fn progress(&self, done: f64) {
         if done > SIMULATED && !self.measuring.swap(true, Ordering::Relaxed) {
-            self.progress.stage("statistics", [SIMULATED, 1.0], ("done", true));
+            self.progress.stage("statistics", [SIMULATED, 1.0], "done", true);
         }
         self.progress.progress(done);
     }

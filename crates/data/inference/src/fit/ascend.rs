@@ -217,7 +217,7 @@ impl Climb<'_> {
 
 /// To the maximum with exact derivatives; `time` is the natural unit of time.
 pub(crate) fn polish(problem: &Problem, theta: &Theta, time: f64, watch: &dyn Watch) -> Point {
-    polish_within(problem, theta, time, (CONVERGED, MOST), watch)
+    polish_within(problem, theta, time, CONVERGED, MOST, watch)
 }
 
 /// As [`polish`], until the model promises a gain of log-likelihood below `enough`, by at most `most` evaluations.
@@ -225,7 +225,8 @@ pub(crate) fn polish_within(
     problem: &Problem,
     theta: &Theta,
     time: f64,
-    (enough, most): (f64, usize),
+    enough: f64,
+    most: usize,
     watch: &dyn Watch,
 ) -> Point {
     let n = problem.len();

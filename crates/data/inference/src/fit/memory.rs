@@ -22,8 +22,8 @@ use motiform_dynamics::{Complex, Watch};
 
 /// Rates `k` from which the search begins, in natural units.
 const STARTS: [f64; 2] = [0.7, 4.0];
-/// First steps from each of them.
-const FIRST: (f64, usize) = (1.0, 12);
+/// Most first steps from each of them.
+const FIRST: usize = 12;
 
 /// Terms of a fit whose noise of the velocity has a memory.
 pub(crate) struct WithMemory {
@@ -39,7 +39,7 @@ impl WithMemory {
     /// # Checked by  `tests/all/ladder.rs`; the likelihood: `tests/all/filter.rs`
     pub(crate) fn of(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Self> {
         let problem = problem_of(tracks, fit);
-        let from = |k: f64| climb(&problem, &start(fit, k), FIRST, watch);
+        let from = |k: f64| climb(&problem, &start(fit, k), 1.0, FIRST, watch);
         let [slow, fast]: [Point; 2] = STARTS.map(from);
         let better = if fast.evaluation.value > slow.evaluation.value { fast } else { slow };
         let Point { theta, .. } = polish(&problem, &better.theta, fit.scales.time, watch);

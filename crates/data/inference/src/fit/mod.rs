@@ -66,7 +66,7 @@ pub fn fit(tracks: &[Track], settings: &Settings, watch: &dyn Watch) -> Result<F
     let of = head.as_ref().unwrap_or(&problem);
     let mut rough = best(of, &starts, watch);
     if head.is_some() {
-        rough = climb(&problem, &rough.theta, (1.0, 12), watch);
+        rough = climb(&problem, &rough.theta, 1.0, 12, watch);
         if !rough.evaluation.value.is_finite() {
             rough = roughly(&problem, &zero(&problem, 0.4), watch);
         }
@@ -93,7 +93,7 @@ pub(crate) fn refit(
     watch: &dyn Watch,
 ) -> Result<Fit> {
     let problem = problem(tracks, settings, scales);
-    let mut rough = climb(&problem, start, (1.0, 8), watch);
+    let mut rough = climb(&problem, start, 1.0, 8, watch);
     if !rough.evaluation.value.is_finite() {
         rough = roughly(&problem, &zero(&problem, 0.4), watch);
     }
@@ -107,11 +107,12 @@ pub(crate) fn refit_within(
     settings: &Settings,
     scales: &Scales,
     start: &Theta,
-    (enough, most): (f64, usize),
+    enough: f64,
+    most: usize,
     watch: &dyn Watch,
 ) -> Result<Fit> {
     let problem = problem(tracks, settings, scales);
-    let point = polish_within(&problem, start, scales.time, (enough, most), watch);
+    let point = polish_within(&problem, start, scales.time, enough, most, watch);
     if !point.evaluation.value.is_finite() {
         return refit(tracks, settings, scales, start, watch);
     }
@@ -124,14 +125,14 @@ pub(crate) fn reached(
     tracks: &[Track],
     settings: &Settings,
     scales: &Scales,
-    (start, enough): (&Theta, f64),
+    start: &Theta,
+    enough: f64,
     watch: &dyn Watch,
 ) -> Result<(Theta, Option<f64>)> {
     let problem = problem(tracks, settings, scales);
-    let steps = (enough, MOST_ROUGH);
-    let ahead = problem.head(LONG).map(|head| climb(&head, start, steps, watch));
+    let ahead = problem.head(LONG).map(|head| climb(&head, start, enough, MOST_ROUGH, watch));
     let start = ahead.as_ref().filter(|at| at.evaluation.value.is_finite()).map_or(start, |at| &at.theta);
-    let Point { theta, evaluation, ending } = climb(&problem, start, steps, watch);
+    let Point { theta, evaluation, ending } = climb(&problem, start, enough, MOST_ROUGH, watch);
     if watch.stopped() {
         return Err(Error::Interrupted);
     }

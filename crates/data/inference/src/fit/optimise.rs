@@ -110,7 +110,8 @@ pub(super) fn prior(theta: &Theta) -> f64 {
 fn advance(
     problem: &Problem,
     want: Want,
-    (theta, evaluation): (&Theta, &Evaluation),
+    theta: &Theta,
+    evaluation: &Evaluation,
     step: &[f64],
 ) -> (Theta, Evaluation) {
     let next = moved(theta, step.to_vec());
@@ -129,12 +130,7 @@ fn advance(
 }
 
 /// Goes uphill from `theta` for at most `most` evaluations, until a step promises less than `enough`.
-pub(crate) fn climb(
-    problem: &Problem,
-    theta: &Theta,
-    (enough, most): (f64, usize),
-    watch: &dyn Watch,
-) -> Point {
+pub(crate) fn climb(problem: &Problem, theta: &Theta, enough: f64, most: usize, watch: &dyn Watch) -> Point {
     let want = Want::Rough;
     let mut evaluation = objective(problem, theta, want);
     let (mut theta, mut damping, mut evaluations) = (theta.clone(), 1e-3, 1);
@@ -146,7 +142,7 @@ pub(crate) fn climb(
             ending = Ending::Converged { evaluations };
             break;
         }
-        let (next, trial) = advance(problem, want, (&theta, &evaluation), &step);
+        let (next, trial) = advance(problem, want, &theta, &evaluation, &step);
         evaluations += 1;
         if trial.value > evaluation.value {
             (theta, evaluation) = (next, trial);
@@ -160,5 +156,5 @@ pub(crate) fn climb(
 
 /// First steps from a start.
 pub(crate) fn roughly(problem: &Problem, theta: &Theta, watch: &dyn Watch) -> Point {
-    climb(problem, theta, (1.0, 24), watch)
+    climb(problem, theta, 1.0, 24, watch)
 }

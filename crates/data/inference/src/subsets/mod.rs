@@ -202,7 +202,7 @@ pub fn refit_with(tracks: &[Track], fit: &Fit, kept: &[usize], watch: &dyn Watch
 /// # Errors    as [`refit_with`]
 pub fn refit_tied(tracks: &[Track], fit: &Fit, kept: &[usize], watch: &dyn Watch) -> Result<Fit> {
     match reduced(fit, kept) {
-        Some((settings, start)) => refit_within(tracks, &settings, &fit.scales, &start, (NEAR, MOST), watch),
+        Some((settings, start)) => refit_within(tracks, &settings, &fit.scales, &start, NEAR, MOST, watch),
         None => Ok(fit.clone()),
     }
 }

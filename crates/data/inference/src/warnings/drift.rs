@@ -62,7 +62,7 @@ pub fn drift(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Drift> {
     let mut points = Vec::new();
     let mut start = fit.theta();
     for every in [2, 4] {
-        let again = thinned(tracks, every, (fit, &start), watch)?;
+        let again = thinned(tracks, every, fit, &start, watch)?;
         start = again.as_ref().map_or(start, Fit::theta);
         let estimates = again.and_then(|again| match &again.ending {
             Ending::Converged { .. } => Ok(again.coefficients.iter().map(|c| c.estimate).collect()),
@@ -82,7 +82,8 @@ pub fn drift(tracks: &[Track], fit: &Fit, watch: &dyn Watch) -> Result<Drift> {
 fn thinned(
     tracks: &[Track],
     every: usize,
-    (fit, start): (&Fit, &Theta),
+    fit: &Fit,
+    start: &Theta,
     watch: &dyn Watch,
 ) -> Result<std::result::Result<Fit, String>> {
     let tracks: Vec<Track> = tracks.iter().map(|track| track.thinned(every)).collect();
@@ -95,7 +96,7 @@ fn thinned(
         )));
     }
     let settings = Settings { library: fit.library.clone(), handed: fit.handed, starts: Vec::new() };
-    let again = refit_within(&tracks, &settings, &fit.scales, start, (NEAR, MOST), watch)?;
+    let again = refit_within(&tracks, &settings, &fit.scales, start, NEAR, MOST, watch)?;
     let apart = || "the frames are too far apart for the filter: it starts again at each of them".to_owned();
     Ok(if again.frames > 0 { Ok(again) } else { Err(apart()) })
 }

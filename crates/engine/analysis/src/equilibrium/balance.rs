@@ -29,7 +29,7 @@ pub fn balances(body: &dyn Equivariant, directions: &[Vec<f64>]) -> Vec<f64> {
 
 /// The same along one direction.
 fn along(body: &dyn Equivariant, ray: &[f64]) -> Vec<f64> {
-    beside(body, (&vec![0.0; ray.len()], &[]), (ray, 1.0), f64::NEG_INFINITY).concat()
+    beside(body, &vec![0.0; ray.len()], &[], ray, 1.0, f64::NEG_INFINITY).concat()
 }
 
 /// The sizes of changes of a shape at which terms balance along a ray, for each equation, from changes by the unit times powers of 2. Rates
@@ -37,8 +37,10 @@ fn along(body: &dyn Equivariant, ray: &[f64]) -> Vec<f64> {
 /// least the degree `least`.
 pub(super) fn beside(
     body: &dyn Equivariant,
-    (shape, noise): (&[f64], &[f64]),
-    (ray, unit): (&[f64], f64),
+    shape: &[f64],
+    noise: &[f64],
+    ray: &[f64],
+    unit: f64,
     least: f64,
 ) -> Vec<Vec<f64>> {
     let length = norm(ray);

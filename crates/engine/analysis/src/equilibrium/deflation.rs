@@ -123,7 +123,7 @@ impl Deflation {
         let mut omega = turning_of_shape(body, &shape, &rate);
         let turning = Units::of_shape(body, guess).turning();
         for _ in 0..STEPS {
-            let step = step(body, (&shape, omega), turning)?;
+            let step = step(body, &shape, omega, turning)?;
             let (turned, step) = step.split_last()?;
             let length = norm(step);
             let (pull, nearest) = self.pull(body, &shape, step, reach);
@@ -163,7 +163,7 @@ impl Deflation {
             let distance = found.distance(body, known.copies.shape());
             distance > APART * errors
                 && !near(body, distance, known.copies.shape(), self.unit)
-                && !is_flat(body, found, (&known.copies, known.turning_rate), self.unit)
+                && !is_flat(body, found, &known.copies, known.turning_rate, self.unit)
         };
         found.is_isolated(error, self.unit) && self.known.iter().all(apart) && is_resolved(body, &found.shape)
     }
@@ -196,8 +196,8 @@ fn is_resolved(body: &dyn Equivariant, shape: &[f64]) -> bool {
 
 /// Newton's step `(du, domega)`, with du across the group orbit and domega in units of `turning`; the smallest step where that is not
 /// determined.
-fn step(body: &dyn Equivariant, (shape, omega): (&[f64], f64), turning: f64) -> Option<Vec<f64>> {
-    let (unknowns, target) = equations(body, (shape, omega), turning);
+fn step(body: &dyn Equivariant, shape: &[f64], omega: f64, turning: f64) -> Option<Vec<f64>> {
+    let (unknowns, target) = equations(body, shape, omega, turning);
     let (mut square, mut rhs) = (unknowns.clone(), target.clone());
     match neutral_direction(body, shape).pop() {
         Some(neutral) => {
@@ -224,7 +224,7 @@ impl RelativeEquilibrium {
     /// rotations.
     pub fn is_same(&self, body: &dyn Equivariant, other: &Self, unit: f64) -> bool {
         near(body, self.distance(body, &other.shape), &other.shape, unit)
-            || is_flat(body, self, (&Copies::of(body, &other.shape), other.turning_rate), unit)
+            || is_flat(body, self, &Copies::of(body, &other.shape), other.turning_rate, unit)
     }
 }
 
@@ -233,7 +233,8 @@ impl RelativeEquilibrium {
 fn is_flat(
     body: &dyn Equivariant,
     found: &RelativeEquilibrium,
-    (copies, turning_rate): (&Copies, f64),
+    copies: &Copies,
+    turning_rate: f64,
     unit: f64,
 ) -> bool {
     let copy = copies.nearest(body, &found.shape);

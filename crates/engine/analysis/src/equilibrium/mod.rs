@@ -63,7 +63,7 @@ impl RelativeEquilibrium {
         let omega = if turns { omega } else { 0.0 }; // a circle does not turn
         let uncertainty = Uncertainty::of(body, &shape, omega, turns);
         let matrix = matrix_of(&columns);
-        let entries = uncertainty.of_linearisation(body, (&shape, omega), &matrix);
+        let entries = uncertainty.of_linearisation(body, &shape, omega, &matrix);
         let (eigenvalues, errors) = spectrum::across(&neutral, &matrix, &entries)?;
         let velocity = model::velocity(body, &shape);
         let residual = norm(&uncertainty::residual(body, &shape, omega));

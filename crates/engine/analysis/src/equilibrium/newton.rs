@@ -31,7 +31,7 @@ impl RelativeEquilibrium {
         let turning = Units::of_shape(body, guess).turning();
         let mut last = f64::INFINITY;
         for _ in 0..STEPS {
-            let (unknowns, target) = equations(body, (&shape, omega), turning);
+            let (unknowns, target) = equations(body, &shape, omega, turning);
             let size = norm(&target);
             if !size.is_finite() {
                 return None;
@@ -59,7 +59,7 @@ impl RelativeEquilibrium {
     /// `None` where there is no step.
     pub fn first_step(body: &dyn Equivariant, shape: &[f64]) -> Option<f64> {
         let omega = turning_of_shape(body, shape, &body.rates(shape));
-        let (unknowns, target) = equations(body, (shape, omega), Units::of_shape(body, shape).turning());
+        let (unknowns, target) = equations(body, shape, omega, Units::of_shape(body, shape).turning());
         least_squares(&unknowns, &target).map(|step| norm(&step[..shape.len()]))
     }
 }
@@ -71,7 +71,7 @@ const CIRCLE: f64 = 1e-6;
 /// slow direction far out.
 fn is_rounding(body: &dyn Equivariant, shape: &[f64], omega: f64) -> bool {
     let columns = linearisation(body, shape, omega);
-    let bounds = rounding_of(body, (shape, omega), &columns);
+    let bounds = rounding_of(body, shape, omega, &columns);
     norm(&residual(body, shape, omega)) <= LEFT * norm(&bounds)
 }
 
@@ -97,7 +97,8 @@ fn round(body: &dyn Equivariant, shape: &mut [f64], step: &[f64]) -> bool {
 /// last unknown is `domega` in units of `turning` ([`Units::turning`]).
 pub(super) fn equations(
     body: &dyn Equivariant,
-    (shape, omega): (&[f64], f64),
+    shape: &[f64],
+    omega: f64,
     turning: f64,
 ) -> (Vec<Vec<f64>>, Vec<f64>) {
     let mut columns = linearisation(body, shape, omega);

@@ -48,8 +48,7 @@ impl RelativeEquilibrium {
             return None;
         }
         let matrix = matrix_of(&linearisation(body, &self.shape, self.turning_rate));
-        let entries =
-            self.uncertainty(body).of_linearisation(body, (&self.shape, self.turning_rate), &matrix);
+        let entries = self.uncertainty(body).of_linearisation(body, &self.shape, self.turning_rate, &matrix);
         let leading = |class: &Vec<Vec<f64>>| {
             let (values, errors) = spectrum::within(class, &matrix, &entries)?;
             Some((values.first()?.0, *errors.first()?))

@@ -33,7 +33,7 @@ impl Uncertainty {
         let columns = linearisation(body, shape, omega);
         let spin = body.spun(shape);
         let mut bounds = residual(body, shape, omega);
-        let rounding = rounding_of(body, (shape, omega), &columns);
+        let rounding = rounding_of(body, shape, omega, &columns);
         bounds.iter_mut().zip(&rounding).for_each(|(bound, rounding)| *bound = bound.abs() + rounding);
         bounds.push(0.0);
         let entry = |i: usize, j: usize| match (i < dim, j < dim) {
@@ -70,10 +70,10 @@ impl Uncertainty {
     pub(super) fn of_linearisation(
         &self,
         body: &dyn Equivariant,
-        found: (&[f64], f64),
+        shape: &[f64],
+        omega: f64,
         matrix: &DMatrix<f64>,
     ) -> DMatrix<f64> {
-        let (shape, omega) = found;
         let mut errors = DMatrix::zeros(matrix.nrows(), matrix.ncols());
         let known = self.shape.iter().all(|x| x.is_finite());
         for seed in if known { 0..TRIES } else { 0..0 } {
@@ -100,11 +100,11 @@ impl RelativeEquilibrium {
 /// The rounding error of each rate `f - omega Gu`: the largest one at a shape and at some shapes near it. (At a shape whose entries are
 /// short numbers the terms may cancel exactly.)
 pub fn round_off(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
-    let mut most = rounding_of(body, (shape, omega), &linearisation(body, shape, omega));
+    let mut most = rounding_of(body, shape, omega, &linearisation(body, shape, omega));
     for seed in 0..TRIES {
         let mut random = SplitMix(400 + seed);
         let moved: Vec<f64> = shape.iter().map(|x| x + x * BESIDE * random.next()).collect();
-        let beside = rounding_of(body, (&moved, omega), &linearisation(body, &moved, omega));
+        let beside = rounding_of(body, &moved, omega, &linearisation(body, &moved, omega));
         most.iter_mut().zip(beside).for_each(|(most, beside)| *most = most.max(beside));
     }
     most
@@ -120,11 +120,12 @@ const NUDGE: f64 = 8.0 * EPS;
 /// more.
 pub(super) fn rounding_of(
     body: &dyn Equivariant,
-    (shape, omega): (&[f64], f64),
+    shape: &[f64],
+    omega: f64,
     columns: &[Vec<f64>],
 ) -> Vec<f64> {
     let spin = body.spun(shape);
-    let mut bounds = seen(body, (shape, omega), columns);
+    let mut bounds = seen(body, shape, omega, columns);
     for (i, bound) in bounds.iter_mut().enumerate() {
         let terms: f64 = columns.iter().zip(shape).map(|(column, u)| (column[i] * u).abs()).sum();
         *bound = bound.max(ROUNDINGS * EPS * (terms + (omega * spin[i]).abs()));
@@ -134,7 +135,7 @@ pub(super) fn rounding_of(
 
 /// The rounding that is seen in `f - omega Gu`: by how much its changes under small changes of the shape differ from those of its
 /// derivatives. Where terms cancel, as those of `(z + conj z)^3`, the derivatives do not show how large they are.
-fn seen(body: &dyn Equivariant, (shape, omega): (&[f64], f64), columns: &[Vec<f64>]) -> Vec<f64> {
+fn seen(body: &dyn Equivariant, shape: &[f64], omega: f64, columns: &[Vec<f64>]) -> Vec<f64> {
     let here = residual(body, shape, omega);
     let mut seen = vec![0.0_f64; shape.len()];
     for seed in 0..TRIES {

@@ -134,7 +134,7 @@ pub fn vicinity(bodies: &[&dyn Equivariant], shape: &[f64]) -> Option<f64> {
     for body in bodies {
         let noise: Vec<f64> = round_off(*body, shape, 0.0).iter().map(|error| CLEAR * error).collect();
         for ray in diagonals(body.dim()) {
-            let found = beside(*body, (shape, &noise), (&ray, norm(shape)), NONLINEAR);
+            let found = beside(*body, shape, &noise, &ray, norm(shape), NONLINEAR);
             sizes.iter_mut().zip(found).for_each(|(all, found)| all.extend(found));
         }
     }

@@ -10,7 +10,7 @@ use motiform_dynamics::scalar::MOST_LANES;
 use motiform_dynamics::simd::{LaneKernel, has_lanes, run_wide};
 use motiform_dynamics::steppers::Method;
 use motiform_dynamics::steppers::unrolled::Dop853;
-use motiform_dynamics::{Bundle, Equivariant, Mask, Outcome, StepControl, Watch};
+use motiform_dynamics::{Bundle, Equivariant, Mask, Outcome, StepControl, Tolerance, Watch};
 
 /// One orbit whose exponents are asked for.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ pub fn runs_in_lanes(settings: &LyapunovSettings) -> bool {
 ///
 /// A member that escapes, fails or loses the direction of a vector is run again alone. When `watch` stops it, the rest is left.
 pub fn lyapunov_in_lanes<B, F, const N: usize, const K: usize, const D: usize>(
-    control: (f64, f64),
+    tolerance: Tolerance,
     next: &mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
     done: &mut dyn FnMut(usize, Result<Lyapunov>),
     watch: &dyn Watch,
@@ -48,12 +48,12 @@ pub fn lyapunov_in_lanes<B, F, const N: usize, const K: usize, const D: usize>(
     B: AsRef<dyn Equivariant>,
     F: InLanes,
 {
-    let _ = run_wide(ExponentKernel::<B, F, N, K, D> { control, next, done, watch });
+    let _ = run_wide(ExponentKernel::<B, F, N, K, D> { tolerance, next, done, watch });
 }
 
 /// The work of one thread.
 struct ExponentKernel<'r, B, F, const N: usize, const K: usize, const D: usize> {
-    control: (f64, f64),
+    tolerance: Tolerance,
     next: &'r mut dyn FnMut() -> Option<TangentMember<B, F, N>>,
     done: &'r mut dyn FnMut(usize, Result<Lyapunov>),
     watch: &'r dyn Watch,
@@ -79,7 +79,7 @@ impl<B: AsRef<dyn Equivariant>, F: InLanes, const N: usize, const K: usize, cons
             done: self.done,
             watch: self.watch,
         };
-        run_adaptive::<Dop853, L, D, _>(&mut lanes, self.control);
+        run_adaptive::<Dop853, L, D, _>(&mut lanes, self.tolerance);
     }
 }
 

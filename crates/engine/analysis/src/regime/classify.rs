@@ -64,7 +64,7 @@ pub fn settle(
                 let request = settings.request(orbit.t() + span, body.dim());
                 let part = search.part(span, watch);
                 let mut ends = |seen: &Seen, shape: &[f64]| search.arrives(body, seen, shape);
-                let look = Look::take_until(body, orbit.as_mut(), (span, Some(&mut ends)), &request, &part)?;
+                let look = Look::take_until(body, orbit.as_mut(), span, Some(&mut ends), &request, &part)?;
                 search.looked(body, look, &StopOnly(watch))?
             }
             Ask::Exponent(span) => {

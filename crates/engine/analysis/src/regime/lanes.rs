@@ -8,7 +8,7 @@ use super::ask::Ask;
 use super::chaos::exponent_settings;
 use super::far::FAR;
 use super::lane_look::LaneObserver;
-use super::look::{Ends, Look, Seen, pause};
+use super::look::{Look, Seen, pause};
 use super::search::Search;
 use super::settings::Settings;
 use super::verdict::Verdict;
@@ -20,7 +20,9 @@ use motiform_dynamics::ensemble::{
 };
 use motiform_dynamics::simd::{LaneKernel, run_wide};
 use motiform_dynamics::steppers::unrolled::Dop853;
-use motiform_dynamics::{Bundle, Equivariant, Integration, Mask, Orbit, Outcome, StepControl, Watch};
+use motiform_dynamics::{
+    Bundle, Equivariant, Integration, Mask, Orbit, Outcome, StepControl, Tolerance, Watch,
+};
 use std::collections::VecDeque;
 
 /// A motion to classify.
@@ -60,7 +62,7 @@ pub fn classify_in_lanes<F: InLanes + Clone, const N: usize, const D: usize>(
         if ran.is_none() || scheduler.waiting.is_empty() || scheduler.watch.stopped() {
             return;
         }
-        scheduler.measure::<D>((rtol, atol));
+        scheduler.measure::<D>(Tolerance { rtol, atol });
     }
 }
 
@@ -128,7 +130,7 @@ impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
     }
 
     /// Measures the exponents of all searches that wait for one.
-    fn measure<const D: usize>(&mut self, control: (f64, f64)) {
+    fn measure<const D: usize>(&mut self, tolerance: Tolerance) {
         let waiting = std::mem::take(&mut self.waiting);
         let mut left = waiting.iter().enumerate();
         let mut next = || {
@@ -143,7 +145,7 @@ impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
         };
         let mut runs: Vec<_> = waiting.iter().map(|_| None).collect();
         let mut done = |key: usize, run| runs[key] = Some(run);
-        lyapunov_in_lanes::<_, F, N, 1, D>(control, &mut next, &mut done, self.watch);
+        lyapunov_in_lanes::<_, F, N, 1, D>(tolerance, &mut next, &mut done, self.watch);
         for (mut motion, run) in waiting.into_iter().zip(runs) {
             let Some(run) = run else { continue }; // stopped
             let ask = run.and_then(|run| {
@@ -167,8 +169,7 @@ impl<F: InLanes + Clone, const N: usize> Scheduler<'_, F, N> {
         let request = self.settings.request(t + motion.span, N);
         let search = &mut motion.search;
         let mut ends = |seen: &Seen, shape: &[f64]| search.arrives(body, seen, shape);
-        let until = (motion.span, Some(&mut ends as &mut Ends<'_>));
-        let look = Look::take_until(body, &mut orbit, until, &request, self.watch)?;
+        let look = Look::take_until(body, &mut orbit, motion.span, Some(&mut ends), &request, self.watch)?;
         (motion.t, motion.pace) = (orbit.t(), Some(orbit.pace()));
         motion.u.copy_from_slice(orbit.state());
         motion.search.looked(body, look, self.watch)
@@ -208,7 +209,7 @@ impl<F: InLanes + Clone, const N: usize> LaneKernel for Looks<'_, '_, F, N> {
             far: L::splat(0.0),
             steps: 0,
         };
-        run_adaptive::<Dop853, L, N, _>(&mut lanes, (rtol, atol));
+        run_adaptive::<Dop853, L, N, _>(&mut lanes, Tolerance { rtol, atol });
     }
 }
 

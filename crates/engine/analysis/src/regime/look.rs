@@ -89,7 +89,7 @@ impl Look {
         request: &Request<'_>,
         watch: &dyn Watch,
     ) -> Result<Self, motiform_dynamics::Error> {
-        Self::take_until(body, orbit, (time, None), request, watch)
+        Self::take_until(body, orbit, time, None, request, watch)
     }
 
     /// As [`Look::take`]; it ends at a [`pause`] if `ends` says so of what was seen and of the shape. Steps
@@ -97,7 +97,8 @@ impl Look {
     pub(super) fn take_until(
         body: &dyn Equivariant,
         orbit: &mut dyn Integration,
-        (time, mut ends): (f64, Option<&mut Ends<'_>>),
+        time: f64,
+        mut ends: Option<&mut Ends<'_>>,
         request: &Request<'_>,
         watch: &dyn Watch,
     ) -> Result<Self, motiform_dynamics::Error> {

@@ -61,7 +61,7 @@ impl Verdict {
             _ => vec![(whole, false)],
         };
         let near = |(time, mirrored): (f64, bool)| {
-            let found = PeriodicOrbit::near(body, shape, (time, mirrored), flow, watch)?;
+            let found = PeriodicOrbit::near(body, shape, time, mirrored, flow, watch)?;
             ((found.time / time - 1.0).abs() < SAME_TIME).then_some(found)
         };
         returns.into_iter().find_map(near)

@@ -51,7 +51,7 @@ pub(super) fn recurrences(body: &dyn Equivariant, minima: &[&Extreme], diameter:
         for &mirrored in images {
             let near = align(body, &last.shape, &before.shape, mirrored);
             if near.distance < CLOSE * diameter
-                && settles(body, minima, (returns + 1, mirrored), near.distance, diameter)
+                && settles(body, minima, returns + 1, mirrored, near.distance, diameter)
             {
                 let time = last.t - before.t;
                 found.push(Recurrence { returns: returns + 1, mirrored, time, angle: near.angle });
@@ -72,7 +72,8 @@ pub(super) fn recurrences(body: &dyn Equivariant, minima: &[&Extreme], diameter:
 fn settles(
     body: &dyn Equivariant,
     minima: &[&Extreme],
-    (returns, mirrored): (usize, bool),
+    returns: usize,
+    mirrored: bool,
     now: f64,
     diameter: f64,
 ) -> bool {

@@ -47,7 +47,8 @@ impl Verdict {
         mut self,
         finer: &dyn Equivariant,
         shape: &[f64],
-        (parameter, value): (&str, f64),
+        parameter: &str,
+        value: f64,
         settings: &Settings,
         watch: &dyn Watch,
     ) -> crate::Result<Self> {
@@ -56,9 +57,9 @@ impl Verdict {
             (Attractor::Equilibrium, _) => RelativeEquilibrium::find(finer, shape)
                 .map(|found| words::equilibrium(finer, &found, 0.0, 0.0)),
             (Attractor::Periodic, Some(_)) => self.repeats(case, shape)?,
-            (Attractor::Heteroclinic, _) => return Ok(self.at_saddle(finer, shape, (parameter, value))),
+            (Attractor::Heteroclinic, _) => return Ok(self.at_saddle(finer, shape, parameter, value)),
             (Attractor::Chaotic | Attractor::Torus, _) => {
-                return self.averaged(case, shape, (parameter, value));
+                return self.averaged(case, shape, parameter, value);
             }
             _ => return Ok(self),
         };
@@ -78,35 +79,29 @@ impl Verdict {
                 self.resolution =
                     Some(Resolution { parameter: parameter.to_owned(), value, change, exponent: None });
             }
-            Some(other) => return Ok(self.unresolved((parameter, value), &format!("it is {}", other.regime))),
+            Some(other) => return Ok(self.unresolved(parameter, value, &format!("it is {}", other.regime))),
         }
         Ok(self)
     }
 
     /// The verdict on a cycle with its resolution: the rates at the saddle beside `shape` in the finer model.
     /// Undetermined where a cycle does not attract by them.
-    fn at_saddle(mut self, finer: &dyn Equivariant, shape: &[f64], changed: (&str, f64)) -> Self {
+    fn at_saddle(mut self, finer: &dyn Equivariant, shape: &[f64], parameter: &str, value: f64) -> Self {
         let found = RelativeEquilibrium::find(finer, shape);
         let (Some(own), Some(found)) = (self.saddle, found) else { return self };
         let Some(other) = found.saddle(finer).filter(Saddle::attracts) else {
-            return self.unresolved(changed, "the rests are at no saddle by which a cycle attracts");
+            return self.unresolved(parameter, value, "the rests are at no saddle by which a cycle attracts");
         };
         let off = |x: f64, y: f64| (x - y).abs() / x.abs().max(y.abs());
         let change = off(own.out, other.out).max(off(own.inward, other.inward));
-        self.resolution =
-            Some(Resolution { parameter: changed.0.to_owned(), value: changed.1, change, exponent: None });
+        self.resolution = Some(Resolution { parameter: parameter.to_owned(), value, change, exponent: None });
         self
     }
 
     /// The verdict on chaos or a torus with its resolution: the largest exponent of a run in the finer model.
     /// Undetermined where the two differ by more than twice the sum of their errors; without a resolution
     /// where the run has no exponent.
-    fn averaged(
-        mut self,
-        case: Case<'_>,
-        shape: &[f64],
-        (parameter, value): (&str, f64),
-    ) -> crate::Result<Self> {
+    fn averaged(mut self, case: Case<'_>, shape: &[f64], parameter: &str, value: f64) -> crate::Result<Self> {
         let first_look = case.settings.first_look;
         let run = chaos::exponent(case, shape, RUN * first_look)?.bounded();
         let (own, found) = (self.exponents.first().copied(), run.exponents.first().copied());
@@ -117,7 +112,7 @@ impl Verdict {
         let off = found.value - own.value;
         if off.abs() > APART * (found.error + own.error) {
             let what = format!("lambda_1 = {}", chaos::stated(found));
-            return Ok(self.unresolved((parameter, value), &what));
+            return Ok(self.unresolved(parameter, value, &what));
         }
         let mut other = self.clone();
         words::along(&mut other, case, &run.shape, first_look)?;
@@ -129,7 +124,7 @@ impl Verdict {
     }
 
     /// Undetermined, for what is found in the finer model.
-    fn unresolved(mut self, (parameter, value): (&str, f64), what: &str) -> Self {
+    fn unresolved(mut self, parameter: &str, value: f64, what: &str) -> Self {
         self.why = format!("{}; but with {parameter} = {value} {what}: not resolved", self.why);
         (self.regime, self.attractor) = (Regime::Undetermined, Attractor::Unknown);
         (self.form, self.margin) = (None, None);

@@ -48,7 +48,8 @@ fn what(steady: &SteadyMotion) -> String {
 /// A verdict with the numbers of an equilibrium.
 fn at_equilibrium(
     body: &dyn Equivariant,
-    (found, steady): (&RelativeEquilibrium, &SteadyMotion),
+    found: &RelativeEquilibrium,
+    steady: &SteadyMotion,
     attractor: Attractor,
     why: String,
     time: f64,
@@ -88,7 +89,7 @@ pub(super) fn equilibrium(
             ""
         }
     );
-    let mut verdict = at_equilibrium(body, (found, &steady), Attractor::Equilibrium, why, time);
+    let mut verdict = at_equilibrium(body, found, &steady, Attractor::Equilibrium, why, time);
     let stability = -growth / found.growth_error().max(f64::MIN_POSITIVE);
     verdict.margin = Some(stability.min(steady.margin()).min(f64::MAX));
     verdict
@@ -112,7 +113,7 @@ pub(super) fn unstable(body: &dyn Equivariant, found: &RelativeEquilibrium, stay
         found.growth(),
         lasting(stay)
     );
-    at_equilibrium(body, (found, &steady), Attractor::Unstable, why, time)
+    at_equilibrium(body, found, &steady, Attractor::Unstable, why, time)
 }
 
 /// A heteroclinic cycle.

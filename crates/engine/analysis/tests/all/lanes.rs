@@ -7,7 +7,7 @@ use motiform_analysis::lyapunov::{LyapunovSettings, TangentMember, lyapunov_in_l
 use motiform_analysis::{Lyapunov, lyapunov};
 use motiform_dynamics::simd::has_lanes;
 use motiform_dynamics::steppers::{DOP853, Method};
-use motiform_dynamics::{Equivariant, StepControl};
+use motiform_dynamics::{Equivariant, StepControl, Tolerance};
 use motiform_models::tensor::fourier::{FourierField, terms};
 use motiform_models::tensor::{Tensor, TensorParameters};
 
@@ -19,7 +19,7 @@ impl AsRef<dyn Equivariant> for Body {
     }
 }
 
-const TOLERANCES: (f64, f64) = (1e-9, 1e-12);
+const TOLERANCE: Tolerance = Tolerance { rtol: 1e-9, atol: 1e-12 };
 
 /// The full model, from chaos to straight motion; the first ones escape, if they are given the time.
 fn tensor(member: usize) -> Tensor {
@@ -36,7 +36,7 @@ fn settings(member: usize) -> LyapunovSettings {
     LyapunovSettings {
         count: 1,
         method: Method::Explicit(&DOP853),
-        control: StepControl::Adaptive { rtol: TOLERANCES.0, atol: TOLERANCES.1 },
+        control: StepControl::Adaptive { rtol: TOLERANCE.rtol, atol: TOLERANCE.atol },
         transient: 20.0 + 7.0 * member as f64, // lanes are refilled at different times
         span: 150.0,
         escape_norm: if member == 3 { 0.5 } else { 1e6 }, // one leaves its bounds
@@ -61,7 +61,7 @@ fn together() -> Vec<Lyapunov> {
     let mut runs = vec![None; MEMBERS];
     let mut done =
         |member: usize, run: motiform_analysis::Result<Lyapunov>| runs[member] = Some(run.unwrap());
-    lyapunov_in_lanes::<_, _, 6, 1, 12>(TOLERANCES, &mut next, &mut done, &());
+    lyapunov_in_lanes::<_, _, 6, 1, 12>(TOLERANCE, &mut next, &mut done, &());
     runs.into_iter().map(Option::unwrap).collect()
 }
 

@@ -15,9 +15,9 @@ use std::marker::PhantomData;
 #[inline(always)]
 pub fn run_adaptive<M: Method, B: Bundle, const D: usize, C: LaneTask<B, D>>(
     members: &mut C,
-    (rtol, atol): (f64, f64),
+    tolerance: Tolerance,
 ) {
-    let mut lanes = Lanes::<B, D>::new::<M>(Tolerance { rtol, atol });
+    let mut lanes = Lanes::<B, D>::new::<M>(tolerance);
     let mut slopes = StepSlopes::zero();
     loop {
         if lanes.vacant.any() {
@@ -244,8 +244,8 @@ impl<B: Bundle, const D: usize> Lanes<B, D> {
         self.rejected = B::select(entered, B::splat(0.0), self.rejected);
         self.slopes_of::<C>(members, entered, &mut slopes.k[0]);
         let [slope, near, rate, ..] = &mut slopes.k;
-        let start = (self.t, &self.u[..], &slope[..]);
-        let h = self.tolerance.first_step(members.field(), M::TABLEAU.order, start, (near, rate));
+        let (field, order) = (members.field(), M::TABLEAU.order);
+        let h = self.tolerance.first_step(field, order, self.t, &self.u, slope, [near, rate]);
         self.h = B::select(entered, h, self.h);
         for lane in entered.lanes() {
             if let Some(Pace { h, previous }) = paces[lane] {

@@ -5,6 +5,7 @@ use super::lane::{AfterStep, Stepped};
 use super::noisy_track::Track;
 use super::propagate::InLanes;
 use super::{Entry, LaneTask, Leaving, Then, Why, run_adaptive};
+use crate::control::Tolerance;
 use crate::noise_steps::NoiseSteps;
 use crate::scalar::MOST_LANES;
 use crate::simd::{InstructionSet, LaneKernel, run_wide_on};
@@ -97,7 +98,7 @@ impl<F: InLanes, E: Extent, const D: usize> LaneKernel for NoisyKernel<'_, '_, F
             over: Mask::default(),
             steps: 0,
         };
-        run_adaptive::<Dop853, B, D, _>(&mut lanes, (span.rtol, span.atol));
+        run_adaptive::<Dop853, B, D, _>(&mut lanes, Tolerance { rtol: span.rtol, atol: span.atol });
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Entry, LaneTask, Leaving, Then, Why, run_adaptive};
 use crate::Watch;
+use crate::control::Tolerance;
 use crate::scalar::MOST_LANES;
 use crate::simd::{InstructionSet, LaneKernel, run_wide_on};
 use crate::steppers::unrolled::Dop853;
@@ -97,7 +98,7 @@ impl<F: InLanes, const D: usize> LaneKernel for PropagationKernel<'_, '_, F, D> 
             escape: B::splat(how.escape_norm * how.escape_norm),
             steps: 0,
         };
-        run_adaptive::<Dop853, B, D, _>(&mut lanes, (how.rtol, how.atol));
+        run_adaptive::<Dop853, B, D, _>(&mut lanes, Tolerance { rtol: how.rtol, atol: how.atol });
     }
 }
 

@@ -3,7 +3,7 @@
 use super::ExponentialOrbit;
 use crate::control::Tolerance;
 use crate::interpolant::{DenseStep, Ends};
-use crate::stepping::{Counters, StepFailure};
+use crate::stepping::{Counters, FixedGrid, StepFailure};
 use crate::{Integration, Semilinear, StepControl};
 
 impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
@@ -18,7 +18,7 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
         if !self.prepared {
             let new = if self.jumped { &self.landed } else { &self.new };
             let ends = Ends { h: self.t - self.t_old, old: &self.old.state, new: &new.state };
-            self.interpolant.prepare_hermite((&self.old.slope, &new.slope), &ends);
+            self.interpolant.prepare_hermite(&self.old.slope, &new.slope, &ends);
             self.prepared = true;
         }
         let (old, new) = (&self.old.state[..], &self.new.state[..]);
@@ -40,7 +40,7 @@ impl<F: Semilinear<f64> + ?Sized> Integration for ExponentialOrbit<'_, F> {
         self.restep.copy_to(self.tableau.stages(), &mut self.stages);
         std::mem::swap(&mut self.new, &mut self.trial);
         self.t = t;
-        self.origin = (t, 0);
+        self.grid = FixedGrid::from(t);
         self.jumped = false;
         self.prepared = false;
     }

@@ -42,8 +42,8 @@ impl<F: Semilinear<f64> + ?Sized> Problem<'_, F> {
         out: &mut End,
     ) {
         let dim = self.lambda.len();
-        let from = (at.t, &at.end.state[..dim]);
-        exponential::step(tableau, self.field, from, table, stages, &mut out.state[..dim]);
+        let (from, to) = (&at.end.state[..dim], &mut out.state[..dim]);
+        exponential::step(tableau, self.field, at.t, from, table, stages, to);
         self.evaluate(at.t + at.h, stages.get_mut(tableau.stages()), out);
         out.travel(at.end, at.h, dim);
     }

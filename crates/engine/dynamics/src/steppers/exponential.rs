@@ -225,7 +225,8 @@ impl Stages {
 pub(crate) fn step<F: Semilinear<f64> + ?Sized>(
     tableau: &ExponentialTableau,
     field: &F,
-    (t, u): (f64, &[f64]),
+    t: f64,
+    u: &[f64],
     table: &StepTable,
     stages: &mut Stages,
     u_new: &mut [f64],

@@ -59,7 +59,8 @@ impl<T: Scalar> Slopes<T> {
         &mut self,
         field: &F,
         at: &Step<'_, T>,
-        (node, terms): (f64, &[Term]),
+        node: f64,
+        terms: &[Term],
         stage: usize,
     ) {
         let mut argument = std::mem::take(&mut self.argument);
@@ -150,7 +151,7 @@ pub fn step<T: Scalar, F: VectorField<T> + ?Sized>(
     u_new: &mut [T],
 ) {
     for stage in 1..tableau.stages() {
-        slopes.evaluate(field, at, (tableau.nodes[stage], tableau.rows[stage]), stage);
+        slopes.evaluate(field, at, tableau.nodes[stage], tableau.rows[stage], stage);
     }
     slopes.advance(tableau.weights, at, u_new);
 }
@@ -176,7 +177,7 @@ pub fn extra_stages<T: Scalar, F: VectorField<T> + ?Sized>(
 ) {
     let dense = &tableau.dense;
     for (extra, (&node, &row)) in dense.nodes.iter().zip(dense.rows).enumerate() {
-        slopes.evaluate(field, at, (node, row), tableau.stages() + 1 + extra);
+        slopes.evaluate(field, at, node, row, tableau.stages() + 1 + extra);
     }
 }
 

@@ -63,8 +63,8 @@ fn members_under_noise_have_the_rows_of_single_orbits() {
             let rows = states.expect("nothing escapes").rows;
             found[key] = Some(rows.iter().map(|row| row.to_vec()).collect::<Vec<_>>());
         };
-        let how = (Kernel::Tensor, Stretch::Plane);
-        assert!(propagate_noisy_bodies(how, &NoisySpan { set, ..span() }, &mut next, &mut done, &()));
+        let (kernel, span) = (Kernel::Tensor, NoisySpan { set, ..span() });
+        assert!(propagate_noisy_bodies(kernel, Stretch::Plane, &span, &mut next, &mut done, &()));
         let found: Vec<_> = found.into_iter().map(|rows| rows.expect("every member is told of")).collect();
         assert_eq!(found, single, "{set:?}");
     }

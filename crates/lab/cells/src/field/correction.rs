@@ -33,7 +33,7 @@ impl FieldOfView {
     /// Takes these motions out of all outlines, as they were found.
     pub(crate) fn correct(&mut self, tracks: &mut Tracks, wanted: &[Correction]) {
         for outline in tracks.cells.iter_mut().flat_map(|cell| &mut cell.frames) {
-            let by = self.displacement((outline.frame, outline.t), wanted);
+            let by = self.displacement(outline.frame, outline.t, wanted);
             outline.points.iter_mut().for_each(|point| *point = [0, 1].map(|k| point[k] - by[k]));
         }
         self.corrected = wanted.to_vec();

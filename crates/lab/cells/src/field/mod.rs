@@ -101,7 +101,7 @@ impl FieldOfView {
     }
 
     /// Displacement of the stage in a frame, of what is to be corrected.
-    fn displacement(&self, (frame, t): (i64, f64), wanted: &[Correction]) -> [f64; 2] {
+    fn displacement(&self, frame: i64, t: f64, wanted: &[Correction]) -> [f64; 2] {
         let mut sum = [0.0; 2];
         let mut add = |by: [f64; 2]| sum = [0, 1].map(|k| sum[k] + by[k]);
         for one in wanted {

@@ -55,7 +55,9 @@ fn explain(warning: &mut Warning, of: &str, what: &str) {
 pub(crate) fn fitted(
     tracks: &[Track],
     members: Members,
-    (settings, options, unit): (&Settings, &FitOptions, &str),
+    settings: &Settings,
+    options: &FitOptions,
+    unit: &str,
     stages: &Stages<'_>,
     watch: &dyn Watch,
 ) -> Result<Box<Fitted>> {
@@ -104,7 +106,7 @@ pub(crate) fn fitted(
             return Ok(None);
         }
         let described = Selection { subsets: selection.subsets.clone(), fit: model.clone() };
-        regime_of(tracks, &whole, &described, (options.draws, options.seed), watch).map(Some)
+        regime_of(tracks, &whole, &described, options.draws, options.seed, watch).map(Some)
     })?;
     if regime.as_ref().is_some_and(FittedRegime::blows_up) {
         doubts.push(
@@ -112,7 +114,7 @@ pub(crate) fn fitted(
         );
     }
     if let Some(found) = regime.as_mut().filter(|_| !handed)
-        && let Some(doubt) = walk_not_excluded(tracks, (&whole, &selection), found.regime, watch)?
+        && let Some(doubt) = walk_not_excluded(tracks, &whole, &selection, found.regime, watch)?
     {
         found.regime = None;
         doubts.push(doubt);
@@ -123,7 +125,7 @@ pub(crate) fn fitted(
     })?;
     let averaged =
         if handed || !whole.converged() { Vec::new() } else { averaged(&whole, &selection.subsets) };
-    let places = places((&whole, &selection), &unplaced(&doubts, regime.as_ref(), &warnings, handed));
+    let places = places(&whole, &selection, &unplaced(&doubts, regime.as_ref(), &warnings, handed));
     Ok(Box::new(Fitted {
         whole,
         selection,
@@ -157,7 +159,8 @@ fn steps(tracks: &[Track], whole: &Fit, watch: &dyn Watch) -> Result<std::result
 /// That a cell which is named after a motion may be a persistent random walk, as a doubt.
 fn walk_not_excluded(
     tracks: &[Track],
-    (whole, selection): (&Fit, &Selection),
+    whole: &Fit,
+    selection: &Selection,
     name: Option<Regime>,
     watch: &dyn Watch,
 ) -> Result<Option<String>> {
@@ -195,7 +198,7 @@ fn unplaced(
     reasons
 }
 
-fn places((whole, selection): (&Fit, &Selection), reasons: &[String]) -> [Placement; 2] {
+fn places(whole: &Fit, selection: &Selection, reasons: &[String]) -> [Placement; 2] {
     [Plane::Full, Plane::Reduced].map(|plane| match reasons.is_empty() {
         true => place_among(whole, selection, plane),
         false => Placement::Refused { reasons: reasons.to_vec() },

@@ -34,7 +34,7 @@ impl Fitted {
     }
 
     fn in_words(&self, estimate: &Estimate, place: usize, unit: &str) -> String {
-        in_words(estimate, (self.has_errors_of_noise(), self.model().noise.at_bound[place]), unit)
+        in_words(estimate, self.has_errors_of_noise(), self.model().noise.at_bound[place], unit)
     }
 
     /// `true` if the errors of the noise hold: those of steady motions do, of which the coefficients have none, and not those of a model
@@ -72,7 +72,7 @@ impl Fitted {
 }
 
 /// `unit`: with the blank before it.
-fn in_words(Estimate { value, error, .. }: &Estimate, (hold, at_bound): (bool, bool), unit: &str) -> String {
+fn in_words(Estimate { value, error, .. }: &Estimate, hold: bool, at_bound: bool, unit: &str) -> String {
     match (at_bound, hold) {
         (true, _) => format!("{}{unit} (at the bound of the search: no error)", four_digits(*value)),
         (false, true) => format!("{}{unit}", with_error(*value, *error)),
@@ -89,11 +89,11 @@ mod tests {
     fn a_bound_has_no_error_nor_has_a_doubtful_fit() {
         let estimate = Estimate { value: 4.9e-6, error: 0.0, robust: 0.0, interval: [4.9e-6; 2] };
         assert_eq!(
-            in_words(&estimate, (true, true), " um"),
+            in_words(&estimate, true, true, " um"),
             "4.9e-6 um (at the bound of the search: no error)"
         );
         let estimate = Estimate { value: 0.5, error: 0.1, ..estimate };
-        assert_eq!(in_words(&estimate, (true, false), " um"), "0.50 \u{b1} 0.10 um");
-        assert_eq!(in_words(&estimate, (false, false), " um"), "0.50 um");
+        assert_eq!(in_words(&estimate, true, false, " um"), "0.50 \u{b1} 0.10 um");
+        assert_eq!(in_words(&estimate, false, false, " um"), "0.50 um");
     }
 }

@@ -62,7 +62,7 @@ pub fn population_numbers(found: &[Observation]) -> PopulationNumbers {
         let values: Vec<f64> = rows.iter().filter_map(|all| Some(all[place].value.known()?.value)).collect();
         let stated = withheld.iter().all(|other| !std::ptr::eq(other.quantity, quantity));
         let over = over_cells(&values)?;
-        let other = unbiased(quantity, &values, (walk.as_ref(), &errors));
+        let other = unbiased(quantity, &values, walk.as_ref(), &errors);
         let over = other.map_or(over.clone(), |ends| over.holding(ends));
         Some(PopulationNumber { quantity, over }).filter(|_| stated)
     };
@@ -88,7 +88,8 @@ pub(crate) fn bare(mut points: Vec<AtLag>, is_selected: bool) -> Vec<AtLag> {
 fn unbiased(
     quantity: &Quantity,
     values: &[f64],
-    (walk, errors): (Option<&WalkTogether>, &[f64]),
+    walk: Option<&WalkTogether>,
+    errors: &[f64],
 ) -> Option<[f64; 2]> {
     let ends = |of: fn(&WalkTogether) -> Bounded| walk.map(of).and_then(|one| Some([one.low?, one.high?]));
     let root = |squares: &[f64]| Some(over_cells(squares)?.mean_interval?.map(|end| end.max(0.0).sqrt()));

@@ -73,7 +73,8 @@ pub(super) fn axis(speeds: &[f64], headings: &[f64]) -> f64 {
 pub(super) fn drift(
     frames: &[Observation],
     headings: &[f64],
-    (lag, turning): (usize, f64),
+    lag: usize,
+    turning: f64,
     dt: f64,
 ) -> Option<[f64; 2]> {
     let turned = |k: usize| turning.signum() * (headings[k] - headings[0]);

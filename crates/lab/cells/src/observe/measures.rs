@@ -143,7 +143,7 @@ impl Measures {
             turning,
             turning_error: course::turning_error(&headings, dt, turning),
             turning_scatter: (spread * spread - own).max(0.0).sqrt() / turning.abs().max(f64::MIN_POSITIVE),
-            drift: course::drift(&frames, &headings, (lag, turning), dt),
+            drift: course::drift(&frames, &headings, lag, turning, dt),
             straight_share: straight_share(&headings, turning * dt),
             heading_scatter: scatter(&headings),
             shape_scatter: shape_scatter(&frames),

@@ -20,7 +20,7 @@ pub(super) struct Simulator<'a> {
 }
 
 impl<'a> Simulator<'a> {
-    pub(super) fn new(fit: &'a Fit, (track, observed): (&'a Track, &'a Record), seed: u64) -> Self {
+    pub(super) fn new(fit: &'a Fit, track: &'a Track, observed: &'a Record, seed: u64) -> Self {
         Self { fit, track, observed, errors: Errors::of(track, observed, fit), seed }
     }
 
@@ -38,9 +38,10 @@ impl<'a> Simulator<'a> {
         let dt = observed.dt / units.0.time;
         let steps = (dt / STEP).ceil().max(1.0);
         let looks = Looks { step: dt / steps, steps: steps as usize, count: observed.frames.len() };
-        let noise = (noise(fit, model.as_ref(), looks.step), Normal::new(*seed, 2 * number + 1));
+        let noise = noise(fit, model.as_ref(), looks.step);
+        let kicks = Normal::new(*seed, 2 * number + 1);
         let mut frames = Vec::with_capacity(observed.frames.len());
-        let whole = sample_path(model.as_ref(), &start, noise, looks, &mut |place, state| {
+        let whole = sample_path(model.as_ref(), &start, noise, kicks, looks, &mut |place, state| {
             let mut seen = units.observed(model.as_ref(), state);
             errors.add(place, &mut seen, &mut normal);
             frames.push(observed.frames[place].is_some().then_some(seen));

@@ -64,7 +64,8 @@ pub(super) fn drawn(sets: &[(Fit, f64)], count: usize, seed: u64) -> Vec<Drawn<'
 /// The motions in which the equations of these models end from this start. All are equations with the terms of any set, those that a set
 /// leaves out with the coefficient 0, so that they are classified together.
 pub(super) fn ends(
-    (whole, sets): (&Fit, &[(Fit, f64)]),
+    whole: &Fit,
+    sets: &[(Fit, f64)],
     models: &[Drawn<'_>],
     start: &[f64],
     watch: &dyn Watch,
@@ -78,7 +79,7 @@ pub(super) fn ends(
     let library = Library { modes: all.library.modes, terms };
     let plan = |Drawn { fit, values }: &Drawn<'_>| {
         let values: Vec<f64> = common.iter().map(|c| of(fit, c).map_or(0.0, |i| values[i])).collect();
-        let mut study = natural_study((&library, all.handed), (&values, start))?;
+        let mut study = natural_study(&library, all.handed, &values, start)?;
         study.run.max_steps = MOST_STEPS;
         RunPlan::new(&study)
     };

@@ -21,7 +21,8 @@ const FREE: [&Quantity; 4] = [&cell::SPEED, &cell::PERSISTENCE, &cell::AREA, &ce
 
 pub(crate) fn report(
     sample: &Sample,
-    (cases, together): (&[Case<'_>], Option<&CellFit>),
+    cases: &[Case<'_>],
+    together: Option<&CellFit>,
     names: &[String],
     setting: &Setting<'_>,
 ) -> Result<Report, Error> {

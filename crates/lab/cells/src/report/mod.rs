@@ -104,8 +104,10 @@ pub type Sink<'w> = dyn Fn(&str, &[u8]) -> Result<(), Error> + Sync + 'w;
 /// Numbers that do not fit on an axis; those of `write`.
 pub fn pages(
     sample: &Sample,
-    (cases, together): (&[Case<'_>], Option<&CellFit>),
-    (threads, format): (usize, &FigureFormat),
+    cases: &[Case<'_>],
+    together: Option<&CellFit>,
+    threads: usize,
+    format: &FigureFormat,
     watch: &dyn Watch,
     write: &Sink<'_>,
 ) -> Result<bool, Error> {
@@ -126,7 +128,7 @@ pub fn pages(
     if drawn.iter().any(Option::is_none) {
         return Ok(false);
     }
-    setting.write(INDEX, index::report(sample, (cases, together), &names, &setting)?, write)?;
+    setting.write(INDEX, index::report(sample, cases, together, &names, &setting)?, write)?;
     Ok(true)
 }
 

@@ -77,7 +77,7 @@ fn written(sample: &Sample, cases: &[Case<'_>], together: Option<&CellFit>) -> V
         files.lock().unwrap().push((name.to_owned(), bytes.to_vec()));
         Ok(())
     };
-    assert!(pages(sample, (cases, together), (2, &FigureFormat::default()), &(), &write).unwrap());
+    assert!(pages(sample, cases, together, 2, &FigureFormat::default(), &(), &write).unwrap());
     let mut files: Vec<File> = files.into_inner().unwrap();
     let index = files.pop().unwrap();
     files.sort();
@@ -188,7 +188,7 @@ fn cells_without_fits_have_pages_too_and_the_watch_stops_the_drawing() {
     let observation = observe(cell);
     let cases = [Case { cell, observation: &observation, fit: None }];
     let write = |name: &str, _: &[u8]| panic!("{name} is written");
-    assert!(!pages(&sample, (&cases, None), (1, &FigureFormat::default()), &Stop, &write).unwrap());
+    assert!(!pages(&sample, &cases, None, 1, &FigureFormat::default(), &Stop, &write).unwrap());
 }
 
 #[test]

@@ -138,10 +138,12 @@ fn renamed(found: &Branches) -> Vec<[Regime; 2]> {
 /// Follows the curves on which motions of these branches gain or lose their stability: those that begin at a boundary of the motion, as
 /// `bounds` says of places, and are not known. `None` if the watch stopped it.
 pub(crate) fn read_line(
-    (scan, most): (&ScanPlan, u64),
+    scan: &ScanPlan,
+    most: u64,
     task: Task,
     course: Result<Ground, String>,
-    (known, bounds): (&[Line], &dyn Fn([f64; 2], Regime) -> bool),
+    known: &[Line],
+    bounds: &dyn Fn([f64; 2], Regime) -> bool,
     watch: &dyn Watch,
 ) -> Result<Option<Line>, Error> {
     let values = scan.axis_values(task.start.0);
@@ -193,7 +195,7 @@ pub(crate) fn read_line(
         if allowance.is_spent() {
             break;
         }
-        match follow_curve_within(&plan, &found, (kind, start), &allowance, watch) {
+        match follow_curve_within(&plan, &found, kind, start, &allowance, watch) {
             Ok(curve) => line.curves.push(StabilityCurve { motion, curve }),
             Err(Error::Interrupted) => return Ok(None),
             Err(error) => return Err(error),

@@ -42,7 +42,8 @@ pub fn survey(
     plan: &AtlasPlan,
     threads: usize,
     journal: &dyn Journal,
-    (watch, begins): (&dyn Watch, Begins<'_>),
+    watch: &dyn Watch,
+    begins: Begins<'_>,
 ) -> Result<Option<Grid>, Error> {
     let scan = plan.scan();
     let size = [0, 1].map(|side| scan.computation.axes[side].values.len());
@@ -53,7 +54,7 @@ pub fn survey(
         let wanted = work.wanted(level, stride);
         let name = format!("{} cells of the {}", wanted.len(), NAMES[level]);
         begins(&Stage { name, share: [share(level), share(level + 1)], even: true });
-        if !work.compute((level, &wanted), &part)? {
+        if !work.compute(level, &wanted, &part)? {
             return Ok(None);
         }
     }
@@ -106,7 +107,7 @@ impl Surveyor<'_> {
     }
 
     /// Computes cells, group by group. Whether it came to the end.
-    fn compute(&mut self, (level, cells): (usize, &[usize]), watch: &dyn Watch) -> Result<bool, Error> {
+    fn compute(&mut self, level: usize, cells: &[usize], watch: &dyn Watch) -> Result<bool, Error> {
         for (number, group) in cells.chunks(TOGETHER).enumerate() {
             let item = format!("cells-{level}-{number}.json");
             let share = |done: usize| (done * TOGETHER).min(cells.len()) as f64 / cells.len() as f64;

@@ -37,7 +37,8 @@ pub fn trace(
     grid: &Grid,
     threads: usize,
     journal: &dyn Journal,
-    (watch, begins): (&dyn Watch, Begins<'_>),
+    watch: &dyn Watch,
+    begins: Begins<'_>,
 ) -> Result<Option<Vec<Line>>, Error> {
     let scan = plan.scan();
     let labels = grid.labels();
@@ -177,10 +178,12 @@ impl Tracer<'_> {
             let Some(course) = course else { return Ok(None) };
             let known: Vec<Line> = self.lines.iter().chain(&lines).cloned().collect();
             let Some(line) = read_line(
-                (self.scan, self.plan.computation.line_steps),
+                self.scan,
+                self.plan.computation.line_steps,
                 *task,
                 course,
-                (&known, &bounds),
+                &known,
+                &bounds,
                 &StopOnly(watch),
             )?
             else {

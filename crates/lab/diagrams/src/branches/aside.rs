@@ -22,7 +22,8 @@ const ONE: f64 = 1e-6;
 /// on it. From a start near the point, one of the two sides passes it. If no such motion is found near it, the start itself is returned.
 pub(super) fn aside(
     bodies: &Bodies<'_>,
-    (parameter, start): (f64, Start),
+    parameter: f64,
+    start: Start,
     settings: &Settings,
     watch: &dyn Watch,
 ) -> (f64, Start) {
@@ -32,7 +33,7 @@ pub(super) fn aside(
         for side in [inwards, -inwards] {
             let there = parameter + side * part * (high - low);
             let inside = low <= there && there <= high;
-            if let Some(found) = moved(bodies, (there, &start), settings, watch).filter(|_| inside) {
+            if let Some(found) = moved(bodies, there, &start, settings, watch).filter(|_| inside) {
                 return (there, found);
             }
         }
@@ -42,7 +43,8 @@ pub(super) fn aside(
 
 fn moved(
     bodies: &Bodies<'_>,
-    (there, start): (f64, &Start),
+    there: f64,
+    start: &Start,
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Option<Start> {
@@ -53,8 +55,8 @@ fn moved(
             is_same(body.as_ref(), &old.shape, &new.shape).then_some(Start::Equilibrium(new))
         }
         Start::Orbit(old) => {
-            let wanted = (old.time, old.mirrored);
-            let new = PeriodicOrbit::near(body.as_ref(), &old.shape, wanted, &settings.flow, watch)?;
+            let flow = &settings.flow;
+            let new = PeriodicOrbit::near(body.as_ref(), &old.shape, old.time, old.mirrored, flow, watch)?;
             let lasts = (new.time - old.time).abs() <= SAME * old.time && new.mirrored == old.mirrored;
             let same =
                 lasts && is_near(&old.shape, &new.shape) && !is_twice(body.as_ref(), &new, settings, watch);
@@ -65,12 +67,12 @@ fn moved(
 
 /// Returns `true` for an orbit of half the time that is passed twice: where a period doubling is close, Newton's method may lead to it.
 fn is_twice(body: &dyn Equivariant, orbit: &PeriodicOrbit, settings: &Settings, watch: &dyn Watch) -> bool {
-    let half = (0.5 * orbit.time, orbit.mirrored);
-    let found = PeriodicOrbit::near(body, &orbit.shape, half, &settings.flow, watch);
+    let half = 0.5 * orbit.time;
+    let found = PeriodicOrbit::near(body, &orbit.shape, half, orbit.mirrored, &settings.flow, watch);
     found.is_some_and(|found| {
         let mut apart = found.shape.clone();
         add(&mut apart, -1.0, &orbit.shape);
-        norm(&apart) <= ONE * norm(&orbit.shape) && (found.time - half.0).abs() <= ONE * half.0
+        norm(&apart) <= ONE * norm(&orbit.shape) && (found.time - half).abs() <= ONE * half
     })
 }
 
@@ -102,8 +104,8 @@ mod tests {
         let (body, period, settings) =
             (VanDerPol { mu: 1.0 }, 6.663_286_859_323_13, Settings::over(0.0, 1.0));
         let turns = |turns: f64| {
-            let wanted = (turns * period, false);
-            PeriodicOrbit::near(&body, &[2.008_619_860_874_84, 0.0], wanted, &settings.flow, &()).unwrap()
+            let (shape, time) = ([2.008_619_860_874_84, 0.0], turns * period);
+            PeriodicOrbit::near(&body, &shape, time, false, &settings.flow, &()).unwrap()
         };
         assert!(!is_twice(&body, &turns(1.0), &settings, &()));
         let twice = turns(2.0);

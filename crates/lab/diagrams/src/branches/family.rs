@@ -82,8 +82,8 @@ impl<'p> Bodies<'p> {
     /// Settings by which the motion of the start is named and the path on an orbit is computed: the plan's own method.
     pub(crate) fn looks(&self) -> regime::Settings {
         let start = &self.plan.computation.start;
-        let bounds = (start.escape_norm, start.max_steps);
-        settings_of((self.info, &start.parameters.values()), self.method, start.control, bounds, 0.0)
+        let values = start.parameters.values();
+        settings_of(self.info, &values, self.method, start.control, start.escape_norm, start.max_steps, 0.0)
     }
 }
 

@@ -30,7 +30,7 @@ pub type Keep<'k> = dyn FnMut(&Branches) -> Result<(), Error> + 'k;
 /// # Errors
 /// [`Error::Start`]; what the models and the numerics refuse.
 pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) -> Result<Branches, Error> {
-    follow_kept(plan, before, (&mut |_| Ok(()), &()), watch)
+    follow_kept(plan, before, &mut |_| Ok(()), &(), watch)
 }
 
 /// As [`follow()`]; `keep` gets what there is after each branch, all of it whole, and the journal what is sampled ([`sweeps`]), so that
@@ -41,10 +41,11 @@ pub fn follow(plan: &BranchPlan, before: Option<Branches>, watch: &dyn Watch) ->
 pub fn follow_kept(
     plan: &BranchPlan,
     before: Option<Branches>,
-    (keep, journal): (&mut Keep<'_>, &dyn Journal),
+    keep: &mut Keep<'_>,
+    journal: &dyn Journal,
     watch: &dyn Watch,
 ) -> Result<Branches, Error> {
-    follow_bodies(&Bodies::new(plan)?, before, (keep, journal), watch)
+    follow_bodies(&Bodies::new(plan)?, before, keep, journal, watch)
 }
 
 /// As [`follow()`]; no more is spent on orbits than the allowance. A branch on which it is spent ends with [`End::Spent`], and what would
@@ -53,13 +54,14 @@ pub fn follow_kept(
 /// # Errors
 /// As [`follow()`].
 pub fn follow_within(plan: &BranchPlan, allowance: &Allowance, watch: &dyn Watch) -> Result<Branches, Error> {
-    follow_bodies(&Bodies::new(plan)?.within(Some(allowance)), None, (&mut |_| Ok(()), &()), watch)
+    follow_bodies(&Bodies::new(plan)?.within(Some(allowance)), None, &mut |_| Ok(()), &(), watch)
 }
 
 fn follow_bodies(
     bodies: &Bodies<'_>,
     before: Option<Branches>,
-    (keep, journal): (&mut Keep<'_>, &dyn Journal),
+    keep: &mut Keep<'_>,
+    journal: &dyn Journal,
     watch: &dyn Watch,
 ) -> Result<Branches, Error> {
     let plan = bodies.plan;
@@ -146,7 +148,7 @@ impl Branching<'_> {
         let plan = self.bodies.plan;
         let Some((start, settings)) = first(self.bodies, self.stop)? else { return Ok(false) };
         let towards = plan.computation.stride.direction;
-        let legs = sides(self.bodies, (plan.start_value(), &start), (&settings, towards), self.stop)?;
+        let legs = sides(self.bodies, plan.start_value(), &start, &settings, towards, self.stop)?;
         let mut followed = Followed { origin: Origin::Start, legs: Vec::new() };
         for leg in legs {
             followed.legs.push(self.leg(leg, &mut |_| false)?.unwrap_or_else(Leg::none));

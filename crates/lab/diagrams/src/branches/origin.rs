@@ -168,7 +168,7 @@ impl Origin {
                 let body = bodies.model(parameter(leg))?;
                 let met = met(body.as_ref(), leg, &settings, watch)
                     .ok_or_else(|| nothing("motion of more symmetry", leg))?;
-                let (parameter, met) = aside(bodies, (parameter(leg), met), &settings, watch);
+                let (parameter, met) = aside(bodies, parameter(leg), met, &settings, watch);
                 both(bodies, parameter, &met, watch)
             }
             Self::Shrinks { branch, leg } => {
@@ -177,8 +177,8 @@ impl Origin {
                 let shape = leg.samples.last().map_or(&[][..], |sample| sample.point.motion.shape());
                 let found = RelativeEquilibrium::find(body.as_ref(), shape)
                     .ok_or_else(|| nothing("steady motion", leg))?;
-                let start = (parameter(leg), Start::Equilibrium(found));
-                let (parameter, start) = aside(bodies, start, &settings, watch);
+                let start = Start::Equilibrium(found);
+                let (parameter, start) = aside(bodies, parameter(leg), start, &settings, watch);
                 both(bodies, parameter, &start, watch)
             }
         };
@@ -194,14 +194,16 @@ pub(super) fn both<'f>(
     start: &Start,
     watch: &'f dyn Watch,
 ) -> Result<Vec<Branch<'f>>, Refused> {
-    sides(bodies, (parameter, start), (&bodies.settings(), Towards::Both), watch)
+    sides(bodies, parameter, start, &bodies.settings(), Towards::Both, watch)
 }
 
 /// The same with these settings, as far as the sides are asked for.
 pub(super) fn sides<'f>(
     bodies: &'f Bodies<'_>,
-    (parameter, start): (f64, &Start),
-    (settings, towards): (&Settings, Towards),
+    parameter: f64,
+    start: &Start,
+    settings: &Settings,
+    towards: Towards,
     watch: &'f dyn Watch,
 ) -> Result<Vec<Branch<'f>>, Refused> {
     let (low, high) = settings.range;
@@ -246,7 +248,7 @@ fn met(body: &dyn Equivariant, leg: &Leg, settings: &Settings, watch: &dyn Watch
         }
     };
     let orbit = leg.samples.last()?.point.motion.orbit()?;
-    let found = PeriodicOrbit::near(body, &orbit.shape, (0.5 * orbit.time, mirrored), &settings.flow, watch);
+    let found = PeriodicOrbit::near(body, &orbit.shape, 0.5 * orbit.time, mirrored, &settings.flow, watch);
     found.map(Start::Orbit)
 }
 

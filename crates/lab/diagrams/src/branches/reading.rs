@@ -39,7 +39,7 @@ impl Reading {
         let model = bodies.model(point.parameter)?;
         let mut reading = match &point.motion {
             Motion::Equilibrium(found) => still(model.as_ref(), found),
-            Motion::Orbit { orbit, nodes } => periodic(bodies, model.as_ref(), (orbit, nodes), watch)?,
+            Motion::Orbit { orbit, nodes } => periodic(bodies, model.as_ref(), orbit, nodes, watch)?,
         };
         model.decode(point.motion.shape(), &mut reading.state);
         Ok(reading)
@@ -65,7 +65,8 @@ fn still(model: &dyn Model, found: &RelativeEquilibrium) -> Reading {
 fn periodic(
     bodies: &Bodies<'_>,
     model: &dyn Model,
-    (orbit, nodes): (&PeriodicOrbit, &[Vec<f64>]),
+    orbit: &PeriodicOrbit,
+    nodes: &[Vec<f64>],
     watch: &dyn Watch,
 ) -> Result<Reading, Error> {
     let seen = repeating(model, orbit, nodes, &bodies.looks(), &motiform_dynamics::StopOnly(watch))?;

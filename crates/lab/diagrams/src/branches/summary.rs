@@ -93,11 +93,11 @@ pub fn summary(plan: &BranchPlan, found: &Branches) -> Value {
         "complete": found.complete,
         "origins_left": found.left,
         "doublings_left": found.doublings_left,
-        "branches": entries.map(|(number, followed)| entry(plan, found, (number, followed))).collect::<Vec<_>>(),
+        "branches": entries.map(|(number, followed)| entry(plan, found, number, followed)).collect::<Vec<_>>(),
     })
 }
 
-fn entry(plan: &BranchPlan, found: &Branches, (number, followed): (usize, &Followed)) -> Value {
+fn entry(plan: &BranchPlan, found: &Branches, number: usize, followed: &Followed) -> Value {
     let name = &plan.computation.along.name;
     let named = followed.named();
     let ends: Vec<String> = followed.legs.iter().map(Leg::ending).collect();
@@ -149,7 +149,7 @@ impl Branches {
             .enumerate()
             .map(|(leg, done)| {
                 let points = done.samples.iter().enumerate();
-                let inside = points.filter_map(|(point, sample)| self.entry((number, leg, point), sample));
+                let inside = points.filter_map(|(point, sample)| self.entry(number, leg, point, sample));
                 inside.chain(end(done)).collect()
             })
             .collect();
@@ -159,7 +159,7 @@ impl Branches {
         all.concat()
     }
 
-    fn entry(&self, (branch, leg, point): (usize, usize, usize), sample: &Sample) -> Option<SpecialEntry> {
+    fn entry(&self, branch: usize, leg: usize, point: usize, sample: &Sample) -> Option<SpecialEntry> {
         let special = sample.point.special?;
         let done = &self.branches[branch].legs[leg];
         let ends = done.meets_at(point);
@@ -170,7 +170,7 @@ impl Branches {
         if there.len() > 1 || sample.point.critical > 1 || matches!(special, Special::Touch { .. }) {
             there.retain(|next| *next != branch); // where all branches are looked for its own is found as well
         }
-        let next = || self.criticality((branch, leg, point), &there, origin);
+        let next = || self.criticality(branch, leg, point, &there, origin);
         let (criticality, undecided) = judged(&sample.point, next);
         Some(SpecialEntry {
             kind: special.name(),
@@ -206,7 +206,9 @@ impl Branches {
     /// Criticality: the branch that begins at a point is stable in the critical direction, or not.
     fn criticality(
         &self,
-        (branch, leg, point): (usize, usize, usize),
+        branch: usize,
+        leg: usize,
+        point: usize,
         there: &[usize],
         origin: Origin,
     ) -> Option<&'static str> {

@@ -83,7 +83,7 @@ fn sweep(
             None => start(plan, model.as_ref()),
         };
         push_off(&mut shape, number);
-        let (point, end) = run(&bodies, (model.as_ref(), value), &shape, watch)?;
+        let (point, end) = run(&bodies, model.as_ref(), value, &shape, watch)?;
         if watch.stopped() {
             kept.write(&begun)?;
             return Err(Error::Interrupted);
@@ -112,7 +112,8 @@ fn push_off(shape: &mut [f64], number: usize) {
 /// One run, and the shape at its end if it came there.
 fn run(
     bodies: &Bodies<'_>,
-    (model, value): (&dyn Model, f64),
+    model: &dyn Model,
+    value: f64,
     shape: &[f64],
     watch: &dyn Watch,
 ) -> Result<(SweepPoint, Option<Vec<f64>>), Error> {

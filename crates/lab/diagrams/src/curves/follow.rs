@@ -45,7 +45,7 @@ pub fn follow_curves_kept(
             let mut kept = |branches: &Branches| {
                 keep(&Curves { branches: branches.clone(), curves: curves.clone(), complete: false })
             };
-            follow_kept(&plan.branches(), begun, (&mut kept, &()), &part)?
+            follow_kept(&plan.branches(), begun, &mut kept, &(), &part)?
         }
     };
     let mut done = Curves { complete: branches.complete, branches, curves };
@@ -61,7 +61,7 @@ pub fn follow_curves_kept(
         if done.begun(*start) || done.passes(plan, *kind, *start) {
             continue;
         }
-        match follow_curve(plan, &done.branches, (*kind, *start), &part) {
+        match follow_curve(plan, &done.branches, *kind, *start, &part) {
             Ok(followed) => {
                 done.curves.push(followed);
                 keep(&done)?;
@@ -90,10 +90,11 @@ fn starts(plan: &CurvePlan, found: &Branches) -> Vec<(CurveKind, [usize; 3])> {
 pub fn follow_curve(
     plan: &CurvePlan,
     found: &Branches,
-    (kind, start): (CurveKind, [usize; 3]),
+    kind: CurveKind,
+    start: [usize; 3],
     watch: &dyn Watch,
 ) -> Result<FollowedCurve, Error> {
-    curve_within(plan, found, (kind, start), None, watch)
+    curve_within(plan, found, kind, start, None, watch)
 }
 
 /// As [`follow_curve`]; no more is spent on orbits than the allowance, one half of it to each side: a side on which that is spent ends with
@@ -104,13 +105,14 @@ pub fn follow_curve(
 pub fn follow_curve_within(
     plan: &CurvePlan,
     found: &Branches,
-    start: (CurveKind, [usize; 3]),
+    kind: CurveKind,
+    start: [usize; 3],
     allowance: &Allowance,
     watch: &dyn Watch,
 ) -> Result<FollowedCurve, Error> {
     let half = allowance.left().div_ceil(2);
     let sides = [Allowance::of(half), Allowance::of(half)];
-    let followed = curve_within(plan, found, start, Some(&sides), watch);
+    let followed = curve_within(plan, found, kind, start, Some(&sides), watch);
     allowance.spend(sides.iter().map(|side| half - side.left()).sum());
     followed
 }
@@ -118,14 +120,15 @@ pub fn follow_curve_within(
 fn curve_within(
     plan: &CurvePlan,
     found: &Branches,
-    (kind, start): (CurveKind, [usize; 3]),
+    kind: CurveKind,
+    start: [usize; 3],
     sides: Option<&[Allowance; 2]>,
     watch: &dyn Watch,
 ) -> Result<FollowedCurve, Error> {
     let mut followed = FollowedCurve { kind, start, legs: Vec::new(), sought: Vec::new(), refused: None };
     let Some(Sample { point, .. }) = found.at(start) else { return Ok(followed) };
     let legs = each(&[true, false], 2, watch, |&reversed| {
-        leg(plan, (point, reversed), sides.map(|sides| &sides[usize::from(reversed)]), watch)
+        leg(plan, point, reversed, sides.map(|sides| &sides[usize::from(reversed)]), watch)
     })?;
     for found in legs {
         match found {
@@ -148,7 +151,8 @@ type Leg = Result<(CurveLeg, Vec<Degenerate>), String>;
 /// One direction of a curve, or why there is none.
 fn leg(
     plan: &CurvePlan,
-    (point, reversed): (&Point, bool),
+    point: &Point,
+    reversed: bool,
     allowance: Option<&Allowance>,
     watch: &dyn Watch,
 ) -> Result<Leg, Error> {

@@ -186,10 +186,8 @@ fn caption(plan: &ScanPlan, info: &ModelInfo, cells: &[CellSummary], units: &Sho
         (samples, true) => format!("{samples} random initial states each, {random}"),
     };
     let varied: Vec<&str> = c.axes.iter().map(|axis| axis.name.as_str()).collect();
-    let mut all = vec![
-        words::named_in(info, &c.parameters, (&varied, &c.ties), units),
-        format!("{computed}, {states}."),
-    ];
+    let mut all =
+        vec![words::named_in(info, &c.parameters, &varied, &c.ties, units), format!("{computed}, {states}.")];
     let mut reasons = Reasons::default();
     cells.iter().flat_map(|cell| &cell.motions).for_each(|motion| reasons.add_all(&motion.reasons));
     let told = reasons

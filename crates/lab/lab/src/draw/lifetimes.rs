@@ -81,7 +81,7 @@ fn caption(plan: &ScanPlan, found: &Lifetimes, info: &ModelInfo, units: &Shown) 
     let events: usize = found.values.iter().map(|at| at.life.events).sum();
     let until = found.until_in(|time| units.words(time, LIFE.dimension, " model time"));
     vec![
-        words::named_in(info, &c.parameters, (&[&found.parameter], &c.ties), units),
+        words::named_in(info, &c.parameters, &[&found.parameter], &c.ties, units),
         format!(
             "{} starts for each value, {}, seed {}, each followed to {until}; {events} lives ended. Bars: exact 95 % limits of an \
              exponential law with censoring; a bar without an upper end: no life ended.",

@@ -29,7 +29,7 @@ pub fn undrawable(error: FigureError) -> Error {
 /// # Errors
 /// An unknown model.
 pub fn parameters(plan: &Plan, units: &Shown) -> Result<String, Error> {
-    Ok(words::named_in(plan.info()?, &plan.computation.parameters, (&[], &Ties::default()), units))
+    Ok(words::named_in(plan.info()?, &plan.computation.parameters, &[], &Ties::default(), units))
 }
 
 /// Draws a figure, with its data.

@@ -19,17 +19,17 @@ pub(super) fn about(body: &Body<'_>) -> Vec<String> {
 /// `Tensor model, in model units: γ = 1, κ_2 = 0.9, ...; all others 0.`
 pub(super) fn parameters(body: &Body<'_>) -> String {
     let values = &body.dataset.manifest.plan.computation.parameters;
-    named_in(body.info, values, (&[], &Ties::default()), body.units())
+    named_in(body.info, values, &[], &Ties::default(), body.units())
 }
 
 /// The values of a model that are not 0, and the expressions of those that follow from others, as a sentence; `varied` are those that the
 /// figure shows.
 pub fn named(info: &ModelInfo, values: &Named, varied: &[&str], ties: &Ties) -> String {
-    named_in(info, values, (varied, ties), &Shown::default())
+    named_in(info, values, varied, ties, &Shown::default())
 }
 
 /// The same for a figure in these units; parameters stay those of the model.
-pub fn named_in(info: &ModelInfo, values: &Named, (varied, ties): (&[&str], &Ties), units: &Shown) -> String {
+pub fn named_in(info: &ModelInfo, values: &Named, varied: &[&str], ties: &Ties, units: &Shown) -> String {
     let specs = info.parameters();
     let value = |name| values.get(name).filter(|&value| value != 0.0).map(number);
     let set: Vec<String> = specs

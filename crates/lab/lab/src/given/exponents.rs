@@ -17,7 +17,8 @@ pub fn exponents(
     flow: &Flow<'_>,
     start: &[f64],
     count: usize,
-    (transient, t_end): (f64, f64),
+    transient: f64,
+    t_end: f64,
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Result<Lyapunov, Error> {

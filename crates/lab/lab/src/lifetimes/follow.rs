@@ -69,9 +69,9 @@ impl Followable {
     fn new(plan: &ScanPlan, cell: usize) -> Result<Self, Error> {
         let (info, c, values) = (plan.info()?, &plan.computation, plan.parameters_of(cell)?);
         let looks = Looks::of(plan, cell)?;
-        let bounds = (c.escape_norm, c.max_steps);
+        let budget = LAST_LOOKS * looks.time;
         let settings =
-            settings_of((info, &values), plan.method()?, c.control, bounds, LAST_LOOKS * looks.time);
+            settings_of(info, &values, plan.method()?, c.control, c.escape_norm, c.max_steps, budget);
         Ok(Self { model: plan.model_of(cell)?, size: Scales::typical(info, &values)?, looks, settings })
     }
 }
@@ -104,7 +104,7 @@ impl<'p> Follower<'p> {
                 escape_norm: self.plan.computation.escape_norm,
                 set: InstructionSet::widest(),
             };
-            first = self.in_lanes(kernel, &how, (job, jobs));
+            first = self.in_lanes(kernel, &how, job, jobs);
         }
     }
 
@@ -124,7 +124,8 @@ impl<'p> Follower<'p> {
         &self,
         kernel: Kernel,
         how: &Propagation<'_>,
-        (first, jobs): (usize, &Jobs<'_, Followed>),
+        first: usize,
+        jobs: &Jobs<'_, Followed>,
     ) -> Option<usize> {
         let on_the_way: RefCell<BTreeMap<usize, Way>> = RefCell::new(BTreeMap::new());
         let waiting: RefCell<Vec<usize>> = RefCell::new(Vec::new());

@@ -66,9 +66,9 @@ impl Evaluate for Classify {
         let c = &plan.computation;
         let model = plan.model_of(cell)?;
         let start = plan.start(cell, sample, model.as_ref())?;
-        let bounds = (c.escape_norm, c.max_steps);
         let (info, values) = (plan.info()?, plan.parameters_of(cell)?);
-        let settings = settings_of((info, &values), plan.method()?, c.control, bounds, c.budget);
+        let settings =
+            settings_of(info, &values, plan.method()?, c.control, c.escape_norm, c.max_steps, c.budget);
         let body = Body { info, values, model: model.as_ref() };
         body.classify(&start, &settings, &StopOnly(stop))
     }

@@ -28,9 +28,8 @@ pub(super) fn classify(
 /// axis from 0 on adds a term in all columns but the first.
 fn kernel(plan: &ScanPlan) -> Option<(Settings, Kernel)> {
     let c = &plan.computation;
-    let bounds = (c.escape_norm, c.max_steps);
-    let of = (plan.info().ok()?, &plan.parameters_of(0).ok()?[..]);
-    let settings = settings_of(of, plan.method().ok()?, c.control, bounds, c.budget);
+    let (info, values, method) = (plan.info().ok()?, plan.parameters_of(0).ok()?, plan.method().ok()?);
+    let settings = settings_of(info, &values, method, c.control, c.escape_norm, c.max_steps, c.budget);
     if !classifies_in_lanes(&settings) {
         return None;
     }
@@ -57,7 +56,7 @@ impl LaneRows<'_> {
         let samples = plan.computation.samples;
         let mut candidate = || loop {
             let (cell, sample) = next()?;
-            match row_in_lanes((plan, &settings), kernel, cell, sample) {
+            match row_in_lanes(plan, &settings, kernel, cell, sample) {
                 Ok(Some(candidate)) => return Some(candidate),
                 Ok(None) => (done.borrow_mut())((cell, sample), single.evaluate(plan, cell, sample, stop)),
                 Err(error) => (done.borrow_mut())((cell, sample), Err(error)),
@@ -72,7 +71,8 @@ impl LaneRows<'_> {
 
 /// A row for a lane of this kernel; `None` if it does not compute it, or the body is looked at over other times.
 fn row_in_lanes(
-    (plan, settings): (&ScanPlan, &Settings),
+    plan: &ScanPlan,
+    settings: &Settings,
     kernel: Kernel,
     cell: usize,
     sample: usize,

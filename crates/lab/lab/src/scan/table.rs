@@ -47,7 +47,7 @@ impl ScanTable {
     }
 
     /// The row in a place, which is that of `cell` and `sample`; `None` if it is not computed, or without evidence.
-    pub fn row(&self, place: usize, (cell, sample): (usize, usize)) -> Option<Row> {
+    pub fn row(&self, place: usize, cell: usize, sample: usize) -> Option<Row> {
         Some(Row {
             cell,
             sample,
@@ -81,11 +81,11 @@ mod tests {
         let row = Row::new(7, 1, Verdict { period: Some(2.5), course, ..verdict });
         let mut table = ScanTable::empty(3, true);
         table.put(1, row.clone());
-        let back = table.row(1, (7, 1)).unwrap();
+        let back = table.row(1, 7, 1).unwrap();
         assert_eq!((back.regime, back.attractor, &back.why), (row.regime, row.attractor, &row.why));
         assert_eq!(back.course, course);
         assert_eq!(back.numbers.map(f64::to_bits), row.numbers.map(f64::to_bits));
-        assert!(table.row(0, (7, 0)).is_none(), "it is not computed");
+        assert!(table.row(0, 7, 0).is_none(), "it is not computed");
         assert_eq!(table.regimes[2], ScanTable::MISSING);
     }
 }

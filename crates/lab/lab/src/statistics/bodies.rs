@@ -43,7 +43,7 @@ pub fn simulated(
     threads: usize,
     watch: &dyn Watch,
 ) -> Result<Measurement> {
-    simulated_kept(study, count, settings, (threads, &()), watch)
+    simulated_kept(study, count, settings, threads, &(), watch)
 }
 
 /// As [`simulated`]; finished bodies go to a journal, and those that it has are not computed again.
@@ -54,7 +54,8 @@ pub fn simulated_kept(
     study: &Study,
     count: usize,
     settings: &Settings,
-    (threads, journal): (usize, &dyn Journal),
+    threads: usize,
+    journal: &dyn Journal,
     watch: &dyn Watch,
 ) -> Result<Measurement> {
     let (plans, kept) = (plans(study, count)?, Kept(journal));
@@ -136,7 +137,7 @@ fn one_by_one(plans: &[RunPlan], kept: &Kept<'_>, threads: usize, watch: &dyn Wa
         let outcome = dataset.manifest.outcome.outcome;
         let model = plan.body()?;
         let accuracy = Accuracy::of(&dataset.manifest);
-        let track = crate::statistics::datasets::track(&dataset.trajectory, (model.as_ref(), accuracy), 0.0);
+        let track = crate::statistics::datasets::track(&dataset.trajectory, model.as_ref(), accuracy, 0.0);
         let part = (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / plans.len() as f64;
         watch.progress(part);
         let body = (!matches!(outcome, Outcome::Interrupted { .. })).then_some((outcome, track));
@@ -172,8 +173,7 @@ fn in_lanes(plans: &[RunPlan], kept: &Kept<'_>, threads: usize, watch: &dyn Watc
         };
         let Some(tracks) = tracks else { break };
         let accuracy = Accuracy::with(c.control, None);
-        let body =
-            |track: &Tracked| Some((track.outcome, recorded((model.as_ref(), accuracy), &track.states)));
+        let body = |track: &Tracked| Some((track.outcome, recorded(model.as_ref(), accuracy, &track.states)));
         let bodies: Vec<Body> = tracks.iter().map(body).collect();
         kept.write(number * TOGETHER, &bodies)?;
         found.extend(bodies);
@@ -187,7 +187,7 @@ fn member(plan: &RunPlan) -> Member {
     Member { parameters: c.parameters.values(), start: c.initial.values() }
 }
 
-fn recorded((model, accuracy): (&dyn Model, Accuracy), states: &[Vec<f64>]) -> Track {
+fn recorded(model: &dyn Model, accuracy: Accuracy, states: &[Vec<f64>]) -> Track {
     let mut recorder = Recorder::new(model, accuracy);
     for state in states {
         let (coordinates, position) = state.split_at(state.len() - 2);

@@ -33,7 +33,7 @@ pub fn read(folders: &[PathBuf], transient: f64, settings: &Settings) -> Result<
         check(folder, &dataset, first.as_ref())?;
         let plan = &dataset.manifest.plan;
         let model = plan.body()?;
-        tracks.push(track(&dataset.trajectory, (model.as_ref(), Accuracy::of(&dataset.manifest)), transient));
+        tracks.push(track(&dataset.trajectory, model.as_ref(), Accuracy::of(&dataset.manifest), transient));
         if !dataset.manifest.outcome.is_complete() {
             notes.push(format!(
                 "{}: {}; it counts as far as it goes",
@@ -104,7 +104,7 @@ fn other_body(first: &Computation, c: &Computation) -> Option<String> {
 }
 
 /// The track in a table of a motion, from the time `from` on.
-pub(crate) fn track(table: &Table, (model, accuracy): (&dyn Model, Accuracy), from: f64) -> Track {
+pub(crate) fn track(table: &Table, model: &dyn Model, accuracy: Accuracy, from: f64) -> Track {
     let column = |name: &str| table.get(name).unwrap_or(&[]);
     let (t, x, y) = (column("t"), column("x"), column("y"));
     let coordinates: Vec<&[f64]> = model.coordinates().iter().map(|c| column(c.name)).collect();

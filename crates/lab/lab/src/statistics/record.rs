@@ -167,7 +167,7 @@ mod tests {
             let plan = RunPlan::new(&Study::parse(&text, "text", "test").unwrap()).unwrap();
             let run = crate::simulate::simulate(&plan, &()).unwrap().trajectory;
             let accuracy = Accuracy::with(plan.computation.control, None);
-            let track = track(&run, (plan.body().unwrap().as_ref(), accuracy), 0.0);
+            let track = track(&run, plan.body().unwrap().as_ref(), accuracy, 0.0);
             let all = std::iter::once(&track.velocity).chain(&track.modes).zip(&track.rates);
             for (series, rates) in all {
                 let largest = rates.iter().flatten().fold(1e-12, |most: f64, rate| most.max(rate.abs()));

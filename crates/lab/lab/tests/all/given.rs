@@ -183,7 +183,7 @@ fn exponents_of_a_linear_flow_are_its_rates() {
     };
     let given = Function { dim: 2, rates, jacobian: unknown };
     let flow = Flow::new(&given, vec![-0.2, -1.5]);
-    let found = exponents(&flow, &[0.3, 0.4], 2, (20.0, 100.0), &settings(&flow), &()).unwrap();
+    let found = exponents(&flow, &[0.3, 0.4], 2, 20.0, 100.0, &settings(&flow), &()).unwrap();
     assert!((found.exponents[0].value + 0.2).abs() < 1e-9, "{:?}", found.exponents);
     assert!((found.exponents[1].value + 1.5).abs() < 1e-9, "{:?}", found.exponents);
 }
@@ -202,16 +202,16 @@ fn exponents_of_lorenz_agree_with_the_exact_tangent_flow() {
     let exact = Function { dim: 3, rates, jacobian };
     let flow = Flow::new(&exact, vec![]);
     let settings = settings(&flow);
-    let exact = exponents(&flow, &start, 3, (5.0, 20.0), &settings, &()).unwrap();
+    let exact = exponents(&flow, &start, 3, 5.0, 20.0, &settings, &()).unwrap();
     let differences = Function { dim: 3, rates, jacobian: unknown };
     let flow = Flow::new(&differences, vec![]);
-    let near = exponents(&flow, &start, 3, (5.0, 20.0), &settings, &()).unwrap();
+    let near = exponents(&flow, &start, 3, 5.0, 20.0, &settings, &()).unwrap();
     for (a, b) in exact.exponents.iter().zip(&near.exponents) {
         assert!((a.value - b.value).abs() < 1e-5, "{a:?} {b:?}");
     }
     let trace: f64 = near.exponents.iter().map(|exponent| exponent.value).sum();
     assert!((trace + 10.0 + 1.0 + 8.0 / 3.0).abs() < 1e-7, "{trace}");
-    let long = exponents(&flow, &start, 3, (50.0, 2000.0), &settings, &()).unwrap();
+    let long = exponents(&flow, &start, 3, 50.0, 2000.0, &settings, &()).unwrap();
     assert!((long.exponents[0].value - 0.9056).abs() < 2.0 * long.exponents[0].error.max(0.01));
 }
 
@@ -220,9 +220,9 @@ fn what_cannot_be_computed_is_refused_with_the_reason() {
     let given = driven();
     let flow = Flow::new(&given, vec![1.0]);
     let text = |error: motiform_study::Error| error.to_string();
-    let error = exponents(&flow, &[0.5], 1, (1.0, 10.0), &settings(&flow), &()).unwrap_err();
+    let error = exponents(&flow, &[0.5], 1, 1.0, 10.0, &settings(&flow), &()).unwrap_err();
     assert!(text(error).contains("does not depend on the time"));
-    let error = exponents(&flow, &[0.5], 2, (1.0, 10.0), &settings(&flow), &()).unwrap_err();
+    let error = exponents(&flow, &[0.5], 2, 1.0, 10.0, &settings(&flow), &()).unwrap_err();
     assert!(text(error).contains("from 1 to 1"));
     let exponential = RunSettings { stepper: "krogstad4".into(), ..RunSettings::default() };
     assert!(text(Settings::new(&exponential, &flow).unwrap_err()).contains("linear part"));

@@ -49,7 +49,7 @@ fn a_straight_path_crosses_a_line_when_it_should() {
         "[model.tensor]\ngamma = 0.25\nkappa2 = 1.0\nkappa3 = 1.0\n[initial]\nv1 = 0.5\n[run]\nt_end = 10.0";
     let plan = plan(text);
     for (direction, expected) in [(Direction::Rising, 1), (Direction::Falling, 0), (Direction::Either, 1)] {
-        let (table, outcome) = section(&plan, ("x", 2.0), direction, &()).unwrap();
+        let (table, outcome) = section(&plan, "x", 2.0, direction, &()).unwrap();
         assert!(outcome.is_complete());
         assert_eq!(table.rows(), expected);
         if expected == 1 {
@@ -59,7 +59,7 @@ fn a_straight_path_crosses_a_line_when_it_should() {
         }
     }
     for (coordinate, value) in [("w", 0.0), ("x", f64::NAN)] {
-        assert!(section(&plan, (coordinate, value), Direction::Either, &()).is_err());
+        assert!(section(&plan, coordinate, value, Direction::Either, &()).is_err());
     }
 }
 

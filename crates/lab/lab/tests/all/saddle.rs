@@ -12,9 +12,9 @@ fn found(r: f64, (transient, t_end): (f64, f64), (runs, random): (usize, Option<
         .unwrap();
     let mut study = Study::parse(&text.replace("r = 28", &format!("r = {r:?}")), "text", "test").unwrap();
     study.random = random;
-    let starts = (runs, study.starts(1).unwrap());
+    let random = study.starts(1).unwrap();
     let spans = Spans { transient: Some(transient), t_end: Some(t_end) };
-    saddle(&RunPlan::new(&study).unwrap(), starts, spans, 2, &()).unwrap().unwrap()
+    saddle(&RunPlan::new(&study).unwrap(), runs, random, spans, 2, &()).unwrap().unwrap()
 }
 
 #[test]
@@ -49,7 +49,7 @@ fn runs_and_times_are_checked() {
     let study = Study::of_model(ModelInfo::find("tensor").unwrap());
     let plan = RunPlan::new(&study).unwrap();
     let refused =
-        |runs, spans| saddle(&plan, (runs, study.starts(1).unwrap()), spans, 1, &()).unwrap_err().to_string();
+        |runs, spans| saddle(&plan, runs, study.starts(1).unwrap(), spans, 1, &()).unwrap_err().to_string();
     assert_eq!(refused(1, Spans::default()), "runs = 1: give at least 2");
     let early = Spans { transient: Some(-1.0), t_end: None };
     assert_eq!(refused(2, early), "transient = -1: give a time from 0 to 1e9");

@@ -50,7 +50,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let span = context.choose(12_000.0, 3000.0);
     let starts: Vec<(f64, u64)> =
         values.iter().flat_map(|kappa2| (1..=STARTS).map(|seed| (*kappa2, seed))).collect();
-    let runs: Vec<Run> = context.each(&starts, |start| run(context, *start, span))?;
+    let runs: Vec<Run> = context.each(&starts, |&(kappa2, seed)| run(context, kappa2, seed, span))?;
     let mut saddles = Vec::new();
     for kappa2 in values {
         if runs.iter().any(|run| run.kappa2 == *kappa2 && run.largest.is_none()) {
@@ -63,7 +63,7 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     Ok(())
 }
 
-fn run(context: &Context<'_>, (kappa2, seed): (f64, u64), span: f64) -> Result<Run, Error> {
+fn run(context: &Context<'_>, kappa2: f64, seed: u64, span: f64) -> Result<Run, Error> {
     let mut study = at(context, kappa2, 0.1)?;
     study.run.seed = seed;
     let found = context.lyapunov(&study, COUNT, (800.0, span))?;

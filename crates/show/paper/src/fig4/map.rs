@@ -43,25 +43,29 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section, curves: &Curves)
     let places = scan(
         context,
         section,
-        ("fig4", &axes, context.choose(4, 2)),
         curves,
-        (
-            "Motions of the full tensor model",
-            "Blow-up is what the paper marks × and calls a numerical instability.",
-            "**Fig. 4(a), computed.** Each cell is classified by mathematics, never by eye; cells with more than one motion are \
+        &Lattice {
+            name: "fig4",
+            axes,
+            samples: context.choose(4, 2),
+            title: "Motions of the full tensor model",
+            says: "Blow-up is what the paper marks × and calls a numerical instability.",
+            caption: "**Fig. 4(a), computed.** Each cell is classified by mathematics, never by eye; cells with more than one motion are \
          striped by the shares of the initial states. Lines: special points of branches, continued through the plane.",
-        ),
+        },
     )?;
     let arch = scan(
         context,
         section,
-        ("fig4-arch", &context.choose(ARCH, ARCH_QUICK), 1),
         curves,
-        (
-            "Motions about the zigzag",
-            "Where the three-fold deformation relaxes slowly (small κ_3).",
-            "The lower edge of Fig. 4(a), with the curves along which zigzags change.",
-        ),
+        &Lattice {
+            name: "fig4-arch",
+            axes: context.choose(ARCH, ARCH_QUICK),
+            samples: 1,
+            title: "Motions about the zigzag",
+            says: "Where the three-fold deformation relaxes slowly (small κ_3).",
+            caption: "The lower edge of Fig. 4(a), with the curves along which zigzags change.",
+        },
     )?;
     section.claims.extend([kinds(&places), order(&places), zigzag(&places), chaos(&places)]);
     section.claims.extend(wedge(&places));
@@ -72,14 +76,25 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section, curves: &Curves)
     Ok(())
 }
 
+/// A lattice of cells over the plane, and the words of its figure.
+struct Lattice {
+    name: &'static str,
+    axes: [&'static str; 2],
+    /// Initial states of each cell.
+    samples: u64,
+    title: &'static str,
+    says: &'static str,
+    caption: &'static str,
+}
+
 /// Computes and draws a lattice over the plane, under the curves.
 fn scan(
     context: &Context<'_>,
     section: &mut Section,
-    (name, axes, samples): (&str, &[&str; 2], u64),
     curves: &Curves,
-    (title, says, words): (&str, &str, &str),
+    lattice: &Lattice,
 ) -> Result<Vec<Place>, Error> {
+    let Lattice { name, axes, samples, title, says, caption } = *lattice;
     let study = context.preset("fig4", |study| {
         study.scan.axes = axes.iter().map(|text| Axis::parse(text)).collect::<Result<_, _>>()?;
         study.scan.samples = samples;
@@ -92,7 +107,7 @@ fn scan(
         lines: curves.lines(),
         ..phase_diagram(&plan, &cells)?
     };
-    let drawn = figure(context.sheet(svg)?, words);
+    let drawn = figure(context.sheet(svg)?, caption);
     section.figures.push(if name == "fig4" { drawn.of_paper("4(a)") } else { drawn });
     Ok(places(&plan, &cells))
 }

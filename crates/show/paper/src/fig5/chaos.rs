@@ -15,7 +15,8 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let dataset = context.simulate(&study)?;
     section.figures.extend(drawings(
         context,
-        ("5(b)", &dataset),
+        "5(b)",
+        &dataset,
         &[
             (
                 "path",

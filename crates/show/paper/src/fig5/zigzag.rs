@@ -16,7 +16,8 @@ pub(super) fn add(context: &Context<'_>, section: &mut Section) -> Result<(), Er
     let verdict = context.classify(&study)?;
     section.figures.extend(drawings(
         context,
-        ("5(a)", &dataset),
+        "5(a)",
+        &dataset,
         &[
             (
                 "path",

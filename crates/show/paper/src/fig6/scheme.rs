@@ -75,7 +75,8 @@ fn onwards(
     track: &Track,
     modes: usize,
     papers: bool,
-    (time, every): (f64, f64),
+    time: f64,
+    every: f64,
 ) -> Result<Shapes, Error> {
     let length = track.parameter("length");
     let mut study = study(length, modes)?;
@@ -108,8 +109,8 @@ fn apart(context: &Context<'_>, track: &Track, time: f64) -> Result<f64, Error> 
     let modes = modes_for(track.parameter("length"));
     let name = format!("the paper's scheme at {} over {time}", track.parameter("length"));
     context.kept.once(&name, || {
-        let paper = onwards(context, track, MODES, true, (time, time))?;
-        let ours = onwards(context, track, modes, false, (time, time))?;
+        let paper = onwards(context, track, MODES, true, time, time)?;
+        let ours = onwards(context, track, modes, false, time, time)?;
         let ends = [paper, ours].map(|mut shapes| shapes.shapes.pop().unwrap_or_default());
         Ok(difference(&ends[0], &ends[1], 2 * modes))
     })
@@ -127,8 +128,8 @@ fn drawn_again(context: &Context<'_>, tracks: &[Track]) -> Result<(bool, String)
     // over the same time from the same shapes: turns of a motion that does not repeat differ from one part of it to another
     let runs = context.each(tracks, |track| {
         let modes = modes_for(track.parameter("length"));
-        let run = seen(&onwards(context, track, MODES, true, (SPAN, 0.5))?, prior)?;
-        Ok((run, seen(&onwards(context, track, modes, false, (SPAN, 0.5))?, prior)?))
+        let run = seen(&onwards(context, track, MODES, true, SPAN, 0.5)?, prior)?;
+        Ok((run, seen(&onwards(context, track, modes, false, SPAN, 0.5)?, prior)?))
     })?;
     let (mut same, mut words) = (true, Vec::new());
     for (track, (run, our)) in tracks.iter().zip(&runs) {

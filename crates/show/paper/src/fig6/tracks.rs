@@ -97,7 +97,8 @@ impl Track {
         let name = format!("6({letter})");
         drawings(
             context,
-            (&name, &self.dataset),
+            &name,
+            &self.dataset,
             &words.each_ref().map(|(name, caption)| (*name, caption.as_str())),
         )
     }

@@ -147,7 +147,7 @@ type Faults = BTreeMap<String, Vec<&'static str>>;
 /// For each claim of a chapter the faults, of those that are tried, under which it fails.
 fn faults_of(chapter: &str, tried: impl Fn(&str) -> bool) -> Faults {
     let folder = tempfile::tempdir().unwrap();
-    let under = |fault: &Fault| claims_under(fault, chapter, &KEPT, (folder.path(), 2)).unwrap();
+    let under = |fault: &Fault| claims_under(fault, chapter, &KEPT, folder.path(), 2).unwrap();
     let mut found = Faults::new();
     for claim in under(&Fault::NONE) {
         let open = matches!(claim.verdict, Judged::Fails { .. } | Judged::Unjudged { .. });

@@ -50,7 +50,7 @@ impl Search {
         } else {
             chaos::missing(&self.growth, &witness)
         };
-        if let Some(verdict) = self.on_a_curve(case, &look, (&run, &witness))? {
+        if let Some(verdict) = self.on_a_curve(case, &look, &run, &witness)? {
             return Ok(verdict.into());
         }
         self.again(case)

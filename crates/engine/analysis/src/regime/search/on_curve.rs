@@ -16,7 +16,8 @@ impl Search {
         &mut self,
         case: Case<'_>,
         look: &Look,
-        (run, witness): (&Lyapunov, &chaos::Witness),
+        run: &Lyapunov,
+        witness: &chaos::Witness,
     ) -> Result<Option<Verdict>> {
         let torus = chaos::torus(run, witness, self.time);
         let again = self.curve.is_seen_again(look, torus.is_some());
@@ -26,7 +27,7 @@ impl Search {
             return words::periodic(case, &orbit, &recurrence, self.time).map(Some);
         }
         let Some(torus) = torus else { return Ok(None) };
-        match self.lasts(torus, case, (look, again)) {
+        match self.lasts(torus, case, look, again) {
             Ok(torus) => self.described(torus, case, look.end - look.start).map(Some),
             Err(missing) => {
                 self.missing = missing;
@@ -40,7 +41,8 @@ impl Search {
         &mut self,
         torus: Verdict,
         case: Case<'_>,
-        (look, again): (&Look, bool),
+        look: &Look,
+        again: bool,
     ) -> std::result::Result<Verdict, String> {
         if !again {
             return Err(

@@ -138,7 +138,7 @@ fn diagram_in(
         marks: found.branches.iter().flat_map(|followed| marks(followed, ordinate)).collect(),
     };
     let period = ordinate == Ordinate::Period;
-    let mut caption = caption(plan, found, (mirror, ordinate), units)?;
+    let mut caption = caption(plan, found, mirror, ordinate, units)?;
     let connects =
         |followed: &Followed| followed.legs.iter().any(|leg| matches!(leg.end, End::Homoclinic(_)));
     if period && found.branches.iter().any(connects) {
@@ -176,7 +176,8 @@ fn dots(sweeps: &Sweeps, ordinate: Ordinate) -> Vec<BranchDots> {
 fn caption(
     plan: &BranchPlan,
     found: &Branches,
-    (mirror, ordinate): (bool, Ordinate),
+    mirror: bool,
+    ordinate: Ordinate,
     units: &Shown,
 ) -> Result<Vec<String>, Error> {
     let c = &plan.computation;
@@ -202,7 +203,7 @@ fn caption(
     };
     let unfinished = if found.complete { "" } else { " Interrupted: not all of them are followed." };
     Ok(vec![
-        words::named_in(plan.info()?, &Named(fixed), (&[&c.along.name], &c.ties), units),
+        words::named_in(plan.info()?, &Named(fixed), &[&c.along.name], &c.ties, units),
         format!(
             "{count} by pseudo-arclength continuation{once}{left}.{}{samples}{unfinished}",
             gaps(found, ordinate)
