@@ -10,15 +10,21 @@ use crate::equilibrium::along_group_and_flow;
 use crate::linear::{add, basis, dot, norm};
 use crate::lyapunov::SplitMix;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
+use crate::symmetry::align;
 use motiform_dynamics::VectorField;
 use motiform_dynamics::drive::drive;
 use motiform_dynamics::model::velocity;
 
-/// Neighbouring orbits are looked for at this distance, against the size of the shape,
+/// Neighbouring orbits are looked for at this distance, against the size of the shape or the extent of the orbit, whichever is smaller:
+/// from farther away a shift along a bent orbit looks like a step across it,
 const BESIDE: f64 = 1e-3;
 
 /// and count as others where they are farther away than this part of it, across the flow and the group.
 const OTHER: f64 = 0.03;
+
+/// Newton's method leaves about this part of the residual at which an orbit counts as closed; neighbours that are no farther away say
+/// nothing.
+const LEFT: f64 = 0.1;
 
 /// Members do the same where it differs by less than this part of their distance, both relative.
 const ALIKE: f64 = 0.03;
@@ -45,11 +51,15 @@ pub(super) fn within_family(
     if count == 0 {
         return None;
     }
-    let size = norm(&orbit.shape);
+    let done = Done::of(case, orbit)?;
+    let whole = norm(&orbit.shape);
+    let size = whole.min(done.extent);
+    if OTHER * BESIDE * size <= LEFT * settings.flow().closed() * whole {
+        return None;
+    }
     let own = along_group_and_flow(body, &orbit.shape);
     let mut random = SplitMix(3);
     let mut found: Vec<Vec<f64>> = Vec::new();
-    let done = Done::of(case, orbit)?;
     for _ in 0..count {
         let mut beside: Vec<f64> = orbit.shape.iter().map(|_| random.next()).collect();
         let factor = BESIDE * size / norm(&beside);
@@ -81,14 +91,18 @@ pub(super) fn within_family(
 }
 
 /// The motion of a body along a periodic orbit, as numbers that no symmetry changes.
-struct Done([f64; 3]);
+struct Done {
+    /// The period, and the means of the squares of the speed and of the rate of the shape.
+    numbers: [f64; 3],
+    /// The largest distance of its shapes from the first one, rotations divided out.
+    extent: f64,
+}
 
 impl Done {
-    /// The period, and the means of the squares of the speed and of the rate of the shape.
     fn of(case: Case<'_>, orbit: &PeriodicOrbit) -> Option<Self> {
         let (body, mut flow) = (case.body, case.orbit(&orbit.shape).ok()?);
         let mut rate = vec![0.0; body.dim()];
-        let (mut speed, mut change) = (0.0, 0.0);
+        let (mut speed, mut change, mut extent) = (0.0, 0.0, 0.0_f64);
         for moment in 1..=MOMENTS {
             let t = orbit.time * moment as f64 / MOMENTS as f64;
             drive(flow.as_mut(), &case.request(t), &mut ()).ok()?;
@@ -96,15 +110,16 @@ impl Done {
             VectorField::<f64>::eval(body, 0.0, flow.state(), &mut rate);
             speed += (x * x + y * y) / MOMENTS as f64;
             change += dot(&rate, &rate) / MOMENTS as f64;
+            extent = extent.max(align(body, flow.state(), &orbit.shape, false).distance);
         }
-        Some(Self([orbit.time, speed, change]))
+        Some(Self { numbers: [orbit.time, speed, change], extent })
     }
 
     /// The largest relative difference; that of speeds which are nothing beside the rate of the shape is none.
     fn differs(&self, other: &Self) -> f64 {
-        let rests = NOTHING * self.0[2].max(other.0[2]);
+        let rests = NOTHING * self.numbers[2].max(other.numbers[2]);
         let against = |a: f64, b: f64| a.max(b).max(rests).max(f64::MIN_POSITIVE);
-        let pairs = self.0.iter().zip(&other.0);
+        let pairs = self.numbers.iter().zip(&other.numbers);
         pairs.map(|(&a, &b)| (a - b).abs() / against(a, b)).fold(0.0, f64::max)
     }
 }

@@ -1,6 +1,7 @@
 //! The shortest period of an orbit that came back after some multiple of it.
 
 use super::case::Case;
+use super::family::within_family;
 use super::recurrence::Recurrence;
 use crate::periodic::{PeriodicGuess, PeriodicOrbit};
 use crate::symmetry::align;
@@ -52,9 +53,9 @@ fn of_fewer_returns(
                 let shorter = time < 0.75 * orbit.time || mirrored && !orbit.mirrored;
                 if near.distance < NEAR * diameter && shorter {
                     let guess = PeriodicGuess { shape: &start.shape, time, angle: near.angle, mirrored };
-                    let found = case.find(&guess)?;
+                    let found = case.find(&guess).and_then(|found| stable(case, found))?;
                     let recurrence = Recurrence { returns: returns + 1, mirrored, time, angle: near.angle };
-                    return found.is_stable().then_some((found, recurrence));
+                    return Some((found, recurrence));
                 }
             }
         }
@@ -81,10 +82,16 @@ fn divided(case: Case<'_>, orbit: &PeriodicOrbit) -> Option<(PeriodicOrbit, usiz
             }
             let time = orbit.time / *parts as f64;
             let guess = PeriodicGuess { shape: &orbit.shape, time, angle: near.angle, mirrored };
-            if let Some(found) = case.find(&guess).filter(PeriodicOrbit::is_stable) {
+            if let Some(found) = case.find(&guess).and_then(|found| stable(case, found)) {
                 return Some((found, *parts));
             }
         }
     }
     None
+}
+
+/// A stable orbit, also one of a family, without the multipliers 1 of the family.
+fn stable(case: Case<'_>, found: PeriodicOrbit) -> Option<PeriodicOrbit> {
+    let mut effort = f64::INFINITY;
+    if found.is_stable() { Some(found) } else { within_family(case, &found, &mut effort) }
 }

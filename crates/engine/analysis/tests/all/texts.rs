@@ -47,6 +47,42 @@ fn shapes_of_constant_size_have_their_shortest_period() {
     assert!(named >= 3, "{named} of 8");
 }
 
+/// Two oscillators that do not act on each other (Lorenz 1984, Tellus 36A, 98, at F = 3, G = 1) are back after the period of one, whatever
+/// return of the pair is seen first: the period of the first one alone is the reference. Their phase difference is a family.
+#[test]
+fn two_copies_of_an_oscillator_have_the_period_of_one() {
+    let of = |[x, y, z]: [&str; 3]| {
+        [
+            format!("(0.75 - 0.25*{x} - {y}^2 - {z}^2)"),
+            format!("({x}*{y} - 4*{x}*{z} - {y} + 1)"),
+            format!("(4*{x}*{y} + {x}*{z} - {z})"),
+        ]
+    };
+    let first = of(["re(z1)", "im(z1)", "re(z2)"]);
+    let second = of(["im(z2)", "re(z3)", "im(z3)"]);
+    let joined = |x: &str, y: &str| format!("{x} + i*{y}");
+    let head = joined(&first[0], &first[1]);
+    let one = text(&[1, 2], "z1", Some("none"), &[&head, &joined(&first[2], "(-im(z2))")]);
+    let rest = [joined(&first[2], &second[0]), joined(&second[1], &second[2])];
+    let two = text(&[1, 2, 3], "z1", Some("none"), &[&head, &rest[0], &rest[1]]);
+    let start = [1.0, 0.3, 0.2, 1.013, 0.3039, 0.2026];
+    let alone = seen(one, &start[..4], &ORDINARY);
+    for look in [5.0, 100.0] {
+        let pair = seen(two, &start, &Settings { first_look: look, ..ORDINARY });
+        near(pair.period.unwrap(), alone.period.unwrap(), 1e-6);
+    }
+}
+
+/// The orbits of `x'' = -x - x^3` have an energy, and no orbit attracts; far from the origin a shift along one of them, which is bent, is
+/// no step to another one that does the same.
+#[test]
+fn an_oscillator_with_an_energy_attracts_nothing_wherever_the_origin_is() {
+    let (x, y) = ("(re(z1)-30)", "(im(z1)-20)");
+    let info = text(&[1], &format!("{x}+i*{y}"), Some("none"), &[&format!("{y} + i*(-{x}-{x}^3)")]);
+    let verdict = seen(info, &[30.4, 20.2], &Settings { budget: 500.0, ..ORDINARY });
+    assert_eq!(verdict.regime, Regime::Undetermined, "{}", verdict.why);
+}
+
 /// Two coupled oscillators of van der Pol whose beats last 10.247 and 10.007 turns, close to 41/4 and 10: a thousand returns in a row are a
 /// few arcs of the curve, and the next ones lie beside them. The exponents are 0, 0, -0.076 and -0.102 at the first.
 #[test]
