@@ -56,18 +56,16 @@ fn same_orbit(
     }
     let flow = (flow, Units::of(body).length);
     let span = b.period() / PLACES as f64;
-    let mut shape = b.shape.clone();
-    let mut best = (f64::INFINITY, shape.clone());
-    let mut before = shape.clone();
-    for _ in 0..=PLACES {
-        let here = distance(body, &a.shape, &shape);
-        if here < best.0 {
-            best = (here, before.clone());
-        }
-        let Ok(next) = shape_after(body, &shape, span, flow, &()) else { return false };
-        before = std::mem::replace(&mut shape, next);
+    let mut places = vec![b.shape.clone()];
+    while places.len() < PLACES {
+        let Ok(next) = shape_after(body, &places[places.len() - 1], span, flow, &()) else { return false };
+        places.push(next);
     }
-    nearest(body, &a.shape, &best.1, 2.0 * span, flow) <= tolerance * norm(&a.shape)
+    let apart: Vec<f64> = places.iter().map(|place| distance(body, &a.shape, place)).collect();
+    let best = (0..PLACES).min_by(|&i, &j| apart[i].total_cmp(&apart[j])).unwrap_or(0);
+    // before the first place comes the last one of the period
+    let start = &places[(best + PLACES - 1) % PLACES];
+    nearest(body, &a.shape, start, 2.0 * span, flow) <= tolerance * norm(&a.shape)
 }
 
 /// Distance of `shape` from the stretch of orbit of length `span` from `start` on: the smallest of a function with one minimum, by

@@ -66,7 +66,7 @@ pub struct Measures {
     pub heading_scatter: f64,
     /// Scatter of |z2| and |z3|, relative to the size of both, corrected for errors.
     pub shape_scatter: f64,
-    /// Changes of z2 and z3 over time, in units of their errors.
+    /// Changes of z2 or z3 over time, in units of their errors, along the direction in which they are clearest.
     pub shape_change: f64,
     /// Root mean square deviation of the shape (z2 and z3 together) from its mean, without that of errors (length).
     pub shape_wobble: f64,
@@ -310,10 +310,27 @@ fn mean_shape(frames: &[Observation]) -> f64 {
     (2..6).map(|at| part(at) * part(at)).sum::<f64>().sqrt()
 }
 
-/// Root mean square deviation of z2 and z3 from their means, in units of their errors.
+/// Root mean square deviation of z2 or z3 from its mean, in units of its errors, along the direction of the complex plane in which it is
+/// clearest: the axes of the images have no part in it.
 fn shape_change(frames: &[Observation]) -> f64 {
-    let part = |(square, noise): (f64, f64)| square / noise.max(f64::MIN_POSITIVE);
-    (2..6).map(|at| part(variance(frames, at))).fold(0.0, f64::max).sqrt()
+    [2, 4].map(|at| clearest(frames, at)).into_iter().fold(0.0, f64::max).sqrt()
+}
+
+/// The largest ratio, over all directions, of the mean square deviation of a mode to that of its errors: the larger root of
+/// det(C - ratio N) = 0, with the covariance C of the mode and that of its errors N. Where errors are 0 in a direction, the ratio of the
+/// traces.
+fn clearest(frames: &[Observation], at: usize) -> f64 {
+    let ((c0, n0), (c1, n1)) = (variance(frames, at), variance(frames, at + 1));
+    let centre = [at, at + 1].map(|k| mean(frames.iter().map(|frame| frame.y[k])));
+    let across = mean(frames.iter().map(|frame| (frame.y[at] - centre[0]) * (frame.y[at + 1] - centre[1])));
+    let noise = mean(frames.iter().map(|frame| frame.covariance[at][at + 1]));
+    let errors = n0 * n1 - noise * noise;
+    // round-off of the difference
+    if errors <= 1e-12 * n0 * n1 {
+        return (c0 + c1) / (n0 + n1).max(f64::MIN_POSITIVE);
+    }
+    let half = (0.5 * (c0 * n1 + c1 * n0) - across * noise) / errors;
+    half + (half * half - (c0 * c1 - across * across) / errors).max(0.0).sqrt()
 }
 
 /// The mean; 0 of nothing.

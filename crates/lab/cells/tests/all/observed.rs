@@ -215,6 +215,35 @@ fn a_slow_walker_does_not_rest() {
     assert_eq!(found.motion.regime, Some(Regime::Motionless), "{}", found.motion.why);
 }
 
+/// A cell at rest whose elongation changes along its axis: how clear that is, and its name, do not depend on how the cell lies in the
+/// images (the change of z2 is in one of its parts, or by half in both).
+#[test]
+fn changes_of_shape_are_as_clear_along_any_axis() {
+    let lying = |heading: f64| {
+        let mut normal = Normal::new(5, 0);
+        let (s, c) = libm::sincos(heading);
+        let outline = |frame: i64| {
+            let z2 = [0.2 + 0.013 * libm::sin(0.4 * frame as f64), 0.0];
+            let mut points =
+                Synthetic { centre: [0.0, 0.0], r0: 2.0, z: vec![z2, [0.0, 0.0]] }.vertices(48, 0.0);
+            blur(&mut points, 0.02, || normal.next());
+            points.iter_mut().for_each(|p| *p = [c * p[0] - s * p[1], s * p[0] + c * p[1]]);
+            Outline { frame, t: frame as f64, points, missing: 0 }
+        };
+        let frames = (0..120).map(outline).collect();
+        observe(&Sample::of_tracks(tracks(vec![frames]), &ModeOptions::default()).cells[0])
+    };
+    let along = lying(0.0);
+    let change = along.measures.unwrap().shape_change;
+    // outlines that are turned have modes that are turned, to 1e-13 of the radius
+    for heading in [0.2, std::f64::consts::FRAC_PI_8, 1.0] {
+        let found = lying(heading);
+        let turned = found.measures.unwrap().shape_change;
+        assert!((turned / change - 1.0).abs() < 1e-6, "{heading}: {turned}, {change}");
+        assert_eq!(found.motion.regime, along.motion.regime, "{heading}: {}", found.motion.why);
+    }
+}
+
 /// A rigid ellipse that goes from place to place: its centre and heading in each frame, its vertices on a grid of this pitch, or on none.
 fn rigid(path: &[([f64; 2], f64)], pitch: f64) -> Observation {
     let outline = |(frame, &(centre, heading)): (usize, &([f64; 2], f64))| {
