@@ -53,6 +53,10 @@ pub struct RelativeEquilibrium {
     pub scale: f64,
 }
 
+/// Rates below this part of the linearisation's entries may be those of rounding: where two steady motions meet, Newton's method ends at
+/// the square root of the rounding beside them.
+const SLOW: f64 = 1e-4;
+
 impl RelativeEquilibrium {
     /// The equilibrium at a solution of its equations, as far as Newton's method goes.
     fn describe(body: &dyn Equivariant, shape: Vec<f64>, omega: f64) -> Option<Self> {
@@ -61,10 +65,15 @@ impl RelativeEquilibrium {
         let neutral = neutral_direction(body, &shape);
         let turns = !neutral.is_empty();
         let omega = if turns { omega } else { 0.0 }; // a circle does not turn
-        let uncertainty = Uncertainty::of(body, &shape, omega, turns);
         let matrix = matrix_of(&columns);
-        let entries = uncertainty.of_linearisation(body, &shape, omega, &matrix);
-        let (eigenvalues, errors) = spectrum::across(&neutral, &matrix, &entries)?;
+        let spectrum = |uncertainty: &Uncertainty| {
+            let entries = uncertainty.of_linearisation(body, &shape, omega, &matrix);
+            spectrum::across(&neutral, &matrix, &entries)
+        };
+        let (mut eigenvalues, mut errors) = spectrum(&Uncertainty::of(body, &shape, omega, turns))?;
+        if eigenvalues.iter().any(|value| value.0.abs() < SLOW * scale) {
+            (eigenvalues, errors) = spectrum(&Uncertainty::of_slow(body, &shape, omega, turns))?;
+        }
         let velocity = model::velocity(body, &shape);
         let residual = norm(&uncertainty::residual(body, &shape, omega));
         let neutral = neutral.len();

@@ -29,12 +29,27 @@ impl Uncertainty {
     /// A residual in a mode that decays fast moves nothing by much: it is divided by that mode's rate. Where
     /// M is singular the equilibrium is one of a family, and the distance is that to the nearest of them.
     pub(super) fn of(body: &dyn Equivariant, shape: &[f64], omega: f64, turns: bool) -> Self {
+        let rounding = rounding_of(body, shape, omega, &linearisation(body, shape, omega));
+        Self::under(body, shape, omega, turns, &rounding)
+    }
+
+    /// The same where some direction is so slow that rounding, and not the shape, may decide its rate: with the largest rounding that is
+    /// seen at this shape and near it. Where two steady motions meet, the distance from theirs is up to twice what the first order says of
+    /// it, and the rounding that is seen is some part of the largest.
+    pub(super) fn of_slow(body: &dyn Equivariant, shape: &[f64], omega: f64, turns: bool) -> Self {
+        let mut rounding = round_off(body, shape, omega);
+        let scattered = scattered(body, shape, omega);
+        rounding.iter_mut().zip(scattered).for_each(|(most, seen)| *most = MEETING * most.max(seen));
+        Self::under(body, shape, omega, turns, &rounding)
+    }
+
+    /// The same with this rounding of the rates.
+    fn under(body: &dyn Equivariant, shape: &[f64], omega: f64, turns: bool, rounding: &[f64]) -> Self {
         let dim = shape.len();
         let columns = linearisation(body, shape, omega);
         let spin = body.spun(shape);
         let mut bounds = residual(body, shape, omega);
-        let rounding = rounding_of(body, shape, omega, &columns);
-        bounds.iter_mut().zip(&rounding).for_each(|(bound, rounding)| *bound = bound.abs() + rounding);
+        bounds.iter_mut().zip(rounding).for_each(|(bound, rounding)| *bound = bound.abs() + rounding);
         bounds.push(0.0);
         let entry = |i: usize, j: usize| match (i < dim, j < dim) {
             (true, true) => columns[j][i],
@@ -101,14 +116,49 @@ impl RelativeEquilibrium {
 /// short numbers the terms may cancel exactly.)
 pub fn round_off(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
     let mut most = rounding_of(body, shape, omega, &linearisation(body, shape, omega));
-    for seed in 0..TRIES {
-        let mut random = SplitMix(400 + seed);
-        let moved: Vec<f64> = shape.iter().map(|x| x + x * BESIDE * random.next()).collect();
+    for moved in nearby(shape) {
         let beside = rounding_of(body, &moved, omega, &linearisation(body, &moved, omega));
         most.iter_mut().zip(beside).for_each(|(most, beside)| *most = most.max(beside));
     }
     most
 }
+
+/// Shapes near one.
+fn nearby(shape: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+    (0..TRIES).map(|seed| {
+        let mut random = SplitMix(400 + seed);
+        shape.iter().map(|x| x + x * BESIDE * random.next()).collect()
+    })
+}
+
+/// The rounding of each rate as its fourth differences show it: those of the rates themselves vanish as the fourth power of the distance
+/// from shape to shape, relative 1e-6, and errors of single values remain. Where rates hardly change, smaller distances show nothing:
+/// rounded products are the same there.
+fn scattered(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
+    let mut most = vec![0.0_f64; shape.len()];
+    for seed in 0..TRIES {
+        let mut random = SplitMix(500 + seed);
+        let direction: Vec<f64> = shape.iter().map(|x| x * APART * random.next()).collect();
+        let mut sum = vec![0.0; shape.len()];
+        for (place, weight) in (-2..).zip(FOURTH) {
+            let mut there = shape.to_vec();
+            add(&mut there, f64::from(place), &direction);
+            add(&mut sum, weight, &residual(body, &there, omega));
+        }
+        most.iter_mut().zip(sum).for_each(|(most, sum)| *most = most.max(sum.abs() / HALF_SUM));
+    }
+    most
+}
+
+/// Factor of the rounding where two steady motions may meet.
+const MEETING: f64 = 8.0;
+
+/// Relative distance of shapes in a row.
+const APART: f64 = 1e-6;
+
+/// Weights of a fourth difference, and half the sum of their sizes.
+const FOURTH: [f64; 5] = [1.0, -4.0, 6.0, -4.0, 1.0];
+const HALF_SUM: f64 = 8.0;
 
 /// Relative distance of the shapes near it.
 const BESIDE: f64 = 1e-7;

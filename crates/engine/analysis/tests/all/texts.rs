@@ -83,6 +83,20 @@ fn an_oscillator_with_an_energy_attracts_nothing_wherever_the_origin_is() {
     assert_eq!(verdict.regime, Regime::Undetermined, "{}", verdict.why);
 }
 
+/// Two steady motions meet where the saddle-node `x' = -x^2` and the crossing `x' = -x (x + y)` have no rate: rest is approached from one
+/// side alone, and beside another origin too nothing says that it is stable.
+#[test]
+fn where_steady_motions_meet_none_is_stable_wherever_the_origin_is() {
+    for (a, b) in [(0.0, 0.0), (2.0, -1.0), (-2.25, 4.0), (1.5, 3.0), (100.0, 64.0)] {
+        let (x, y) = (format!("(re(z1)-({a}))"), format!("(im(z1)-({b}))"));
+        for equations in [format!("-{x}^2 - i*{y}"), format!("-{x}*({x}+{y}) + i*({x}^2-{y})")] {
+            let info = text(&[1], &format!("{x}+i*{y}"), Some("none"), &[&equations]);
+            let verdict = seen(info, &[a + 0.4, b + 0.2], &ORDINARY);
+            assert_eq!(verdict.regime, Regime::Undetermined, "{a} {b} {equations}: {}", verdict.why);
+        }
+    }
+}
+
 /// Two coupled oscillators of van der Pol whose beats last 10.247 and 10.007 turns, close to 41/4 and 10: a thousand returns in a row are a
 /// few arcs of the curve, and the next ones lie beside them. The exponents are 0, 0, -0.076 and -0.102 at the first.
 #[test]

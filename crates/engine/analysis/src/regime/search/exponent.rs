@@ -42,11 +42,15 @@ impl Search {
         let chaos = chaos::chaotic(&self.growth, &run, &witness, self.time)?;
         // Out of a subspace of exact symmetry neighbouring orbits may separate at a rate that no chaos has made.
         let symmetric = chaos.is_some() && !Isotropy::of(body, &self.shape, EXACT).is_trivial();
-        if let Some(verdict) = chaos.filter(|_| !symmetric) {
+        let plane = chaos.is_some() && is_plane(body);
+        if let Some(verdict) = chaos.filter(|_| !symmetric && !plane) {
             return Ok(self.described(verdict, case, look.end - look.start)?.into());
         }
         self.missing = if symmetric {
             "the orbit keeps an exact symmetry, and neighbouring orbits leave it".to_owned()
+        } else if plane {
+            "two unknowns are never chaotic (Poincare and Bendixson): errors of the steps separate neighbouring orbits"
+                .to_owned()
         } else {
             chaos::missing(&self.growth, &witness)
         };
@@ -54,5 +58,23 @@ impl Search {
             return Ok(verdict.into());
         }
         self.again(case)
+    }
+}
+
+/// Returns `true` for a flow of at most two unknowns, rotations divided out: it has no chaos.
+///
+/// Source: theorem of Poincare and Bendixson, Guckenheimer and Holmes (1983), Nonlinear Oscillations, section 1.8.
+fn is_plane(body: &dyn Equivariant) -> bool {
+    body.dim() <= 2 + usize::from(body.symmetry().rotations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_plane;
+    use motiform_models::zoo::{Lorenz, VanDerPol};
+
+    #[test]
+    fn a_plane_has_two_unknowns() {
+        assert!(is_plane(&VanDerPol { mu: 1.0 }) && !is_plane(&Lorenz::default()));
     }
 }
