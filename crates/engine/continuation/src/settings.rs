@@ -66,7 +66,7 @@ impl Settings {
     }
 
     /// Width of the range.
-    pub(super) fn width(&self) -> f64 {
+    pub fn width(&self) -> f64 {
         self.range.1 - self.range.0
     }
 

@@ -53,9 +53,12 @@ pub struct RelativeEquilibrium {
     pub scale: f64,
 }
 
-/// Rates below this part of the linearisation's entries may be those of rounding: where two steady motions meet, Newton's method ends at
+/// A rate below this part of the linearisation's entries may be that of rounding: where two steady motions meet, Newton's method ends at
 /// the square root of the rounding beside them.
 const SLOW: f64 = 1e-4;
+
+/// It is, where its error with the rounding that is seen near the shape is more than this part of it; elsewhere that error says nothing.
+const DOUBTFUL: f64 = 0.1;
 
 impl RelativeEquilibrium {
     /// The equilibrium at a solution of its equations, as far as Newton's method goes.
@@ -70,9 +73,15 @@ impl RelativeEquilibrium {
             let entries = uncertainty.of_linearisation(body, &shape, omega, &matrix);
             spectrum::across(&neutral, &matrix, &entries)
         };
-        let (mut eigenvalues, mut errors) = spectrum(&Uncertainty::of(body, &shape, omega, turns))?;
-        if eigenvalues.iter().any(|value| value.0.abs() < SLOW * scale) {
-            (eigenvalues, errors) = spectrum(&Uncertainty::of_slow(body, &shape, omega, turns))?;
+        let (eigenvalues, mut errors) = spectrum(&Uncertainty::of(body, &shape, omega, turns))?;
+        let slow = |rate: f64| rate.abs() < SLOW * scale;
+        if eigenvalues.iter().any(|value| slow(value.0)) {
+            let (_, larger) = spectrum(&Uncertainty::of_slow(body, &shape, omega, turns))?;
+            for ((error, larger), (rate, _)) in errors.iter_mut().zip(larger).zip(&eigenvalues) {
+                if slow(*rate) && larger > DOUBTFUL * rate.abs() {
+                    *error = error.max(larger);
+                }
+            }
         }
         let velocity = model::velocity(body, &shape);
         let residual = norm(&uncertainty::residual(body, &shape, omega));

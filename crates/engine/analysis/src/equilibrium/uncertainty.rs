@@ -151,7 +151,7 @@ fn scattered(body: &dyn Equivariant, shape: &[f64], omega: f64) -> Vec<f64> {
 }
 
 /// Factor of the rounding where two steady motions may meet.
-const MEETING: f64 = 8.0;
+const MEETING: f64 = 32.0;
 
 /// Relative distance of shapes in a row.
 const APART: f64 = 1e-6;

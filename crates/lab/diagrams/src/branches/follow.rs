@@ -1,5 +1,6 @@
 //! The work: branches followed one after the other, each from where the ones before lead to.
 
+use super::arrives::arrives;
 use super::family::Bodies;
 use super::given::first;
 use super::known::known;
@@ -161,6 +162,9 @@ impl Branching<'_> {
 
     /// Follows what begins at an origin. Whether it came to its end.
     fn grow(&mut self, origin: Origin) -> Result<bool, Error> {
+        if let Some(number) = arrives(self.bodies, &self.done.branches, origin, self.stop) {
+            return Ok(self.link(origin, &[number], None));
+        }
         let new = match origin.branches(self.bodies, &self.done.branches, self.stop) {
             Ok(new) => new,
             Err(why) => return Ok(!self.watch.stopped() && self.link(origin, &[], Some(why.to_string()))),

@@ -30,7 +30,7 @@ impl Scales {
     /// The range, the units of the equations, and the speed of shapes of that size.
     fn of(body: &dyn Equivariant, units: Units, settings: &Settings) -> Self {
         Self {
-            parameter: settings.range.1 - settings.range.0,
+            parameter: settings.width(),
             period: 1.0 / units.rate,
             size: units.length,
             speed: units.speed(body),

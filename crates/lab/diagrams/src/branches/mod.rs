@@ -8,6 +8,7 @@
 //! A branch is the unit of work: one that was interrupted is kept as far as it came, and followed from its beginning when the work is
 //! taken up again ([`BranchFolder`]).
 
+mod arrives;
 mod aside;
 pub mod draw;
 pub(crate) mod family;

@@ -16,7 +16,7 @@ const NEAR: f64 = 0.1;
 pub(super) fn nested(body: &dyn Equivariant, pair: &[Sample], sample: &Sample, settings: &Settings) -> bool {
     let [a, b] = pair else { return false };
     let (Some(first), Some(second)) = (a.point.motion.orbit(), b.point.motion.orbit()) else { return false };
-    let width = FLAT * (settings.range.1 - settings.range.0);
+    let width = FLAT * settings.width();
     let flat = |one: &Sample| (one.point.parameter - sample.point.parameter).abs() <= width;
     let (from, to) = (a.reading.size, b.reading.size);
     let part = (sample.reading.size - from) / (to - from);

@@ -236,7 +236,12 @@ fn saddle(leg: &Leg) -> Option<&RelativeEquilibrium> {
 }
 
 /// The motion of more symmetry at the end of a leg: the steady motion or the orbit there, or the orbit of half of the period.
-fn met(body: &dyn Equivariant, leg: &Leg, settings: &Settings, watch: &dyn Watch) -> Option<Start> {
+pub(super) fn met(
+    body: &dyn Equivariant,
+    leg: &Leg,
+    settings: &Settings,
+    watch: &dyn Watch,
+) -> Option<Start> {
     let mirrored = match leg.end {
         End::Meets { gains: Broken::MirrorAfterHalf, .. } => true,
         End::Meets { gains: Broken::HalfPeriod, .. } => false,
