@@ -36,20 +36,28 @@ else:
 """
 
 
-@pytest.mark.parametrize("name", list(LONG))
-def test_ctrl_c_is_answered(name: str) -> None:
+def stopped(name: str, after: float) -> tuple[list[str], float]:
+    """What a long call says that is interrupted after so many seconds, and when that was."""
     program = PROGRAM.format(call=LONG[name])
     with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None and process.stdout.readline() == "ready\n"
-        time.sleep(0.7)
+        time.sleep(after)
         pressed = time.time()
         process.send_signal(signal.SIGINT)
-        words = process.stdout.read().split()
-    assert words and words[0] == "stopped", words
+        return process.stdout.read().split(), pressed
+
+
+@pytest.mark.parametrize("name", list(LONG))
+def test_ctrl_c_is_answered(name: str) -> None:
     kinds = {"simulate": "Trajectory", "transient": "Trajectory", "statistics": "Statistics", "scan": "Dataset"}
-    assert words[2] == kinds.get(name, "NoneType")
-    print(f"{name}: {float(words[1]) - pressed:.3f} s")
-    assert float(words[1]) - pressed < 5.0  # 0.2 s where nothing else runs; a machine may be busy
+    for after in (0.7, 3.0, 12.0):  # on a busy machine nothing may be there of which there is a result
+        words, pressed = stopped(name, after)
+        assert words and words[0] == "stopped", words
+        print(f"{name}: {float(words[1]) - pressed:.3f} s")
+        assert float(words[1]) - pressed < 5.0  # 0.2 s where nothing else runs; a machine may be busy
+        if words[2] == kinds.get(name, "NoneType"):
+            return
+    raise AssertionError(words)
 
 
 FIRST = """
